@@ -11,8 +11,10 @@
 
 #include "base/error.hpp"
 #include "base/huge_pages.hpp"
-#include "solver/dense_kernels.hpp"
+#include "solver/dense/dense_kernels.hpp"
 #include "solver/not_positive_definite.hpp"
+#include "solver/supernodes/supernodal_cholesky.hpp"
+#include "solver/supernodes/supernodes.hpp"
 
 namespace perilink {
 namespace {
@@ -43,6 +45,18 @@ void check(cholmod_common* common, const char* phase, std::size_t rows) {
     case CHOLMOD_DSMALL: return;  // the caller looks at factor->minor
     default: throw SolverError("CHOLMOD status " + std::to_string(common->status) + where);
   }
+}
+
+/// The lower triangle with rows and columns in the order of elimination.
+SparseMatrix in_order_of(const cholmod_factor& factor, const SparseMatrix& lower) {
+  const Index* order = static_cast<const Index*>(factor.Perm);
+  const std::vector<Index> position = invert({order, factor.n});
+  const Eigen::Map<const Eigen::VectorX<Index>> indices(position.data(), lower.cols());
+  const Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, Index> permutation(indices);
+  SparseMatrix result(lower.rows(), lower.cols());
+  result.selfadjointView<Eigen::Lower>() =
+      lower.selfadjointView<Eigen::Lower>().twistedBy(permutation);
+  return result;
 }
 
 }  // namespace
@@ -106,11 +120,15 @@ CholmodFactorPtr analyze_supernodal(CholmodSession& session, const SparseMatrix&
 }
 
 void factorize_numerically(CholmodSession& session, const SparseMatrix& lower,
-                           cholmod_factor* factor) {
-  const SerialOpenMp serial;
-  cholmod_sparse matrix = view_lower(lower);
-  cholmod_factorize(&matrix, factor, session.get());
-  check(session.get(), "factorising", matrix.nrow);
+                           cholmod_factor* factor, int threads) {
+  if (factor->xtype == CHOLMOD_PATTERN) {
+    cholmod_change_factor(CHOLMOD_REAL, true, true, true, true, factor, session.get());
+    check(session.get(), "making room to factorise", factor->n);
+  }
+  factor->minor = static_cast<std::size_t>(
+      factor->ordering == CHOLMOD_NATURAL
+          ? factorize_supernodes(lower, *factor, threads)
+          : factorize_supernodes(in_order_of(*factor, lower), *factor, threads));
   if (factor->minor < factor->n) {
     const Index unknown = static_cast<const Index*>(factor->Perm)[factor->minor];
     throw NotPositiveDefinite("the stiffness matrix is not positive definite (unknown " +
@@ -137,7 +155,7 @@ CholmodFactorPtr CholmodRoute::analyze(const SparseMatrix& matrix, std::span<con
 }
 
 void CholmodRoute::compute(const SparseMatrix& matrix) {
-  factorize_numerically(session_, matrix, factor_.get());
+  factorize_numerically(session_, matrix, factor_.get(), threads_);
   ++factorizations_;
 }
 
@@ -166,18 +184,17 @@ void CholmodRoute::solve_all(std::span<double> columns) {
 }
 
 SingleFactor CholmodRoute::in_single(double unit) const {
-  const auto ints = [](const void* numbers) { return static_cast<const Index*>(numbers); };
   const double root = 1.0 / std::sqrt(unit);
   SingleFactor single;
-  single.place = invert({ints(factor_->Perm), factor_->n});
+  single.place = invert({static_cast<const Index*>(factor_->Perm), factor_->n});
   for (std::size_t s = 0; s < factor_->nsuper; ++s) {
+    const Supernode own = supernode_of(*factor_, static_cast<Index>(s));
     SingleFactor::Supernode& node = single.supernodes.emplace_back();
-    node.first = ints(factor_->super)[s];
-    node.columns = ints(factor_->super)[s + 1] - node.first;
-    const Index* own = ints(factor_->s);
-    node.rows.assign(own + ints(factor_->pi)[s] + node.columns, own + ints(factor_->pi)[s + 1]);
-    const Index count = node.columns + static_cast<Index>(node.rows.size());
-    const double* column = static_cast<const double*>(factor_->x) + ints(factor_->px)[s];
+    node.first = own.first;
+    node.columns = own.columns;
+    node.rows.assign(own.rows + own.columns, own.rows + own.count);
+    const Index count = own.count;
+    const double* column = own.values;
     node.values.resize(static_cast<std::size_t>(count) * node.columns, 0.0F);
     for (Index k = 0; k < node.columns; ++k, column += count) {
       float* value = node.values.data() + k;

@@ -43,7 +43,7 @@ CholmodFactorPtr analyze_supernodal(CholmodSession& session, const SparseMatrix&
 /// Numerical factorisation L L' of a matrix of the pattern that was analysed.
 /// \throws SolverError
 void factorize_numerically(CholmodSession& session, const SparseMatrix& lower,
-                           cholmod_factor* factor);
+                           cholmod_factor* factor, int threads);
 
 /// Size of a factor, supernodal or simplicial.
 /// \param flops  for one factorisation
@@ -65,7 +65,8 @@ class CholmodRoute : public Factor {
   FactorStatistics statistics() const override;
 
  protected:
-  CholmodRoute() : factor_(nullptr, CholmodFactorDeleter{session_.get()}) {}
+  explicit CholmodRoute(int threads)
+      : factor_(nullptr, CholmodFactorDeleter{session_.get()}), threads_(threads) {}
   /// Analysis of a matrix, whose cost is noted.
   CholmodFactorPtr analyze(const SparseMatrix& matrix, std::span<const Index> groups);
   /// Numbers of a matrix of the pattern that was analysed, into factor_.
@@ -83,6 +84,7 @@ class CholmodRoute : public Factor {
   CholmodFactorPtr factor_;
 
  private:
+  int threads_;
   int factorizations_ = 0;
   double flops_ = 0.0;
 };

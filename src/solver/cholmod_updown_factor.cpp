@@ -6,8 +6,8 @@
 
 namespace perilink {
 
-CholmodUpdownFactor::CholmodUpdownFactor()
-    : symbolic_(nullptr, CholmodFactorDeleter{session_.get()}) {}
+CholmodUpdownFactor::CholmodUpdownFactor(int threads)
+    : CholmodRoute(threads), symbolic_(nullptr, CholmodFactorDeleter{session_.get()}) {}
 
 CholmodUpdownFactor::~CholmodUpdownFactor() {
   cholmod_free_dense(&solved_, session_.get());

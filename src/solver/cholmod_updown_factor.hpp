@@ -11,7 +11,7 @@ namespace perilink {
 /// path; one backward substitution with the changed factor gives the displacement.
 class CholmodUpdownFactor final : public CholmodRoute {
  public:
-  CholmodUpdownFactor();
+  explicit CholmodUpdownFactor(int threads);
   ~CholmodUpdownFactor() override;
 
   void factorize(const SparseMatrix& matrix, std::span<const Index> groups) override;

@@ -21,8 +21,8 @@ std::unique_ptr<Factor> make_factor(FactorRoute route, int threads) {
   ++made;
   switch (route) {
     case FactorRoute::in_place: return std::make_unique<InPlaceFactor>(threads);
-    case FactorRoute::cholmod_updown: return std::make_unique<CholmodUpdownFactor>();
-    case FactorRoute::refactorize: return std::make_unique<RefactorizingFactor>();
+    case FactorRoute::cholmod_updown: return std::make_unique<CholmodUpdownFactor>(threads);
+    case FactorRoute::refactorize: return std::make_unique<RefactorizingFactor>(threads);
   }
   return nullptr;
 }

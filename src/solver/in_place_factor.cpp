@@ -4,14 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "base/error.hpp"
-#include "solver/supernodal_kernels.hpp"
+#include "solver/supernodes/supernodal_kernels.hpp"
 
 namespace perilink {
 namespace {
-
-const Index* ints(const void* array) { return static_cast<const Index*>(array); }
 
 /// Below this many numbers of L a parallel region costs more than it saves.
 constexpr double smallest_parallel_factor = 2e6;
@@ -25,19 +25,9 @@ InPlaceFactor::InPlaceFactor(int threads)
       change_threads_(threads),
       factor_(nullptr, CholmodFactorDeleter{session_.get()}) {}
 
-InPlaceFactor::Block InPlaceFactor::block(Index supernode) const {
-  const Index* super = ints(factor_->super);
-  const Index* row_starts = ints(factor_->pi);
-  const Index* value_starts = ints(factor_->px);
-  return {ints(factor_->s) + row_starts[supernode],
-          static_cast<double*>(factor_->x) + value_starts[supernode], super[supernode],
-          row_starts[supernode + 1] - row_starts[supernode],
-          super[supernode + 1] - super[supernode]};
-}
-
 double* InPlaceFactor::diagonal(Index supernode, Index column) const {
-  const Block b = block(supernode);
-  return b.values + static_cast<std::size_t>(column) * (b.rows + 1);
+  const Supernode b = block(supernode);
+  return b.values + static_cast<std::size_t>(column) * (b.count + 1);
 }
 
 void InPlaceFactor::factorize(const SparseMatrix& matrix, std::span<const Index> groups) {
@@ -45,130 +35,93 @@ void InPlaceFactor::factorize(const SparseMatrix& matrix, std::span<const Index>
   factor_ = analyze_supernodal(session_, matrix, groups);
   flops_ = session_.get()->fl;
   adopt_pattern();
-  plan_backward();
   refactorize(matrix);
 }
 
 void InPlaceFactor::refactorize(const SparseMatrix& matrix) {
   on_path_of_ = {};
-  factorize_numerically(session_, matrix, factor_.get());
+  factorize_numerically(session_, matrix, factor_.get(), threads_);
   turn_into_ldl();
   ++factorizations_;
 }
 
 void InPlaceFactor::adopt_pattern() {
-  position_ = invert({ints(factor_->Perm), static_cast<std::size_t>(size_)});
-  const Index count = static_cast<Index>(factor_->nsuper);
-  supernode_of_.resize(size_);
+  const Index* order = static_cast<const Index*>(factor_->Perm);
+  position_ = invert({order, static_cast<std::size_t>(size_)});
+  tree_ = SupernodeTree(*factor_);
   longest_ = 0;
-  for (Index s = 0; s < count; ++s) {
-    const Index* super = ints(factor_->super);
-    std::fill(supernode_of_.begin() + super[s], supernode_of_.begin() + super[s + 1], s);
-    longest_ = std::max(longest_, ints(factor_->pi)[s + 1] - ints(factor_->pi)[s]);
+  std::vector<double> numbers;
+  for (Index s = 0; s < num_supernodes(); ++s) {
+    longest_ = std::max(longest_, block(s).count);
+    numbers.push_back(static_cast<double>(block(s).count) * block(s).columns);
   }
-  parent_.assign(count, no_index);
-  for (Index s = 0; s < count; ++s) {
-    const Index rows = ints(factor_->pi)[s + 1] - ints(factor_->pi)[s];
-    const Index columns = ints(factor_->super)[s + 1] - ints(factor_->super)[s];
-    if (rows > columns) {
-      parent_[s] = supernode_of_[ints(factor_->s)[ints(factor_->pi)[s] + columns]];
-    }
-  }
+  // Every supernode is computed alike wherever the cut runs, so results do not depend on the number
+  // of threads.
+  const double total = std::accumulate(numbers.begin(), numbers.end(), 0.0);
+  const bool parallel = threads_ > 1 && total > smallest_parallel_factor;
+  cut_ = tree_.cut(std::move(numbers), parallel ? total / (4.0 * threads_) : 0.0);
   vector_.assign(size_, 0.0);
   p_.assign(size_, 0.0);
   beta_.assign(size_, 0.0);
   w_.assign(size_, 0.0);
-  on_path_.assign(count, 0);
+  on_path_.assign(tree_.parent.size(), 0);
   path_.clear();  // left by a former pattern
   wanted_.clear();
   local_.assign(static_cast<std::size_t>(longest_) * 2 * threads_, 0.0);
 }
 
-/// Cuts the elimination tree into independent subtrees and a top. In postorder a subtree is a range
-/// of supernodes. Every supernode is computed alike wherever the cut runs, so results do not depend
-/// on the number of threads.
-void InPlaceFactor::plan_backward() {
-  const Index count = static_cast<Index>(factor_->nsuper);
-  std::vector<double> work(count);
-  std::vector<Index> first(count);
-  for (Index s = 0; s < count; ++s) first[s] = s;
-  double total = 0.0;
-  for (Index s = 0; s < count; ++s) {
-    const double rows = ints(factor_->pi)[s + 1] - ints(factor_->pi)[s];
-    const double own = rows * (ints(factor_->super)[s + 1] - ints(factor_->super)[s]);
-    total += own;
-    work[s] += own;
-    if (parent_[s] == no_index) continue;
-    work[parent_[s]] += work[s];
-    first[parent_[s]] = std::min(first[parent_[s]], first[s]);
-  }
-  const bool parallel = threads_ > 1 && total > smallest_parallel_factor;
-  const double largest = parallel ? total / (4.0 * threads_) : 0.0;
-  top_.clear();
-  subtrees_.clear();
-  for (Index s = count - 1; s >= 0;) {
-    if (work[s] > largest) {
-      top_.push_back(s);
-      --s;
-    } else {
-      subtrees_.emplace_back(first[s], s);
-      s = first[s] - 1;
-    }
-  }
-}
-
 /// L L' -> L D L': d_j = l_jj^2 goes to the diagonal, the column below is divided by l_jj.
 void InPlaceFactor::turn_into_ldl() {
-  const Index count = static_cast<Index>(factor_->nsuper);
+  const Index count = num_supernodes();
 #pragma omp parallel for schedule(dynamic, 16) num_threads(threads_)
   for (Index s = 0; s < count; ++s) {
-    const Block b = block(s);
+    const Supernode b = block(s);
     for (Index j = 0; j < b.columns; ++j) {
-      double* column = b.values + static_cast<std::size_t>(j) * b.rows;
+      double* column = b.column(j);
       const double inverse = 1.0 / column[j];
       column[j] *= column[j];
 #pragma omp simd
-      for (Index r = j + 1; r < b.rows; ++r) column[r] *= inverse;
+      for (Index r = j + 1; r < b.count; ++r) column[r] *= inverse;
     }
   }
 }
 
 void InPlaceFactor::forward_on(Index supernode, Index start, double* vector, double* local) const {
-  const Block b = block(supernode);
-  std::copy_n(vector + b.first_column, b.columns, local);
-  for (Index r = b.columns; r < b.rows; ++r) local[r] = vector[b.row_numbers[r]];
-  supernodal::forward(b.values, b.rows, b.columns, start, local);
-  std::copy_n(local, b.columns, vector + b.first_column);
-  for (Index r = b.columns; r < b.rows; ++r) vector[b.row_numbers[r]] = local[r];
+  const Supernode b = block(supernode);
+  std::copy_n(vector + b.first, b.columns, local);
+  for (Index r = b.columns; r < b.count; ++r) local[r] = vector[b.rows[r]];
+  supernodal::forward(b.values, b.count, b.columns, start, local);
+  std::copy_n(local, b.columns, vector + b.first);
+  for (Index r = b.columns; r < b.count; ++r) vector[b.rows[r]] = local[r];
 }
 
 void InPlaceFactor::backward_on(Index supernode, double* vector, double* local) const {
-  const Block b = block(supernode);
-  std::copy_n(vector + b.first_column, b.columns, local);
-  for (Index r = b.columns; r < b.rows; ++r) local[r] = vector[b.row_numbers[r]];
-  supernodal::backward(b.values, b.rows, b.columns, local);
-  std::copy_n(local, b.columns, vector + b.first_column);
+  const Supernode b = block(supernode);
+  std::copy_n(vector + b.first, b.columns, local);
+  for (Index r = b.columns; r < b.count; ++r) local[r] = vector[b.rows[r]];
+  supernodal::backward(b.values, b.count, b.columns, local);
+  std::copy_n(local, b.columns, vector + b.first);
 }
 
 void InPlaceFactor::backward_and_change_on(Index supernode, double* vector, double* local) {
-  const Block b = block(supernode);
+  const Supernode b = block(supernode);
   double* w = local + longest_;
-  std::copy_n(vector + b.first_column, b.columns, local);
-  std::copy_n(w_.data() + b.first_column, b.columns, w);
-  for (Index r = b.columns; r < b.rows; ++r) {
-    local[r] = vector[b.row_numbers[r]];
-    w[r] = w_[b.row_numbers[r]];
+  std::copy_n(vector + b.first, b.columns, local);
+  std::copy_n(w_.data() + b.first, b.columns, w);
+  for (Index r = b.columns; r < b.count; ++r) {
+    local[r] = vector[b.rows[r]];
+    w[r] = w_[b.rows[r]];
   }
-  supernodal::backward_and_change(b.values, b.rows, b.columns, p_.data() + b.first_column,
-                                  beta_.data() + b.first_column, local, w);
-  std::copy_n(local, b.columns, vector + b.first_column);
-  for (Index r = 0; r < b.rows; ++r) w_[b.row_numbers[r]] = w[r];
+  supernodal::backward_and_change(b.values, b.count, b.columns, p_.data() + b.first,
+                                  beta_.data() + b.first, local, w);
+  std::copy_n(local, b.columns, vector + b.first);
+  for (Index r = 0; r < b.count; ++r) w_[b.rows[r]] = w[r];
 }
 
 template <typename Function>
 void InPlaceFactor::descend(ThreadChoice& choice, const Function& on_supernode) {
-  for (const Index s : top_) on_supernode(s, local_.data());
-  const Index count = static_cast<Index>(subtrees_.size());
+  for (const Index s : cut_.top) on_supernode(s, local_.data());
+  const Index count = static_cast<Index>(cut_.subtrees.size());
   if (count == 0) return;
   choice.run([&](int threads) {
 #pragma omp parallel num_threads(threads)
@@ -176,7 +129,8 @@ void InPlaceFactor::descend(ThreadChoice& choice, const Function& on_supernode) 
       double* local = local_.data() + static_cast<std::size_t>(omp_get_thread_num()) * 2 * longest_;
 #pragma omp for schedule(dynamic, 1)
       for (Index t = 0; t < count; ++t) {
-        for (Index s = subtrees_[t].second; s >= subtrees_[t].first; --s) on_supernode(s, local);
+        for (Index s = cut_.subtrees[t].second; s >= cut_.subtrees[t].first; --s)
+          on_supernode(s, local);
       }
     }
   });
@@ -184,22 +138,22 @@ void InPlaceFactor::descend(ThreadChoice& choice, const Function& on_supernode) 
 
 /// The supernodes of the wanted unknowns and all above them, which they need.
 void InPlaceFactor::keep_current(std::span<const std::uint8_t> wanted) {
-  wanted_.assign(parent_.size(), 0);
+  wanted_.assign(tree_.parent.size(), 0);
   for (Index k = 0; k < size_; ++k) {
-    if (wanted[k]) wanted_[supernode_of_[position_[k]]] = 1;
+    if (wanted[k]) wanted_[tree_.of_column[position_[k]]] = 1;
   }
-  for (std::size_t s = 0; s < parent_.size(); ++s) {
-    if (wanted_[s] && parent_[s] != no_index) wanted_[parent_[s]] = 1;
+  for (std::size_t s = 0; s < tree_.parent.size(); ++s) {
+    if (wanted_[s] && tree_.parent[s] != no_index) wanted_[tree_.parent[s]] = 1;
   }
 }
 
 void InPlaceFactor::solve(std::span<const double> rhs, std::span<double> solution) {
   for (Index k = 0; k < size_; ++k) vector_[position_[k]] = rhs[k];
-  const Index count = static_cast<Index>(factor_->nsuper);
+  const Index count = num_supernodes();
   for (Index s = 0; s < count; ++s) {
     forward_on(s, 0, vector_.data(), local_.data());
-    const Block b = block(s);
-    for (Index j = 0; j < b.columns; ++j) vector_[b.first_column + j] /= *diagonal(s, j);
+    const Supernode b = block(s);
+    for (Index j = 0; j < b.columns; ++j) vector_[b.first + j] /= *diagonal(s, j);
   }
   descend(solution_threads_,
           [this](Index s, double* local) { backward_on(s, vector_.data(), local); });
@@ -218,10 +172,10 @@ void InPlaceFactor::forward_path(const SparseVector& permuted, Index start) {
   on_path_of_ = permuted;
   if (start == no_index) return;
   for (int k = 0; k < permuted.size(); ++k) p_[permuted.rows[k]] = permuted.values[k];
-  for (Index s = supernode_of_[start]; s != no_index; s = parent_[s]) {
+  for (Index s = tree_.of_column[start]; s != no_index; s = tree_.parent[s]) {
     path_.push_back(s);
     on_path_[s] = 1;
-    const Index first = block(s).first_column;
+    const Index first = block(s).first;
     forward_on(s, std::max<Index>(start - first, 0), p_.data(), local_.data());
     start = 0;
   }
@@ -229,8 +183,8 @@ void InPlaceFactor::forward_path(const SparseVector& permuted, Index start) {
 
 void InPlaceFactor::clear_path() {
   for (const Index s : path_) {
-    const Block b = block(s);
-    std::fill_n(p_.begin() + b.first_column, b.columns, 0.0);
+    const Supernode b = block(s);
+    std::fill_n(p_.begin() + b.first, b.columns, 0.0);
     on_path_[s] = 0;
   }
   path_.clear();
@@ -243,10 +197,10 @@ void InPlaceFactor::start_change(double sign) {
   std::fill(vector_.begin(), vector_.end(), 0.0);
   double sigma = sign;
   for (const Index s : path_) {
-    const Block b = block(s);
+    const Supernode b = block(s);
     for (Index j = 0; j < b.columns; ++j) {
       double& d = *diagonal(s, j);
-      const Index k = b.first_column + j;
+      const Index k = b.first + j;
       const double changed = d + sigma * p_[k] * p_[k];
       vector_[k] = p_[k] / d;
       beta_[k] = sigma * p_[k] / changed;
@@ -261,9 +215,9 @@ double InPlaceFactor::pivot(const SparseVector& x) {
   forward_path(permute(x, position_));
   double removed = 0.0;
   for (const Index s : path_) {
-    const Block b = block(s);
+    const Supernode b = block(s);
     for (Index j = 0; j < b.columns; ++j) {
-      const double p = p_[b.first_column + j];
+      const double p = p_[b.first + j];
       removed += p * p / *diagonal(s, j);
     }
   }
@@ -283,9 +237,9 @@ void InPlaceFactor::compliance(std::span<const SparseVector> x, std::span<double
   for (std::size_t a = 0; a < x.size(); ++a) {
     forward_path(permuted[a], start);
     for (const Index s : path_) {
-      const Block b = block(s);
+      const Supernode b = block(s);
       for (Index j = 0; j < b.columns; ++j) {
-        scaled[a].push_back(p_[b.first_column + j] / std::sqrt(*diagonal(s, j)));
+        scaled[a].push_back(p_[b.first + j] / std::sqrt(*diagonal(s, j)));
       }
     }
     for (std::size_t b = 0; b <= a; ++b) {
@@ -301,9 +255,9 @@ std::vector<double> InPlaceFactor::columns(std::span<const SparseVector> x) {
   for (std::size_t c = 0; c < x.size(); ++c) {
     forward_path(permute(x[c], position_));
     for (const Index s : path_) {
-      const Block b = block(s);
-      double* const motion = motions.data() + c * size_ + b.first_column;
-      for (Index j = 0; j < b.columns; ++j) motion[j] = p_[b.first_column + j] / *diagonal(s, j);
+      const Supernode b = block(s);
+      double* const motion = motions.data() + c * size_ + b.first;
+      for (Index j = 0; j < b.columns; ++j) motion[j] = p_[b.first + j] / *diagonal(s, j);
     }
   }
   descend(column_threads_, [&](Index s, double* local) {
@@ -322,7 +276,7 @@ std::vector<double> InPlaceFactor::columns(std::span<const SparseVector> x) {
 void InPlaceFactor::downdate_one(const SparseVector& x, double load_change, double pivot,
                                  std::span<double> solution) {
   const SparseVector permuted = permute(x, position_);
-  const Index* permutation = ints(factor_->Perm);
+  const Index* permutation = static_cast<const Index*>(factor_->Perm);
   double extension = load_change;
   for (int k = 0; k < x.size(); ++k) {
     extension += permuted.values[k] * solution[permutation[permuted.rows[k]]];
@@ -371,9 +325,9 @@ void InPlaceFactor::update(const SparseVector& x) { change_path(permute(x, posit
 /// path once more for the forward elimination.
 double InPlaceFactor::bytes_read_by_event() const {
   double numbers = 0.0;
-  for (Index s = 0; s < static_cast<Index>(parent_.size()); ++s) {
-    const Block b = block(s);
-    const double trapezoid = b.columns * (b.rows - 0.5 * (b.columns - 1.0));
+  for (Index s = 0; s < static_cast<Index>(tree_.parent.size()); ++s) {
+    const Supernode b = block(s);
+    const double trapezoid = b.columns * (b.count - 0.5 * (b.columns - 1.0));
     if (on_path_[s]) {
       numbers += 2.0 * trapezoid;
     } else if (is_wanted(s)) {

@@ -6,6 +6,7 @@
 #include "base/thread_choice.hpp"
 #include "solver/cholmod_support.hpp"
 #include "solver/factor.hpp"
+#include "solver/supernodes/supernodes.hpp"
 
 namespace perilink {
 
@@ -36,21 +37,12 @@ class InPlaceFactor final : public Factor {
   FactorStatistics statistics() const override;
 
  private:
-  /// Rows, columns and numbers of one supernode.
-  struct Block {
-    const Index* row_numbers;
-    double* values;
-    Index first_column;
-    Index rows;
-    Index columns;
-    Index below() const { return rows - columns; }
-  };
-  Block block(Index supernode) const;
+  Supernode block(Index supernode) const { return supernode_of(*factor_, supernode); }
+  Index num_supernodes() const { return static_cast<Index>(factor_->nsuper); }
 
   double* diagonal(Index supernode, Index column) const;
   double bytes_read_by_event() const;
   void adopt_pattern();
-  void plan_backward();
   void turn_into_ldl();
   void forward_on(Index supernode, Index start, double* vector, double* local) const;
   void backward_on(Index supernode, double* vector, double* local) const;
@@ -75,12 +67,10 @@ class InPlaceFactor final : public Factor {
   int factorizations_ = 0;
   double flops_ = 0.0;  ///< for one factorisation
 
-  std::vector<Index> position_;      ///< per unknown: its place in the factor's order
-  std::vector<Index> supernode_of_;  ///< per column
-  std::vector<Index> parent_;        ///< per supernode, no_index at roots
-  std::vector<Index> top_;           ///< supernodes above the independent subtrees, descending
-  std::vector<std::pair<Index, Index>> subtrees_;  ///< [first, last] supernodes of each
-  Index longest_ = 0;                              ///< most rows of a supernode
+  std::vector<Index> position_;  ///< per unknown: its place in the factor's order
+  SupernodeTree tree_;
+  SupernodeTree::Cut cut_;
+  Index longest_ = 0;  ///< most rows of a supernode
 
   std::vector<double> vector_;  ///< work vector in the factor's order
   std::vector<double> local_;   ///< rows of a supernode, two parts per thread

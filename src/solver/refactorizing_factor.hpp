@@ -7,6 +7,8 @@ namespace perilink {
 /// Factorises the changed matrix anew at every event: the yardstick for speed and exactness.
 class RefactorizingFactor final : public CholmodRoute {
  public:
+  explicit RefactorizingFactor(int threads) : CholmodRoute(threads) {}
+
   void factorize(const SparseMatrix& matrix, std::span<const Index> groups) override;
   void refactorize(const SparseMatrix& matrix) override;
   /// One factorisation for all of them.

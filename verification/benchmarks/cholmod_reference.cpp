@@ -26,7 +26,7 @@ CholmodReference time_cholmod(const Model& model, std::span<const Index> element
       assemble_right_hand_side(model.network, intact, model.unknowns, model.loads);
   CholmodSession session;
   const CholmodFactorPtr factor = analyze_supernodal(session, matrix, model.unknowns.owners());
-  factorize_numerically(session, matrix, factor.get());
+  factorize_numerically(session, matrix, factor.get(), 1);
   CholmodReference result;
   Timer timer;
   cholmod_change_factor(CHOLMOD_REAL, false, false, false, true, factor.get(), session.get());

@@ -13,7 +13,7 @@
 #include "calibration/least_change/equations/variable_parts.hpp"
 #include "calibration/least_change/killing_fields.hpp"
 #include "discretization/point_boxes.hpp"
-#include "solver/dense_kernels.hpp"
+#include "solver/dense/dense_kernels.hpp"
 
 namespace perilink {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/side_by_side.hpp"
-#include "solver/dense_kernels.hpp"
+#include "solver/dense/dense_kernels.hpp"
 #include "solver/factor_routes.hpp"
 
 namespace perilink {

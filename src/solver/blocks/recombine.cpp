@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "solver/blocks/block_gradients.hpp"
-#include "solver/dense_kernels.hpp"
+#include "solver/dense/dense_kernels.hpp"
 
 namespace perilink {
 

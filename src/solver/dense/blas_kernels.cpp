@@ -1,30 +1,34 @@
-#include "app/process/blas_kernels.hpp"
+#include "solver/dense/blas_kernels.hpp"
 
 #include <dlfcn.h>
-#include <unistd.h>
 
 #include <cstdlib>
 
 namespace perilink {
 
 const char* fitting_kernels(std::string_view taken, bool has_avx2, bool has_avx512) {
-  if (taken != "Prescott") return "";
-  return has_avx512 ? "SKYLAKEX" : has_avx2 ? "HASWELL" : "";
+  const bool unknown = taken == "Prescott", without_avx512 = taken == "Haswell" || taken == "Zen";
+  if (has_avx512 && (unknown || without_avx512)) return "SKYLAKEX";
+  return has_avx2 && unknown ? "HASWELL" : "";
 }
 
-void use_fitting_kernels(char** words) {
+void use_fitting_kernels() {
 #ifdef __x86_64__
   constexpr const char* setting = "OPENBLAS_CORETYPE";
   using CoreName = const char* (*)();
+  using Call = void (*)();
   auto* name = reinterpret_cast<CoreName>(dlsym(RTLD_DEFAULT, "openblas_get_corename"));
-  if (name == nullptr || std::getenv(setting) != nullptr) return;
+  // It chooses anew where it has forgotten what it chose as it was loaded.
+  auto* forget = reinterpret_cast<Call>(dlsym(RTLD_DEFAULT, "gotoblas_dynamic_quit"));
+  auto* choose = reinterpret_cast<Call>(dlsym(RTLD_DEFAULT, "gotoblas_dynamic_init"));
+  if (name == nullptr || forget == nullptr || choose == nullptr) return;
+  if (std::getenv(setting) != nullptr) return;
   const bool has_avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
                           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
   const char* kernels = fitting_kernels(name(), __builtin_cpu_supports("avx2"), has_avx512);
   if (*kernels == '\0' || setenv(setting, kernels, 1) != 0) return;
-  execv("/proc/self/exe", words);
-#else
-  static_cast<void>(words);
+  forget();
+  choose();
 #endif
 }
 

@@ -1,4 +1,4 @@
-#include "solver/supernodal_kernels.hpp"
+#include "solver/supernodes/supernodal_kernels.hpp"
 
 #include <cstddef>
 

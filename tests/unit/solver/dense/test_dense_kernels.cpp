@@ -1,4 +1,4 @@
-#include "solver/dense_kernels.hpp"
+#include "solver/dense/dense_kernels.hpp"
 
 #include <gtest/gtest.h>
 

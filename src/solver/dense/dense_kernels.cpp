@@ -1,9 +1,10 @@
-#include "solver/dense_kernels.hpp"
+#include "solver/dense/dense_kernels.hpp"
 
 #include <dlfcn.h>
 #include <sys/mman.h>
 
 #include <algorithm>
+#include <mutex>
 #include <new>
 #include <random>
 #include <vector>
@@ -11,15 +12,10 @@
 #include <Eigen/Dense>
 
 #include "base/error.hpp"
+#include "solver/dense/blas_kernels.hpp"
+#include "solver/dense/lapack.hpp"
 
 extern "C" {
-void dgemm_(const char* trans_a, const char* trans_b, const int* m, const int* n, const int* k,
-            const double* alpha, const double* a, const int* lda, const double* b, const int* ldb,
-            const double* beta, double* c, const int* ldc);
-void dtrsm_(const char* side, const char* part, const char* trans, const char* diag, const int* m,
-            const int* n, const double* alpha, const double* a, const int* lda, double* b,
-            const int* ldb);
-void dpotrf_(const char* part, const int* n, double* a, const int* lda, int* info);
 void dgeqrf_(const int* m, const int* n, double* a, const int* lda, double* tau, double* work,
              const int* work_size, int* info);
 void dorgqr_(const int* m, const int* n, const int* k, double* a, const int* lda, const double* tau,
@@ -138,6 +134,8 @@ Eigen::VectorXd diagonalize(MatrixXd& matrix) {
 }  // namespace
 
 int prepare_blas(int threads) {
+  static std::once_flag chosen;
+  std::call_once(chosen, use_fitting_kernels);
   use_one_blas_thread();
   return take_blas_buffers(threads);
 }

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string_view>
+
+namespace perilink {
+
+/// Kernels of OpenBLAS for a processor that it does not know: it then takes those of 2004, which
+/// factorise 2.5 times slower. On processors of AMD with AVX-512, which its versions before 0.3.22
+/// do not tell from those without, products are twice as fast with it. Empty: those that it has
+/// taken are good.
+/// \param taken  name of those that it has taken
+const char* fitting_kernels(std::string_view taken, bool has_avx2, bool has_avx512);
+
+/// Has OpenBLAS take these kernels, unless OPENBLAS_CORETYPE names some. Nobody may be in it.
+void use_fitting_kernels();
+
+}  // namespace perilink
