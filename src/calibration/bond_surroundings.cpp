@@ -97,7 +97,7 @@ class Surroundings {
   Views turned_offsets(const Turn& turn) const;
   void sort_places();
   void find_neighbours();
-  Views look_around(const Views& views, const Views& offsets) const;
+  Key look_around(std::size_t kind, const Views& views, const Views& offsets) const;
   void turn_places();
 
   Index start(Index bond, bool reversed) const {
@@ -120,7 +120,7 @@ class Surroundings {
   std::vector<std::size_t> first_neighbour_;
   std::vector<Neighbour> neighbours_;  // those of the examples, in turn
   Views place_view_;                   // per kind, the least of all turns
-  Views bond_view_;                    // per kind and offset, the least of all turns
+  Views bond_view_;                    // per bond of the examples, the least of all turns
 };
 
 Surroundings::Surroundings(const CalibrationInput& input, const Facets& facets,
@@ -140,19 +140,26 @@ void Surroundings::label_bonds(const BondStiffness& stiffness) {
   const std::vector<std::int64_t> axial = rounded(stiffness.axial);
   const std::vector<std::int64_t> bending = rounded(stiffness.bending);
   std::unordered_map<Key, Index> numbers;
+  Offset last{};
+  Key label = 0;
+  offset_of_.reserve(static_cast<std::size_t>(bonds.size()));
+  label_.reserve(static_cast<std::size_t>(bonds.size()));
   for (Index b = 0; b < bonds.size(); ++b) {
     Offset offset{};
     for (int a = 0; a < 3; ++a) {
       offset[a] = std::llround(bonds.length(b) * bonds.direction(b)[a] / step[a]);
     }
     const auto [entry, is_new] =
-        numbers.emplace(join(0, offset), static_cast<Index>(numbers.size()));
+        numbers.try_emplace(join(0, offset), static_cast<Index>(numbers.size()));
     if (is_new) {
       offsets_.push_back(offset);
       offsets_.push_back({-offset[0], -offset[1], -offset[2]});
     }
     offset_of_.push_back(entry->second);
-    label_.push_back(join(0, {input_.free[b], axial[b], bending.empty() ? 0 : bending[b]}));
+    const Offset kind = {input_.free[b], axial[b], bending.empty() ? 0 : bending[b]};
+    if (b == 0 || kind != last) label = join(0, kind);
+    last = kind;
+    label_.push_back(label);
   }
 }
 
@@ -200,7 +207,7 @@ void Surroundings::sort_places() {
   }
   std::unordered_map<Key, Index> numbers;
   for (std::size_t i = 0; i < size_; ++i) {
-    const auto [entry, is_new] = numbers.emplace(views[i], static_cast<Index>(numbers.size()));
+    const auto [entry, is_new] = numbers.try_emplace(views[i], static_cast<Index>(numbers.size()));
     if (is_new) example_.push_back(static_cast<Index>(i));
     kind_.push_back(entry->second);
   }
@@ -218,35 +225,41 @@ void Surroundings::find_neighbours() {
   }
 }
 
-/// What the kinds look like with what can be seen from their neighbours.
-auto Surroundings::look_around(const Views& views, const Views& offsets) const -> Views {
-  Views result;
-  for (std::size_t k = 0; k < example_.size(); ++k) {
-    Key sum = 0;
-    for (std::size_t n = first_neighbour_[k]; n < first_neighbour_[k + 1]; ++n) {
-      const Neighbour& other = neighbours_[n];
-      sum += mix(offsets[other.offset] + other.label + views[other.kind]);
-    }
-    result.push_back(join(views[k], sum));
+/// What a kind looks like with what can be seen from its neighbours.
+Key Surroundings::look_around(std::size_t kind, const Views& views, const Views& offsets) const {
+  Key sum = 0;
+  for (std::size_t n = first_neighbour_[kind]; n < first_neighbour_[kind + 1]; ++n) {
+    const Neighbour& other = neighbours_[n];
+    sum += mix(offsets[other.offset] + other.label + views[other.kind]);
   }
-  return result;
+  return join(views[kind], sum);
 }
 
-/// Kinds, and bonds at them, that a turn maps on each other.
+/// Kinds, and bonds at them, that a turn maps on each other: the least of what all turns show is the
+/// same. What is near comes first, so that others count only where it is least.
 void Surroundings::turn_places() {
-  place_view_.assign(example_.size(), ~Key{0});
-  bond_view_.assign(example_.size() * offsets_.size(), ~Key{0});
-  for (const Turn& turn : turns_) {
-    const Views offsets = turned_offsets(turn);
-    const Views near = look_around(first_views(example_, turn), offsets);
-    const Views far = look_around(near, offsets);
-    for (std::size_t k = 0; k < example_.size(); ++k) {
-      place_view_[k] = std::min(place_view_[k], far[k]);
+  const std::size_t kinds = example_.size();
+  std::vector<Views> offsets(turns_.size()), near(turns_.size(), Views(kinds));
+#pragma omp parallel for schedule(static)
+  for (std::size_t t = 0; t < turns_.size(); ++t) {
+    offsets[t] = turned_offsets(turns_[t]);
+    const Views first = first_views(example_, turns_[t]);
+    for (std::size_t k = 0; k < kinds; ++k) near[t][k] = look_around(k, first, offsets[t]);
+  }
+  place_view_.assign(kinds, ~Key{0});
+  bond_view_.assign(neighbours_.size(), ~Key{0});
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < kinds; ++k) {
+    Key nearest = ~Key{0};
+    for (const Views& views : near) nearest = std::min(nearest, views[k]);
+    for (std::size_t t = 0; t < turns_.size(); ++t) {
+      if (near[t][k] != nearest) continue;
+      place_view_[k] = std::min(place_view_[k], look_around(k, near[t], offsets[t]));
       for (std::size_t n = first_neighbour_[k]; n < first_neighbour_[k + 1]; ++n) {
         const Neighbour& other = neighbours_[n];
-        Key& least = bond_view_[k * offsets_.size() + other.offset];
-        least = std::min(least, join(near[k], offsets[other.offset] + other.label) +
-                                    mix(near[other.kind] + offsets[other.offset]));
+        const Key offset = offsets[t][other.offset];
+        bond_view_[n] = std::min(
+            bond_view_[n], join(nearest, offset + other.label) + mix(near[t][other.kind] + offset));
       }
     }
   }
@@ -258,10 +271,13 @@ BondOrbits Surroundings::find(std::size_t most) {
   find_neighbours();
   turn_places();
   std::unordered_map<Key, Index> numbers;
-  std::vector<Index> number(bond_view_.size());
-  for (std::size_t k = 0; k < number.size(); ++k) {
-    if (bond_view_[k] == ~Key{0}) continue;  // no such bond
-    number[k] = numbers.emplace(bond_view_[k], static_cast<Index>(numbers.size())).first->second;
+  std::vector<Index> number(example_.size() * offsets_.size());
+  for (std::size_t k = 0; k < example_.size(); ++k) {
+    for (std::size_t n = first_neighbour_[k]; n < first_neighbour_[k + 1]; ++n) {
+      const auto next = static_cast<Index>(numbers.size());
+      number[k * offsets_.size() + neighbours_[n].offset] =
+          numbers.try_emplace(bond_view_[n], next).first->second;
+    }
   }
   BondOrbits orbits;
   orbits.num_views = static_cast<Index>(numbers.size());

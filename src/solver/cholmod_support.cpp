@@ -125,10 +125,11 @@ void factorize_numerically(CholmodSession& session, const SparseMatrix& lower,
     cholmod_change_factor(CHOLMOD_REAL, true, true, true, true, factor, session.get());
     check(session.get(), "making room to factorise", factor->n);
   }
+  double* values = static_cast<double*>(factor->x);
   factor->minor = static_cast<std::size_t>(
       factor->ordering == CHOLMOD_NATURAL
-          ? factorize_supernodes(lower, *factor, threads)
-          : factorize_supernodes(in_order_of(*factor, lower), *factor, threads));
+          ? factorize_supernodes(lower, *factor, values, threads)
+          : factorize_supernodes(in_order_of(*factor, lower), *factor, values, threads));
   if (factor->minor < factor->n) {
     const Index unknown = static_cast<const Index*>(factor->Perm)[factor->minor];
     throw NotPositiveDefinite("the stiffness matrix is not positive definite (unknown " +
@@ -188,7 +189,7 @@ SingleFactor CholmodRoute::in_single(double unit) const {
   SingleFactor single;
   single.place = invert({static_cast<const Index*>(factor_->Perm), factor_->n});
   for (std::size_t s = 0; s < factor_->nsuper; ++s) {
-    const Supernode own = supernode_of(*factor_, static_cast<Index>(s));
+    const Supernode<double> own = supernode_of(*factor_, static_cast<Index>(s));
     SingleFactor::Supernode& node = single.supernodes.emplace_back();
     node.first = own.first;
     node.columns = own.columns;

@@ -26,7 +26,7 @@ InPlaceFactor::InPlaceFactor(int threads)
       factor_(nullptr, CholmodFactorDeleter{session_.get()}) {}
 
 double* InPlaceFactor::diagonal(Index supernode, Index column) const {
-  const Supernode b = block(supernode);
+  const Supernode<double> b = block(supernode);
   return b.values + static_cast<std::size_t>(column) * (b.count + 1);
 }
 
@@ -75,7 +75,7 @@ void InPlaceFactor::turn_into_ldl() {
   const Index count = num_supernodes();
 #pragma omp parallel for schedule(dynamic, 16) num_threads(threads_)
   for (Index s = 0; s < count; ++s) {
-    const Supernode b = block(s);
+    const Supernode<double> b = block(s);
     for (Index j = 0; j < b.columns; ++j) {
       double* column = b.column(j);
       const double inverse = 1.0 / column[j];
@@ -87,7 +87,7 @@ void InPlaceFactor::turn_into_ldl() {
 }
 
 void InPlaceFactor::forward_on(Index supernode, Index start, double* vector, double* local) const {
-  const Supernode b = block(supernode);
+  const Supernode<double> b = block(supernode);
   std::copy_n(vector + b.first, b.columns, local);
   for (Index r = b.columns; r < b.count; ++r) local[r] = vector[b.rows[r]];
   supernodal::forward(b.values, b.count, b.columns, start, local);
@@ -96,7 +96,7 @@ void InPlaceFactor::forward_on(Index supernode, Index start, double* vector, dou
 }
 
 void InPlaceFactor::backward_on(Index supernode, double* vector, double* local) const {
-  const Supernode b = block(supernode);
+  const Supernode<double> b = block(supernode);
   std::copy_n(vector + b.first, b.columns, local);
   for (Index r = b.columns; r < b.count; ++r) local[r] = vector[b.rows[r]];
   supernodal::backward(b.values, b.count, b.columns, local);
@@ -104,7 +104,7 @@ void InPlaceFactor::backward_on(Index supernode, double* vector, double* local) 
 }
 
 void InPlaceFactor::backward_and_change_on(Index supernode, double* vector, double* local) {
-  const Supernode b = block(supernode);
+  const Supernode<double> b = block(supernode);
   double* w = local + longest_;
   std::copy_n(vector + b.first, b.columns, local);
   std::copy_n(w_.data() + b.first, b.columns, w);
@@ -152,7 +152,7 @@ void InPlaceFactor::solve(std::span<const double> rhs, std::span<double> solutio
   const Index count = num_supernodes();
   for (Index s = 0; s < count; ++s) {
     forward_on(s, 0, vector_.data(), local_.data());
-    const Supernode b = block(s);
+    const Supernode<double> b = block(s);
     for (Index j = 0; j < b.columns; ++j) vector_[b.first + j] /= *diagonal(s, j);
   }
   descend(solution_threads_,
@@ -183,7 +183,7 @@ void InPlaceFactor::forward_path(const SparseVector& permuted, Index start) {
 
 void InPlaceFactor::clear_path() {
   for (const Index s : path_) {
-    const Supernode b = block(s);
+    const Supernode<double> b = block(s);
     std::fill_n(p_.begin() + b.first, b.columns, 0.0);
     on_path_[s] = 0;
   }
@@ -197,7 +197,7 @@ void InPlaceFactor::start_change(double sign) {
   std::fill(vector_.begin(), vector_.end(), 0.0);
   double sigma = sign;
   for (const Index s : path_) {
-    const Supernode b = block(s);
+    const Supernode<double> b = block(s);
     for (Index j = 0; j < b.columns; ++j) {
       double& d = *diagonal(s, j);
       const Index k = b.first + j;
@@ -215,7 +215,7 @@ double InPlaceFactor::pivot(const SparseVector& x) {
   forward_path(permute(x, position_));
   double removed = 0.0;
   for (const Index s : path_) {
-    const Supernode b = block(s);
+    const Supernode<double> b = block(s);
     for (Index j = 0; j < b.columns; ++j) {
       const double p = p_[b.first + j];
       removed += p * p / *diagonal(s, j);
@@ -237,7 +237,7 @@ void InPlaceFactor::compliance(std::span<const SparseVector> x, std::span<double
   for (std::size_t a = 0; a < x.size(); ++a) {
     forward_path(permuted[a], start);
     for (const Index s : path_) {
-      const Supernode b = block(s);
+      const Supernode<double> b = block(s);
       for (Index j = 0; j < b.columns; ++j) {
         scaled[a].push_back(p_[b.first + j] / std::sqrt(*diagonal(s, j)));
       }
@@ -255,7 +255,7 @@ std::vector<double> InPlaceFactor::columns(std::span<const SparseVector> x) {
   for (std::size_t c = 0; c < x.size(); ++c) {
     forward_path(permute(x[c], position_));
     for (const Index s : path_) {
-      const Supernode b = block(s);
+      const Supernode<double> b = block(s);
       double* const motion = motions.data() + c * size_ + b.first;
       for (Index j = 0; j < b.columns; ++j) motion[j] = p_[b.first + j] / *diagonal(s, j);
     }
@@ -326,7 +326,7 @@ void InPlaceFactor::update(const SparseVector& x) { change_path(permute(x, posit
 double InPlaceFactor::bytes_read_by_event() const {
   double numbers = 0.0;
   for (Index s = 0; s < static_cast<Index>(tree_.parent.size()); ++s) {
-    const Supernode b = block(s);
+    const Supernode<double> b = block(s);
     const double trapezoid = b.columns * (b.count - 0.5 * (b.columns - 1.0));
     if (on_path_[s]) {
       numbers += 2.0 * trapezoid;

@@ -37,7 +37,7 @@ class InPlaceFactor final : public Factor {
   FactorStatistics statistics() const override;
 
  private:
-  Supernode block(Index supernode) const { return supernode_of(*factor_, supernode); }
+  Supernode<double> block(Index supernode) const { return supernode_of(*factor_, supernode); }
   Index num_supernodes() const { return static_cast<Index>(factor_->nsuper); }
 
   double* diagonal(Index supernode, Index column) const;

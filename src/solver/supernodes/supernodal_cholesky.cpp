@@ -20,7 +20,6 @@ namespace {
 constexpr Index tile_rows = 256, panel_columns = 128;
 /// Operations below which starting threads costs more than it saves.
 constexpr double least_shared = 1e7;
-constexpr double one = 1.0, minus_one = -1.0, zero = 0.0;
 
 /// Rows [first, last) of a supernode pull at the columns of a later one, and all from `first` on at
 /// its rows.
@@ -28,31 +27,76 @@ struct Pull {
   Index source, first, last;
 };
 
-/// What a thread needs for itself.
-struct Workspace {
-  std::vector<Index> place;  ///< per row of the matrix: its own number in the supernode at hand
-  std::unique_ptr<double[]> product;  ///< shape (tile_rows, widest supernode)
-};
+/// c = beta c + alpha a b', c of shape (m, n).
+void multiply(int m, int n, int k, double alpha, const double* a, int lda, const double* b, int ldb,
+              double beta, double* c, int ldc) {
+  dgemm_("N", "T", &m, &n, &k, &alpha, a, &lda, b, &ldb, &beta, c, &ldc);
+}
+void multiply(int m, int n, int k, float alpha, const float* a, int lda, const float* b, int ldb,
+              float beta, float* c, int ldc) {
+  sgemm_("N", "T", &m, &n, &k, &alpha, a, &lda, b, &ldb, &beta, c, &ldc);
+}
 
+/// Lower triangle of c -= a a', a of shape (n, k), all with the same leading dimension.
+void subtract_square(int n, int k, const double* a, double* c, int rows) {
+  const double minus_one = -1.0, one = 1.0;
+  dsyrk_("L", "N", &n, &k, &minus_one, a, &rows, &one, c, &rows);
+}
+void subtract_square(int n, int k, const float* a, float* c, int rows) {
+  const float minus_one = -1.0F, one = 1.0F;
+  ssyrk_("L", "N", &n, &k, &minus_one, a, &rows, &one, c, &rows);
+}
+
+/// Factorises a block of the diagonal. \return its first column that fails, from 1; 0: none
+int factorize_dense(int n, double* a, int rows) {
+  int info = 0;
+  dpotrf_("L", &n, a, &rows, &info);
+  return info;
+}
+int factorize_dense(int n, float* a, int rows) {
+  int info = 0;
+  spotrf_("L", &n, a, &rows, &info);
+  return info;
+}
+
+/// b = b a^-T, a the factor of a block of the diagonal and b of shape (m, n) below it.
+void divide(int m, int n, const double* a, double* b, int rows) {
+  const double one = 1.0;
+  dtrsm_("R", "L", "T", "N", &m, &n, &one, a, &rows, b, &rows);
+}
+void divide(int m, int n, const float* a, float* b, int rows) {
+  const float one = 1.0F;
+  strsm_("R", "L", "T", "N", &m, &n, &one, a, &rows, b, &rows);
+}
+
+template <class Number>
 class Factorization {
  public:
-  Factorization(const SparseMatrix& lower, cholmod_factor& factor, int threads);
+  Factorization(const SparseMatrix& lower, const cholmod_factor& factor, Number* values,
+                int threads);
   Index run();
 
  private:
-  Supernode supernode(Index s) const { return supernode_of(factor_, s); }
+  using Node = Supernode<Number>;
+  /// What a thread needs for itself.
+  struct Workspace {
+    std::vector<Index> place;  ///< per row of the matrix: its own number in the supernode at hand
+    std::unique_ptr<Number[]> product;  ///< shape (tile_rows, widest supernode)
+  };
+  Node supernode(Index s) const { return supernode_of(factor_, values_, s); }
   void find_pulls();
   double operations(Index s) const;
   Index compute(Index s, int thread, int threads);
-  void place_matrix(const Supernode& node, Index column, const std::vector<Index>& place) const;
-  void pull(const Supernode& node, const Pull& pull, Index begin, Index end,
-            const std::vector<Index>& place, double* product) const;
-  Index factorize_columns(const Supernode& node, int threads) const;
+  void place_matrix(const Node& node, Index column, const std::vector<Index>& place) const;
+  void pull(const Node& node, const Pull& pull, Index begin, Index end,
+            const std::vector<Index>& place, Number* product) const;
+  Index factorize_columns(const Node& node, int threads) const;
   template <class Visit>
   static void share(Index count, int threads, Visit visit);
 
   const SparseMatrix& lower_;
-  cholmod_factor& factor_;
+  const cholmod_factor& factor_;
+  Number* values_;
   int threads_ = 1;
   Index count_, widest_ = 0;
   SupernodeTree tree_;
@@ -62,8 +106,14 @@ class Factorization {
   std::vector<Workspace> workspaces_;  ///< per thread
 };
 
-Factorization::Factorization(const SparseMatrix& lower, cholmod_factor& factor, int threads)
-    : lower_(lower), factor_(factor), count_(static_cast<Index>(factor.nsuper)), tree_(factor) {
+template <class Number>
+Factorization<Number>::Factorization(const SparseMatrix& lower, const cholmod_factor& factor,
+                                     Number* values, int threads)
+    : lower_(lower),
+      factor_(factor),
+      values_(values),
+      count_(static_cast<Index>(factor.nsuper)),
+      tree_(factor) {
   find_pulls();
   std::vector<double> work;
   for (Index s = 0; s < count_; ++s) work.push_back(operations(s));
@@ -74,14 +124,15 @@ Factorization::Factorization(const SparseMatrix& lower, cholmod_factor& factor, 
   for (Workspace& own : workspaces_) {
     own.place.resize(factor_.n);
     own.product =
-        std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(widest_) * tile_rows);
+        std::make_unique_for_overwrite<Number[]>(static_cast<std::size_t>(widest_) * tile_rows);
   }
 }
 
 /// Pulls in the order of their sources.
-void Factorization::find_pulls() {
+template <class Number>
+void Factorization<Number>::find_pulls() {
   const auto for_each_target = [&](Index s, auto visit) {
-    const Supernode node = supernode(s);
+    const Node node = supernode(s);
     for (Index first = node.columns, last = first; first < node.count; first = last) {
       const Index target = tree_.of_column[node.rows[first]];
       while (last < node.count && tree_.of_column[node.rows[last]] == target) ++last;
@@ -102,20 +153,22 @@ void Factorization::find_pulls() {
 }
 
 /// What its columns and those that pull at them take.
-double Factorization::operations(Index s) const {
-  const Supernode node = supernode(s);
+template <class Number>
+double Factorization<Number>::operations(Index s) const {
+  const Node node = supernode(s);
   const auto product = [](double m, double n, double k) { return 2.0 * m * n * k; };
   double sum = product(node.count, node.columns, node.columns);
   for (Index k = begin_[s]; k < begin_[s + 1]; ++k) {
-    const Supernode source = supernode(pulls_[k].source);
+    const Node source = supernode(pulls_[k].source);
     sum +=
         product(source.count - pulls_[k].first, pulls_[k].last - pulls_[k].first, source.columns);
   }
   return sum;
 }
 
+template <class Number>
 template <class Visit>
-void Factorization::share(Index count, int threads, Visit visit) {
+void Factorization<Number>::share(Index count, int threads, Visit visit) {
   if (threads == 1) {
     for (Index k = 0; k < count; ++k) visit(k);
     return;
@@ -124,7 +177,8 @@ void Factorization::share(Index count, int threads, Visit visit) {
   for (Index k = 0; k < count; ++k) visit(k);
 }
 
-Index Factorization::run() {
+template <class Number>
+Index Factorization<Number>::run() {
   const Index size = static_cast<Index>(factor_.n);
   Index failed = size;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads_) reduction(min : failed)
@@ -145,8 +199,9 @@ Index Factorization::run() {
 /// \param thread   that calls
 /// \param threads  that share the work, from the first one on
 /// \return the column at which the matrix is not positive definite; n where it is
-Index Factorization::compute(Index s, int thread, int threads) {
-  const Supernode node = supernode(s);
+template <class Number>
+Index Factorization<Number>::compute(Index s, int thread, int threads) {
+  const Node node = supernode(s);
   std::vector<Index>& place = workspaces_[thread].place;
   for (Index r = 0; r < node.count; ++r) place[node.rows[r]] = r;
   share(node.columns, threads, [&](Index column) { place_matrix(node, column, place); });
@@ -163,20 +218,22 @@ Index Factorization::compute(Index s, int thread, int threads) {
 }
 
 /// The numbers of the matrix, zeros between them.
-void Factorization::place_matrix(const Supernode& node, Index column,
-                                 const std::vector<Index>& place) const {
-  double* values = node.column(column);
-  std::fill_n(values, node.count, 0.0);
+template <class Number>
+void Factorization<Number>::place_matrix(const Node& node, Index column,
+                                         const std::vector<Index>& place) const {
+  Number* values = node.column(column);
+  std::fill_n(values, node.count, Number{0});
   for (SparseMatrix::InnerIterator entry(lower_, node.first + column); entry; ++entry) {
-    values[place[entry.row()]] = entry.value();
+    values[place[entry.row()]] = static_cast<Number>(entry.value());
   }
 }
 
 /// Takes what a source pulls with from rows [begin, end) of a supernode. What is above the diagonal
 /// is never read.
-void Factorization::pull(const Supernode& node, const Pull& pull, Index begin, Index end,
-                         const std::vector<Index>& place, double* product) const {
-  const Supernode source = supernode(pull.source);
+template <class Number>
+void Factorization<Number>::pull(const Node& node, const Pull& pull, Index begin, Index end,
+                                 const std::vector<Index>& place, Number* product) const {
+  const Node source = supernode(pull.source);
   const auto number_of = [&](Index own) {
     if (own == node.count) return source.count;
     const Index* rows =
@@ -187,19 +244,19 @@ void Factorization::pull(const Supernode& node, const Pull& pull, Index begin, I
   const Index m = to - from, n = std::min(pull.last, to) - pull.first;
   if (m <= 0) return;
   const auto place_of = [&](Index k) { return place[source.rows[k]]; };
-  const double* rows = source.values + from;
-  const double* columns = source.values + pull.first;
-  double* target = node.column(place_of(pull.first)) + place_of(from);
+  const Number* rows = source.values + from;
+  const Number* columns = source.values + pull.first;
+  Number* target = node.column(place_of(pull.first)) + place_of(from);
   if (place_of(to - 1) - place_of(from) == m - 1 &&
       place_of(pull.first + n - 1) - place_of(pull.first) == n - 1) {
-    dgemm_("N", "T", &m, &n, &source.columns, &minus_one, rows, &source.count, columns,
-           &source.count, &one, target, &node.count);
+    multiply(m, n, source.columns, Number{-1}, rows, source.count, columns, source.count, Number{1},
+             target, node.count);
     return;
   }
-  dgemm_("N", "T", &m, &n, &source.columns, &one, rows, &source.count, columns, &source.count,
-         &zero, product, &m);
+  multiply(m, n, source.columns, Number{1}, rows, source.count, columns, source.count, Number{0},
+           product, m);
   for (Index c = 0; c < n; ++c, product += m) {
-    double* values = node.column(place_of(pull.first + c));
+    Number* values = node.column(place_of(pull.first + c));
     for (Index r = std::max(from, pull.first + c); r < to; ++r) {
       values[place_of(r)] -= product[r - from];
     }
@@ -207,25 +264,22 @@ void Factorization::pull(const Supernode& node, const Pull& pull, Index begin, I
 }
 
 /// The supernode as a dense matrix, panel after panel.
-Index Factorization::factorize_columns(const Supernode& node, int threads) const {
+template <class Number>
+Index Factorization<Number>::factorize_columns(const Node& node, int threads) const {
   for (Index begin = 0; begin < node.columns; begin += panel_columns) {
     const Index n = std::min(panel_columns, node.columns - begin), below = begin + n;
-    double* panel = node.column(begin);
-    double* diagonal = panel + begin;
-    if (begin > 0) {
-      dsyrk_("L", "N", &n, &begin, &minus_one, node.values + begin, &node.count, &one, diagonal,
-             &node.count);
-    }
-    int info = 0;
-    dpotrf_("L", &n, diagonal, &node.count, &info);
-    if (info != 0) return node.first + begin + info - 1;
+    Number* panel = node.column(begin);
+    Number* diagonal = panel + begin;
+    if (begin > 0) subtract_square(n, begin, node.values + begin, diagonal, node.count);
+    const int failed = factorize_dense(n, diagonal, node.count);
+    if (failed != 0) return node.first + begin + failed - 1;
     share((node.count - below + tile_rows - 1) / tile_rows, threads, [&](Index tile) {
       const Index row = below + tile * tile_rows, m = std::min(tile_rows, node.count - row);
       if (begin > 0) {
-        dgemm_("N", "T", &m, &n, &begin, &minus_one, node.values + row, &node.count,
-               node.values + begin, &node.count, &one, panel + row, &node.count);
+        multiply(m, n, begin, Number{-1}, node.values + row, node.count, node.values + begin,
+                 node.count, Number{1}, panel + row, node.count);
       }
-      dtrsm_("R", "L", "T", "N", &m, &n, &one, diagonal, &node.count, panel + row, &node.count);
+      divide(m, n, diagonal, panel + row, node.count);
     });
   }
   return static_cast<Index>(factor_.n);
@@ -233,8 +287,13 @@ Index Factorization::factorize_columns(const Supernode& node, int threads) const
 
 }  // namespace
 
-Index factorize_supernodes(const SparseMatrix& lower, cholmod_factor& factor, int threads) {
-  return Factorization(lower, factor, threads).run();
+template <class Number>
+Index factorize_supernodes(const SparseMatrix& lower, const cholmod_factor& factor, Number* values,
+                           int threads) {
+  return Factorization<Number>(lower, factor, values, threads).run();
 }
+
+template Index factorize_supernodes(const SparseMatrix&, const cholmod_factor&, double*, int);
+template Index factorize_supernodes(const SparseMatrix&, const cholmod_factor&, float*, int);
 
 }  // namespace perilink

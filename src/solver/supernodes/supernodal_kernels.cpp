@@ -9,17 +9,16 @@ namespace {
 /// streams of L are what the prefetchers of current processors follow.
 constexpr Index width = 8;
 
-const double* column(const double* block, Index rows, Index j) {
-  return block + static_cast<std::size_t>(j) * rows;
-}
-double* column(double* block, Index rows, Index j) {
+template <class Number>
+Number* column(Number* block, Index rows, Index j) {
   return block + static_cast<std::size_t>(j) * rows;
 }
 
 /// local[r] -= sum of p_k l_k[r], r from `from`, for `width` columns at c.
-void eliminate_panel(const double* c, Index rows, Index from, const double* p, double* local) {
-  const double *c0 = c, *c1 = c0 + rows, *c2 = c1 + rows, *c3 = c2 + rows;
-  const double *c4 = c3 + rows, *c5 = c4 + rows, *c6 = c5 + rows, *c7 = c6 + rows;
+template <class Number>
+void eliminate_panel(const Number* c, Index rows, Index from, const double* p, double* local) {
+  const Number *c0 = c, *c1 = c0 + rows, *c2 = c1 + rows, *c3 = c2 + rows;
+  const Number *c4 = c3 + rows, *c5 = c4 + rows, *c6 = c5 + rows, *c7 = c6 + rows;
   const double p0 = p[0], p1 = p[1], p2 = p[2], p3 = p[3];
   const double p4 = p[4], p5 = p[5], p6 = p[6], p7 = p[7];
 #pragma omp simd
@@ -30,9 +29,10 @@ void eliminate_panel(const double* c, Index rows, Index from, const double* p, d
 }
 
 /// sums[k] = sum over rows from `from` of l_k[r] local[r], for `width` columns at c.
-void dot_panel(const double* c, Index rows, Index from, const double* local, double* sums) {
-  const double *c0 = c, *c1 = c0 + rows, *c2 = c1 + rows, *c3 = c2 + rows;
-  const double *c4 = c3 + rows, *c5 = c4 + rows, *c6 = c5 + rows, *c7 = c6 + rows;
+template <class Number>
+void dot_panel(const Number* c, Index rows, Index from, const double* local, double* sums) {
+  const Number *c0 = c, *c1 = c0 + rows, *c2 = c1 + rows, *c3 = c2 + rows;
+  const Number *c4 = c3 + rows, *c5 = c4 + rows, *c6 = c5 + rows, *c7 = c6 + rows;
   double s0 = 0, s1 = 0, s2 = 0, s3 = 0, s4 = 0, s5 = 0, s6 = 0, s7 = 0;
 #pragma omp simd reduction(+ : s0, s1, s2, s3, s4, s5, s6, s7)
   for (Index r = from; r < rows; ++r) {
@@ -76,19 +76,20 @@ void dot_and_change_panel(double* c, Index rows, Index from, const double* p, co
 
 }  // namespace
 
-void forward(const double* block, Index rows, Index columns, Index start, double* local) {
+template <class Number>
+void forward(const Number* block, Index rows, Index columns, Index start, double* local) {
   Index j = start;
   while (j < columns) {
     const Index count = columns - j < width ? columns - j : width;
     for (Index k = j; k < j + count; ++k) {
-      const double* l = column(block, rows, k);
+      const Number* l = column(block, rows, k);
       for (Index r = k + 1; r < j + count; ++r) local[r] -= local[k] * l[r];
     }
     if (count == width) {
       eliminate_panel(column(block, rows, j), rows, j + width, local + j, local);
     } else {
       for (Index k = j; k < j + count; ++k) {
-        const double* l = column(block, rows, k);
+        const Number* l = column(block, rows, k);
         const double p = local[k];
 #pragma omp simd
         for (Index r = j + count; r < rows; ++r) local[r] -= p * l[r];
@@ -98,7 +99,8 @@ void forward(const double* block, Index rows, Index columns, Index start, double
   }
 }
 
-void backward(const double* block, Index rows, Index columns, double* local) {
+template <class Number>
+void backward(const Number* block, Index rows, Index columns, double* local) {
   Index end = columns;
   while (end > 0) {
     const Index count = end < width ? end : width;
@@ -108,7 +110,7 @@ void backward(const double* block, Index rows, Index columns, double* local) {
       dot_panel(column(block, rows, j), rows, end, local, sums);
     } else {
       for (Index k = 0; k < count; ++k) {
-        const double* l = column(block, rows, j + k);
+        const Number* l = column(block, rows, j + k);
         double sum = 0.0;
 #pragma omp simd reduction(+ : sum)
         for (Index r = end; r < rows; ++r) sum += l[r] * local[r];
@@ -116,7 +118,7 @@ void backward(const double* block, Index rows, Index columns, double* local) {
       }
     }
     for (Index k = end - 1; k >= j; --k) {
-      const double* l = column(block, rows, k);
+      const Number* l = column(block, rows, k);
       double y = local[k] - sums[k - j];
       for (Index r = k + 1; r < end; ++r) y -= l[r] * local[r];
       local[k] = y;
@@ -124,6 +126,11 @@ void backward(const double* block, Index rows, Index columns, double* local) {
     end = j;
   }
 }
+
+template void forward(const double*, Index, Index, Index, double*);
+template void forward(const float*, Index, Index, Index, double*);
+template void backward(const double*, Index, Index, double*);
+template void backward(const float*, Index, Index, double*);
 
 void backward_and_change(double* block, Index rows, Index columns, const double* p,
                          const double* beta, double* local, double* w) {

@@ -7,18 +7,21 @@
 /// columns and `rows` rows, column-major with leading dimension `rows`: unit lower triangle on top,
 /// D stored on the diagonal, whatever CHOLMOD left above the diagonal never read. `local` is the
 /// part of a vector that belongs to the supernode's rows. Each kernel reads L once, in order: they
-/// run at the speed of memory once the factor is larger than the caches.
+/// run at the speed of memory once the factor is larger than the caches. L may be in single
+/// precision (Number is float); what is computed with it is not.
 
 namespace perilink::supernodal {
 
 /// Forward elimination: on entry local = w on the supernode's rows; on return the first `columns`
 /// entries hold p = L11^-1 w1 and the rest w2 - L21 p. Starts at column `start` (entries above it
 /// must be zero).
-void forward(const double* block, Index rows, Index columns, Index start, double* local);
+template <class Number>
+void forward(const Number* block, Index rows, Index columns, Index start, double* local);
 
 /// Backward substitution: on entry local holds z on the columns and the solution on the rows below;
 /// on return the columns hold the solution y1 = L11^-T (z1 - L21' y2).
-void backward(const double* block, Index rows, Index columns, double* local);
+template <class Number>
+void backward(const Number* block, Index rows, Index columns, double* local);
 
 /// Backward substitution as above with the old columns, and at the same time the rank-one change
 /// that turns them into the columns of L D L' - x x' (Gill, Golub, Murray & Saunders 1974, method

@@ -4,28 +4,15 @@
 #include <numeric>
 
 namespace perilink {
-namespace {
-
-const Index* ints(const void* array) { return static_cast<const Index*>(array); }
-
-}  // namespace
-
-Supernode supernode_of(const cholmod_factor& factor, Index s) {
-  const Index* super = ints(factor.super);
-  const Index* first_row = ints(factor.pi);
-  return {ints(factor.s) + first_row[s], static_cast<double*>(factor.x) + ints(factor.px)[s],
-          super[s], super[s + 1] - super[s], first_row[s + 1] - first_row[s]};
-}
-
 SupernodeTree::SupernodeTree(const cholmod_factor& factor)
     : of_column(factor.n), parent(factor.nsuper, no_index) {
   const Index count = static_cast<Index>(factor.nsuper);
   for (Index s = 0; s < count; ++s) {
-    const Supernode node = supernode_of(factor, s);
+    const auto node = supernode_of(factor, s);
     std::fill_n(of_column.begin() + node.first, node.columns, s);
   }
   for (Index s = 0; s < count; ++s) {
-    const Supernode node = supernode_of(factor, s);
+    const auto node = supernode_of(factor, s);
     if (node.below() > 0) parent[s] = of_column[node.rows[node.columns]];
   }
 }

@@ -14,16 +14,29 @@
 namespace perilink {
 
 /// Columns of L with the same rows, which begin with the columns themselves.
+template <class Number>
 struct Supernode {
   const Index* rows;
-  double* values;  ///< column-major, shape (count, columns)
+  Number* values;  ///< column-major, shape (count, columns)
   Index first, columns, count;
 
   Index below() const { return count - columns; }
-  double* column(Index j) const { return values + static_cast<std::size_t>(j) * count; }
+  Number* column(Index j) const { return values + static_cast<std::size_t>(j) * count; }
 };
 
-Supernode supernode_of(const cholmod_factor& factor, Index s);
+/// \param values  all numbers of L, shape (factor.xsize); none: of the pattern alone
+template <class Number>
+Supernode<Number> supernode_of(const cholmod_factor& factor, Number* values, Index s) {
+  const auto ints = [](const void* array) { return static_cast<const Index*>(array); };
+  const Index* super = ints(factor.super);
+  const Index* first_row = ints(factor.pi);
+  Number* own = values == nullptr ? nullptr : values + ints(factor.px)[s];
+  return {ints(factor.s) + first_row[s], own, super[s], super[s + 1] - super[s],
+          first_row[s + 1] - first_row[s]};
+}
+inline Supernode<double> supernode_of(const cholmod_factor& factor, Index s) {
+  return supernode_of(factor, static_cast<double*>(factor.x), s);
+}
 
 /// The elimination tree of the supernodes.
 struct SupernodeTree {

@@ -3,19 +3,21 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <tuple>
 #include <utility>
 
+#include "base/error.hpp"
 #include "solver/factor_routes.hpp"
 #include "solver/ordering.hpp"
 
 namespace perilink {
 namespace {
 
-/// Added to the diagonal of the factor beside that, relative to its mean: round-off must not make
-/// rows negative that depend on others.
-constexpr double factor_floor = 1e-13;
+/// Added to the diagonal of the factor beside that, relative to its mean: round-off of single
+/// precision must not make rows negative that depend on others. More where it does.
+constexpr std::array<double, 3> floors = {1e-7, 1e-6, 1e-5};
 /// A new factor costs as much as this many iterations at least ...
 constexpr double stale_iterations = 10.0;
 /// ... and more of large factors: an operation of a solution, whose speed is that of the memory,
@@ -99,23 +101,27 @@ void TiedFactor::factorize(const TiedEquations::Matrix& columns, std::span<const
     const Index point = order_[row / rows_];
     return matrix_.block(point, point, place_[row])[place_[row]];
   };
-  double trace = 0.0;
-  for (const Index row : row_) trace += entry(row);
-  const double floor = factor_floor * trace / static_cast<double>(row_.size());
-  for (const Index row : row_) entry(row) += entry(row) > 0.0 ? shift[row] + floor : 1.0;
-  if (factor_) {
-    factor_->refactorize(matrix_.matrix());
-  } else {
-    factor_ = make_factor(FactorRoute::in_place, omp_get_max_threads());
-    factor_->factorize(matrix_.matrix(), {});
+  if (!factor_) {
+    factor_ = std::make_unique<PreconditionerFactor>(matrix_.matrix(), omp_get_max_threads());
     statistics_ = factor_->statistics();
   }
+  double trace = 0.0;
+  for (const Index row : row_) trace += entry(row);
+  const double mean = trace / static_cast<double>(row_.size());
+  for (const Index row : row_) entry(row) += entry(row) > 0.0 ? shift[row] : 1.0;
+  double before = 0.0;
+  for (const double floor : floors) {
+    for (const Index row : row_) entry(row) += (floor - before) * mean;
+    before = floor;
+    if (factor_->factorize(matrix_.matrix())) return;
+  }
+  throw SolverError("the equations of bonds that are made alike have no factor");
 }
 
 void TiedFactor::solve(std::span<const double> residual, std::span<double> result) const {
   std::vector<double> some;
   for (const Index row : row_) some.push_back(residual[row]);
-  factor_->solve(some, some);
+  factor_->solve(some);
   std::ranges::fill(result, 0.0);
   for (std::size_t k = 0; k < row_.size(); ++k) result[row_[k]] = some[k];
 }

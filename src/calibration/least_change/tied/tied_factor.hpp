@@ -6,7 +6,7 @@
 
 #include "calibration/least_change/equations/point_matrix.hpp"
 #include "calibration/least_change/tied/tied_equations.hpp"
-#include "solver/factor.hpp"
+#include "solver/supernodes/preconditioner_factor.hpp"
 
 namespace perilink {
 
@@ -41,7 +41,7 @@ class TiedFactor {
   std::vector<Index> place_;  // per row: its place among those of its point; no_index: none
   FactorStatistics statistics_;
   PointMatrix matrix_;
-  std::unique_ptr<Factor> factor_;
+  std::unique_ptr<PreconditionerFactor> factor_;
 };
 
 }  // namespace perilink
