@@ -9,8 +9,6 @@
 #include <unordered_set>
 #include <utility>
 
-#include "base/csr.hpp"
-
 namespace perilink {
 namespace {
 
@@ -214,15 +212,25 @@ void Surroundings::sort_places() {
 }
 
 void Surroundings::find_neighbours() {
-  const Csr bonds_of = bonds_of_particles(input_.bonds, input_.particles.size());
-  first_neighbour_.push_back(0);
-  for (const Index i : example_) {
-    for (const Index b : bonds_of.row(i)) {
-      const bool reversed = input_.bonds.first[b] != i;
-      neighbours_.push_back({label_[b], 2 * offset_of_[b] + reversed, kind_[start(b, !reversed)]});
+  std::vector<Index> kind_of(size_, no_index);  // of the examples
+  for (std::size_t k = 0; k < example_.size(); ++k) kind_of[example_[k]] = static_cast<Index>(k);
+  const auto for_each_end = [&](auto visit) {
+    for (Index b = 0; b < input_.bonds.size(); ++b) {
+      for (const bool reversed : {false, true}) {
+        const Index kind = kind_of[start(b, reversed)];
+        if (kind != no_index) visit(static_cast<std::size_t>(kind), b, reversed);
+      }
     }
-    first_neighbour_.push_back(neighbours_.size());
-  }
+  };
+  first_neighbour_.assign(example_.size() + 1, 0);
+  for_each_end([&](std::size_t kind, Index, bool) { ++first_neighbour_[kind + 1]; });
+  for (std::size_t k = 0; k < example_.size(); ++k) first_neighbour_[k + 1] += first_neighbour_[k];
+  neighbours_.resize(first_neighbour_.back());
+  std::vector<std::size_t> next(first_neighbour_.begin(), first_neighbour_.end() - 1);
+  for_each_end([&](std::size_t kind, Index b, bool reversed) {
+    neighbours_[next[kind]++] = {label_[b], 2 * offset_of_[b] + reversed,
+                                 kind_[start(b, !reversed)]};
+  });
 }
 
 /// What a kind looks like with what can be seen from its neighbours.

@@ -19,6 +19,9 @@ constexpr int most_newton_steps = 40;
 /// Newton's method is lost where the dual function stops growing this early along a step.
 constexpr double shortest_step = 1e-5;
 
+/// Growth of the dual function below this part of it is lost in the round-off of its sums.
+constexpr double lost_growth = 1e-11;
+
 /// A step that leaves so many times the residual at which the interior-point method ended is lost.
 constexpr double lost = 100.0;
 
@@ -99,14 +102,15 @@ double DualNewton<Normal>::dual(const Vector& y) {
   return value;
 }
 
-/// Halves the step until the concave dual function grows. Multipliers of what cannot be met would
-/// go to infinity: no step is longer than to the price and back. \return length of the step, of the
-/// first that was tried
+/// Halves the step until the concave dual function grows, or its gradient, the residual, shrinks
+/// where the growth is lost in round-off. Multipliers of what cannot be met would go to infinity: no
+/// step is longer than to the price and back. \return length of the step, of the first that was
+/// tried
 template <class Normal>
 double DualNewton<Normal>::search_line(const Vector& residual, const Vector& direction, Vector& y) {
   const double before = dual(y);
   const double slope = dot(residual, direction);
-  Vector trial(y.size());
+  Vector trial(y.size()), rest;
   double longest = 0.0;
   for (const double d : direction) longest = std::max(longest, std::abs(d));
   const double first = longest > 2.0 * options_.price ? 2.0 * options_.price / longest : 1.0;
@@ -115,6 +119,9 @@ double DualNewton<Normal>::search_line(const Vector& residual, const Vector& dir
     for (std::size_t k = 0; k < y.size(); ++k) trial[k] = y[k] + step * direction[k];
     // Round-off of the sums in dual(): 1e-13 of their size.
     if (dual(trial) >= before + 1e-4 * step * slope - 1e-13 * std::abs(before)) break;
+    if (step * slope > lost_growth * std::abs(before)) continue;
+    normal_.measure(weights_, trial, rest);
+    if (norm(rest) < 0.5 * norm(residual)) break;
   }
   y = trial;
   return step / first;

@@ -7,9 +7,8 @@
 namespace perilink {
 
 const char* fitting_kernels(std::string_view taken, bool has_avx2, bool has_avx512) {
-  const bool unknown = taken == "Prescott", without_avx512 = taken == "Haswell" || taken == "Zen";
-  if (has_avx512 && (unknown || without_avx512)) return "SKYLAKEX";
-  return has_avx2 && unknown ? "HASWELL" : "";
+  if (taken != "Prescott") return "";
+  return has_avx512 ? "SKYLAKEX" : has_avx2 ? "HASWELL" : "";
 }
 
 void use_fitting_kernels() {

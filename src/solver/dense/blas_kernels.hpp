@@ -5,9 +5,7 @@
 namespace perilink {
 
 /// Kernels of OpenBLAS for a processor that it does not know: it then takes those of 2004, which
-/// factorise 2.5 times slower. On processors of AMD with AVX-512, which its versions before 0.3.22
-/// do not tell from those without, products are twice as fast with it. Empty: those that it has
-/// taken are good.
+/// factorise 2.5 times slower. Empty: those that it has taken are good.
 /// \param taken  name of those that it has taken
 const char* fitting_kernels(std::string_view taken, bool has_avx2, bool has_avx512);
 

@@ -40,7 +40,7 @@ TEST(TiedNormalEquations, SettledStepsMeetSoftEquations) {
 
 /// Sixty equations of one variable each, whose mobility falls to 1e-6 behind the first solution:
 /// the preconditioner that was kept would take an iteration for nearly each of them. After ten,
-/// what a factor costs at least, it is made anew.
+/// what a factor costs at least, it is made anew, and brings some seven digits at a time.
 TEST(TiedNormalEquations, MakeAFactorAnewThatServesBadly) {
   constexpr Index count = 60;
   PointEquations equations;
@@ -68,7 +68,7 @@ TEST(TiedNormalEquations, MakeAFactorAnewThatServesBadly) {
     normal.mobility[p] = std::pow(1e-6, static_cast<double>(p) / (count - 1));
   }
   normal.prepare_if_stale(false, false);
-  EXPECT_LE(normal.solve(residual, 1e-10, direction), 12);
+  EXPECT_LE(normal.solve(residual, 1e-10, direction), 16);
   for (Index p = 0; p < count; ++p) EXPECT_NEAR(direction[p] * normal.mobility[p], 1.0, 1e-3);
 }
 
