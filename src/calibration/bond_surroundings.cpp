@@ -9,6 +9,8 @@
 #include <unordered_set>
 #include <utility>
 
+#include "base/csr.hpp"
+
 namespace perilink {
 namespace {
 
@@ -212,25 +214,22 @@ void Surroundings::sort_places() {
 }
 
 void Surroundings::find_neighbours() {
-  std::vector<Index> kind_of(size_, no_index);  // of the examples
-  for (std::size_t k = 0; k < example_.size(); ++k) kind_of[example_[k]] = static_cast<Index>(k);
-  const auto for_each_end = [&](auto visit) {
+  const Index kinds = static_cast<Index>(example_.size());
+  std::vector<Index> kind_of(size_, no_index);  // where a particle is an example
+  for (Index k = 0; k < kinds; ++k) kind_of[example_[k]] = k;
+  const Csr ends = sorted_into_rows(kinds, [&](auto act) {  // bonds, twice, plus one if reversed
     for (Index b = 0; b < input_.bonds.size(); ++b) {
       for (const bool reversed : {false, true}) {
         const Index kind = kind_of[start(b, reversed)];
-        if (kind != no_index) visit(static_cast<std::size_t>(kind), b, reversed);
+        if (kind != no_index) act(kind, 2 * b + reversed);
       }
     }
-  };
-  first_neighbour_.assign(example_.size() + 1, 0);
-  for_each_end([&](std::size_t kind, Index, bool) { ++first_neighbour_[kind + 1]; });
-  for (std::size_t k = 0; k < example_.size(); ++k) first_neighbour_[k + 1] += first_neighbour_[k];
-  neighbours_.resize(first_neighbour_.back());
-  std::vector<std::size_t> next(first_neighbour_.begin(), first_neighbour_.end() - 1);
-  for_each_end([&](std::size_t kind, Index b, bool reversed) {
-    neighbours_[next[kind]++] = {label_[b], 2 * offset_of_[b] + reversed,
-                                 kind_[start(b, !reversed)]};
   });
+  first_neighbour_.assign(ends.offsets.begin(), ends.offsets.end());
+  for (const Index end : ends.values) {
+    const Index b = end / 2, reversed = end % 2;
+    neighbours_.push_back({label_[b], 2 * offset_of_[b] + reversed, kind_[start(b, !reversed)]});
+  }
 }
 
 /// What a kind looks like with what can be seen from its neighbours.
@@ -243,8 +242,8 @@ Key Surroundings::look_around(std::size_t kind, const Views& views, const Views&
   return join(views[kind], sum);
 }
 
-/// Kinds, and bonds at them, that a turn maps on each other: the least of what all turns show is the
-/// same. What is near comes first, so that others count only where it is least.
+/// Kinds, and bonds at them, that a turn maps on each other: the least of what all turns show is
+/// the same. What is near comes first: turns count only where that is least.
 void Surroundings::turn_places() {
   const std::size_t kinds = example_.size();
   std::vector<Views> offsets(turns_.size()), near(turns_.size(), Views(kinds));

@@ -32,7 +32,7 @@ constexpr double few_bonds = 30.0, in_space_by_factor = 200e-6, bonds_by_factor 
 /// Bonds that lie alike made alike: seconds for each bond, and operations of factors of their
 /// equations over c r^3 n^2 for n kinds of places with r rows and c bonds each (a factor and a
 /// hundred solutions).
-constexpr double alike = 0.6e-6, alike_operations = 1.7, operations_per_second = 3e10;
+constexpr double alike = 0.6e-6, alike_operations = 0.8, operations_per_second = 3e10;
 /// So many end the attempt: bodies that need most of them take a half of it.
 constexpr double most_alike_operations = 6.0;
 /// They must save so much: they may have no solution, and both costs are rough.

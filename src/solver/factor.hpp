@@ -4,16 +4,12 @@
 #include <span>
 #include <vector>
 
-#include <Eigen/SparseCore>
-
 #include "base/sparse_vector.hpp"
 #include "base/types.hpp"
 #include "solver/single_factor.hpp"
+#include "solver/supernodes/sparse_matrix.hpp"
 
 namespace perilink {
-
-/// Symmetric matrix; only the lower triangle is stored.
-using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, Index>;
 
 /// Size and cost of a factor.
 struct FactorStatistics {

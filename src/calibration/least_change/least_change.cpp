@@ -103,8 +103,8 @@ double DualNewton<Normal>::dual(const Vector& y) {
 }
 
 /// Halves the step until the concave dual function grows, or its gradient, the residual, shrinks
-/// where the growth is lost in round-off. Multipliers of what cannot be met would go to infinity: no
-/// step is longer than to the price and back. \return length of the step, of the first that was
+/// where the growth is lost in round-off. Multipliers of what cannot be met would go to infinity:
+/// no step is longer than to the price and back. \return length of the step, of the first that was
 /// tried
 template <class Normal>
 double DualNewton<Normal>::search_line(const Vector& residual, const Vector& direction, Vector& y) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/csr.hpp"
+
 namespace perilink {
 
 std::vector<double> TiedEquations::weights(std::span<const double> unknowns) const {
@@ -13,16 +15,23 @@ std::vector<double> TiedEquations::weights(std::span<const double> unknowns) con
 
 std::vector<std::pair<Index, Index>> shared_variables(const TiedEquations::Matrix& columns,
                                                       Index rows) {
-  std::vector<std::pair<Index, Index>> pairs;
   std::vector<Index> points;
-  for (Index u = 0; u < static_cast<Index>(columns.rows()); ++u) {
-    points.clear();
-    for_each_point(columns, u, rows, [&](int first, int) {
-      points.push_back(columns.innerIndexPtr()[first] / rows);
-      for (const Index p : points) pairs.emplace_back(p, points.back());
-    });
+  Csr later = sorted_into_rows(static_cast<Index>(columns.cols()) / rows, [&](auto act) {
+    for (Index u = 0; u < static_cast<Index>(columns.rows()); ++u) {
+      points.clear();
+      for_each_point(columns, u, rows, [&](int first, int) {
+        points.push_back(columns.innerIndexPtr()[first] / rows);
+        for (const Index p : points) act(p, points.back());
+      });
+    }
+  });
+  std::vector<std::pair<Index, Index>> pairs(later.values.size());
+#pragma omp parallel for schedule(dynamic, 16)
+  for (Index p = 0; p < later.rows(); ++p) {
+    const auto begin = later.values.begin() + later.offsets[p];
+    std::sort(begin, later.values.begin() + later.offsets[p + 1]);
+    for (Index k = later.offsets[p]; k < later.offsets[p + 1]; ++k) pairs[k] = {p, later.values[k]};
   }
-  std::ranges::sort(pairs);
   return pairs;
 }
 

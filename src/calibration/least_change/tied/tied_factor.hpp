@@ -6,7 +6,7 @@
 
 #include "calibration/least_change/equations/point_matrix.hpp"
 #include "calibration/least_change/tied/tied_equations.hpp"
-#include "solver/supernodes/preconditioner_factor.hpp"
+#include "solver/preconditioner_factor.hpp"
 
 namespace perilink {
 

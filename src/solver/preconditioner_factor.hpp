@@ -11,8 +11,8 @@ namespace perilink {
 /// the time and memory, and a solution, in double precision, reads half as much.
 class PreconditionerFactor {
  public:
-  /// \param lower  of the pattern, its unknowns in the order of elimination (elimination_order());
-  ///               numbers of any kind
+  /// \param lower  a matrix of the pattern, its unknowns in the order of elimination
+  ///               (elimination_order())
   PreconditionerFactor(const SparseMatrix& lower, int threads);
   ~PreconditionerFactor();
 

@@ -1,4 +1,4 @@
-#include "solver/supernodes/preconditioner_factor.hpp"
+#include "solver/preconditioner_factor.hpp"
 
 #include <gtest/gtest.h>
 
