@@ -34,8 +34,6 @@ std::optional<CalibrationReport> calibrate_alike(const CalibrationInput& input,
     return std::nullopt;
   }
   CalibrationEquations whole(input, options.least_weight, facets, stiffness);
-  whole.report_balance(report);
-  report.residual_before = report.residual_after;
   report.alike = true;
   CalibrationEquations::State state = whole.save();
   if (!spread(sample, search.result().stiffness, orbits, state.stiffness)) {

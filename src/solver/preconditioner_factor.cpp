@@ -1,8 +1,12 @@
 #include "solver/preconditioner_factor.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <new>
+#include <string>
 #include <vector>
 
+#include "base/error.hpp"
 #include "solver/cholmod_support.hpp"
 #include "solver/supernodes/supernodal_cholesky.hpp"
 #include "solver/supernodes/supernodal_kernels.hpp"
@@ -41,8 +45,12 @@ struct PreconditionerFactor::Parts {
   std::vector<double> local;   // rows of a supernode
 };
 
-PreconditionerFactor::PreconditionerFactor(const SparseMatrix& lower, int threads)
-    : parts_(std::make_unique<Parts>(lower, threads)) {}
+PreconditionerFactor::PreconditionerFactor(const SparseMatrix& lower, int threads) try
+    : parts_(std::make_unique<Parts>(lower, threads)) {
+} catch (const std::bad_alloc&) {
+  throw SolverError("out of memory for the factor of a preconditioner of " +
+                    std::to_string(lower.cols()) + " rows");
+}
 
 PreconditionerFactor::~PreconditionerFactor() = default;
 
@@ -51,7 +59,7 @@ bool PreconditionerFactor::factorize(const SparseMatrix& lower) {
       factorize_supernodes(lower, *parts_->pattern, parts_->values.get(), parts_->threads);
   if (failed < static_cast<Index>(lower.cols())) return false;
   turn_into_ldl();
-  return true;
+  return std::ranges::all_of(parts_->pivots, [](double p) { return p > 0.0 && std::isfinite(p); });
 }
 
 void PreconditionerFactor::turn_into_ldl() {

@@ -13,11 +13,12 @@ class PreconditionerFactor {
  public:
   /// \param lower  a matrix of the pattern, its unknowns in the order of elimination
   ///               (elimination_order())
+  /// \throws SolverError  where there is no memory
   PreconditionerFactor(const SparseMatrix& lower, int threads);
   ~PreconditionerFactor();
 
   /// Factorises a matrix of this pattern.
-  /// \return whether it is positive definite in single precision
+  /// \return whether it is positive definite, and finite, in single precision
   bool factorize(const SparseMatrix& lower);
   /// Solves the right side where it is, size n.
   void solve(std::span<double> side);

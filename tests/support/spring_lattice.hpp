@@ -74,4 +74,13 @@ inline double relative_difference(const std::vector<double>& a, const std::vecto
   return difference / size;
 }
 
+/// Rows and columns in another order, order[k] the one that comes k-th.
+inline SparseMatrix reordered(const SparseMatrix& lower, const std::vector<Index>& order) {
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, Index> place(lower.cols());
+  for (Index k = 0; k < static_cast<Index>(order.size()); ++k) place.indices()[order[k]] = k;
+  SparseMatrix result(lower.rows(), lower.cols());
+  result.selfadjointView<Eigen::Lower>() = lower.selfadjointView<Eigen::Lower>().twistedBy(place);
+  return SparseMatrix(result.transpose()).transpose();  // rows of a column in ascending order
+}
+
 }  // namespace perilink::test

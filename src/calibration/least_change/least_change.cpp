@@ -31,8 +31,8 @@ constexpr double rough = 1e-4;
 
 /// Weights this near to a bound are at it.
 constexpr double at_bound = 1e-3;
-/// Multipliers to start from are those of the end where they leave no more than this, per root of
-/// the number of points.
+/// Multipliers are near those of the end where they leave no more than this, per root of the number
+/// of points.
 constexpr double near_the_end = 1e-4;
 
 template <class Normal>
@@ -102,10 +102,10 @@ double DualNewton<Normal>::dual(const Vector& y) {
   return value;
 }
 
-/// Halves the step until the concave dual function grows, or its gradient, the residual, shrinks
-/// where the growth is lost in round-off. Multipliers of what cannot be met would go to infinity:
-/// no step is longer than to the price and back. \return length of the step, of the first that was
-/// tried
+/// Halves the step until the concave dual function grows, or, near the end, its gradient, the
+/// residual, shrinks where the growth is lost in round-off. Multipliers of what cannot be met would
+/// go to infinity: no step is longer than to the price and back. \return length of the step, of the
+/// first that was tried
 template <class Normal>
 double DualNewton<Normal>::search_line(const Vector& residual, const Vector& direction, Vector& y) {
   const double before = dual(y);
@@ -113,13 +113,14 @@ double DualNewton<Normal>::search_line(const Vector& residual, const Vector& dir
   Vector trial(y.size()), rest;
   double longest = 0.0;
   for (const double d : direction) longest = std::max(longest, std::abs(d));
+  const bool near = norm(residual) < near_the_end * root_of_points();
   const double first = longest > 2.0 * options_.price ? 2.0 * options_.price / longest : 1.0;
   double step = first;
   for (int halvings = 0; halvings < 30; ++halvings, step *= 0.5) {
     for (std::size_t k = 0; k < y.size(); ++k) trial[k] = y[k] + step * direction[k];
     // Round-off of the sums in dual(): 1e-13 of their size.
     if (dual(trial) >= before + 1e-4 * step * slope - 1e-13 * std::abs(before)) break;
-    if (step * slope > lost_growth * std::abs(before)) continue;
+    if (!near || step * slope > lost_growth * std::abs(before)) continue;
     normal_.measure(weights_, trial, rest);
     if (norm(rest) < 0.5 * norm(residual)) break;
   }

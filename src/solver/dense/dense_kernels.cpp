@@ -134,7 +134,9 @@ Eigen::VectorXd diagonalize(MatrixXd& matrix) {
 }  // namespace
 
 int prepare_blas(int threads) {
+  static std::mutex one_at_a_time;
   static std::once_flag chosen;
+  const std::lock_guard lock(one_at_a_time);
   std::call_once(chosen, use_fitting_kernels);
   use_one_blas_thread();
   return take_blas_buffers(threads);

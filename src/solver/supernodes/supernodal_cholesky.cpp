@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <memory>
+#include <new>
 #include <numeric>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "base/error.hpp"
 #include "solver/dense/dense_kernels.hpp"
 #include "solver/dense/lapack.hpp"
 #include "solver/supernodes/supernodes.hpp"
@@ -190,8 +193,10 @@ Index Factorization<Number>::run() {
     }
     failed = std::min(failed, column);
   }
-  for (auto s = cut_.top.rbegin(); s != cut_.top.rend() && failed == size; ++s) {
-    failed = compute(*s, 0, operations(*s) < least_shared ? 1 : threads_);
+  // Where something has failed, what comes before it is there, and may fail yet.
+  for (auto s = cut_.top.rbegin(); s != cut_.top.rend(); ++s) {
+    if (supernode(*s).first >= failed) break;
+    failed = std::min(failed, compute(*s, 0, operations(*s) < least_shared ? 1 : threads_));
   }
   return failed;
 }
@@ -290,7 +295,12 @@ Index Factorization<Number>::factorize_columns(const Node& node, int threads) co
 template <class Number>
 Index factorize_supernodes(const SparseMatrix& lower, const cholmod_factor& factor, Number* values,
                            int threads) {
-  return Factorization<Number>(lower, factor, values, threads).run();
+  try {
+    return Factorization<Number>(lower, factor, values, threads).run();
+  } catch (const std::bad_alloc&) {
+    throw SolverError("out of memory while factorising a matrix of " + std::to_string(factor.n) +
+                      " rows");
+  }
 }
 
 template Index factorize_supernodes(const SparseMatrix&, const cholmod_factor&, double*, int);

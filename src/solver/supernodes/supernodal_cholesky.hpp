@@ -13,6 +13,7 @@ namespace perilink {
 /// of threads.
 /// \param lower  lower triangle in the order of the factor, shape (n, n)
 /// \param values  those of L, in double or single precision, shape (factor.xsize)
+/// \throws SolverError  where there is no memory
 /// \return the first column at which the matrix is not positive definite; n where it is
 template <class Number>
 Index factorize_supernodes(const SparseMatrix& lower, const cholmod_factor& factor, Number* values,

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <limits>
 #include <vector>
 
 #include "solver/factor_routes.hpp"
@@ -14,10 +15,7 @@ namespace {
 /// The rows of a lattice in the order of elimination.
 SparseMatrix ordered_lattice() {
   const auto lattice = test::make_spring_lattice(20, 30, 3.0);
-  const std::vector<Index> order = elimination_order(lattice.lower);
-  const Eigen::MatrixXd dense = lattice.dense();
-  const Eigen::MatrixXd lower = dense(order, order).triangularView<Eigen::Lower>();
-  return lower.sparseView();
+  return test::reordered(lattice.lower, elimination_order(lattice.lower));
 }
 
 TEST(PreconditionerFactor, SolvesToSinglePrecision) {
@@ -45,6 +43,10 @@ TEST(PreconditionerFactor, SaysWhereThereIsNone) {
   EXPECT_FALSE(factor.factorize(lower));
   lower.coeffRef(100, 100) = 1e3;
   EXPECT_TRUE(factor.factorize(lower));
+  for (const double number : {1e60, std::numeric_limits<double>::quiet_NaN()}) {
+    lower.coeffRef(100, 100) = number;
+    EXPECT_FALSE(factor.factorize(lower)) << number;
+  }
 }
 
 TEST(PreconditionerFactor, TakesHalfTheMemory) {
