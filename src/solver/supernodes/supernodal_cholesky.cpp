@@ -20,7 +20,7 @@ namespace {
 
 /// Rows of a supernode that are worked on together, and columns: enough for BLAS to be fast, few
 /// enough for threads to share.
-constexpr Index tile_rows = 256, panel_columns = 128;
+constexpr Index tile_rows = 512, panel_columns = 256;
 /// Operations below which starting threads costs more than it saves.
 constexpr double least_shared = 1e7;
 
