@@ -55,8 +55,8 @@ void InPlaceFactor::adopt_pattern() {
     longest_ = std::max(longest_, block(s).count);
     numbers.push_back(static_cast<double>(block(s).count) * block(s).columns);
   }
-  // Every supernode is computed alike wherever the cut runs, so results do not depend on the number
-  // of threads.
+  // Every supernode is computed alike wherever the cut runs: any number of threads gives the same
+  // results.
   const double total = std::accumulate(numbers.begin(), numbers.end(), 0.0);
   const bool parallel = threads_ > 1 && total > smallest_parallel_factor;
   cut_ = tree_.cut(std::move(numbers), parallel ? total / (4.0 * threads_) : 0.0);

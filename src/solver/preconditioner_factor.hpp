@@ -7,8 +7,8 @@
 
 namespace perilink {
 
-/// A factor in single precision, for preconditioners that need no more digits: it is made in half
-/// the time and memory, and a solution, in double precision, reads half as much.
+/// A factor in single precision, for preconditioners that need no more digits: it takes half the
+/// memory, and a solution, in double precision, reads half as much.
 class PreconditionerFactor {
  public:
   /// \param lower  a matrix of the pattern, its unknowns in the order of elimination

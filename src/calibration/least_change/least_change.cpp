@@ -31,8 +31,8 @@ constexpr double rough = 1e-4;
 
 /// Weights this near to a bound are at it.
 constexpr double at_bound = 1e-3;
-/// Multipliers are near those of the end where they leave no more than this, per root of the number
-/// of points.
+/// Multipliers are near those of the end where they leave no more than this times the root of the
+/// number of points.
 constexpr double near_the_end = 1e-4;
 
 template <class Normal>

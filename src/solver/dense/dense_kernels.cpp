@@ -135,9 +135,10 @@ Eigen::VectorXd diagonalize(MatrixXd& matrix) {
 
 int prepare_blas(int threads) {
   static std::mutex one_at_a_time;
-  static std::once_flag chosen;
+  static bool chosen = false;
   const std::lock_guard lock(one_at_a_time);
-  std::call_once(chosen, use_fitting_kernels);
+  if (!chosen) use_fitting_kernels();
+  chosen = true;
   use_one_blas_thread();
   return take_blas_buffers(threads);
 }

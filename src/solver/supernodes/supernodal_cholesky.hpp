@@ -9,8 +9,8 @@ namespace perilink {
 /// The numbers of a supernodal factor L L' whose pattern CHOLMOD has analysed: left-looking,
 /// supernode by supernode (Ng & Peyton 1993). Threads share the independent subtrees of the
 /// elimination tree, and above these the rows of large supernodes. Which pieces there are depends
-/// on the pattern alone, and each is computed by one thread: the bytes are the same for any number
-/// of threads.
+/// on the pattern alone, and each is computed by one thread: any number of threads gives the same
+/// bytes.
 /// \param lower  lower triangle in the order of the factor, shape (n, n)
 /// \param values  those of L, in double or single precision, shape (factor.xsize)
 /// \throws SolverError  where there is no memory

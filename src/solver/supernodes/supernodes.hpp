@@ -2,7 +2,6 @@
 
 #include <cholmod.h>
 
-#include <span>
 #include <utility>
 #include <vector>
 
