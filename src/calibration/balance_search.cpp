@@ -4,11 +4,13 @@
 #include <cmath>
 #include <utility>
 
+#include "calibration/balance_measure.hpp"
+
 namespace perilink {
 namespace {
 
 /// Forces out of balance above this have no solution with the floors of all bonds.
-constexpr double met = CalibrationEquations::met;
+constexpr double met = met_balance;
 
 /// Where a factor leaves every step a hundredth of the residual at most, coarse searches take it
 /// for a contradiction when a tenth is left.
@@ -54,12 +56,11 @@ constexpr double coarse_tolerance = 1e-6, coarsely_met = 1e-4;
 }  // namespace
 
 /// One search, whose answer becomes the present state.
-LeastChange BalanceSearch::find_least_change(const PointEquations& equations,
-                                             LeastChangeOptions options) {
+LeastChange BalanceSearch::find_least_change(PointEquations equations, LeastChangeOptions options) {
   ++searches_;
   if (on_search_) on_search_(searches_, unbalanced());
   options.operations = operations_;
-  LeastChange change = least_change(equations, options, kept_);
+  LeastChange change = least_change(std::move(equations), options, kept_);
   operations_ -= change.operations;
   equations_.apply(change.weights);
   report_.iterations += change.iterations;
@@ -93,7 +94,7 @@ void BalanceSearch::balance_by(Method method, double charge, double tolerance) {
   options.price = charge;
   options.hopeless = hopeless_;
   if (in_space_ && irregular_) options.proximity = proximity;
-  const PointEquations equations = equations_.balance();
+  PointEquations equations = equations_.balance();
   const bool tight =
       equations.num_variables() / least_freedom < static_cast<Index>(equations.right.size());
   options.preconditioner = !in_space_             ? Preconditioner::factor
@@ -102,7 +103,7 @@ void BalanceSearch::balance_by(Method method, double charge, double tolerance) {
   if (tied_) options.lost = lost_by_factor;
   if (tied_ && tolerance > tolerance_) options.contradiction = contradiction_by_factor;
   options.start = std::exchange(start_, {});
-  multipliers_ = find_least_change(equations, options).multipliers;
+  multipliers_ = find_least_change(std::move(equations), options).multipliers;
   equations_.report_balance(report_);
 }
 

@@ -51,7 +51,7 @@ class BalanceSearch {
   /// What a search lessens, to compare two ends: prices the sum, least squares about the largest.
   double left() const { return priced_ && !soft_moments_ ? report_.sum_after : unbalanced(); }
   void soften_moments();
-  LeastChange find_least_change(const PointEquations& equations, LeastChangeOptions options);
+  LeastChange find_least_change(PointEquations equations, LeastChangeOptions options);
   void settle();
   bool drop_what_must_vanish();
   void refine();

@@ -69,15 +69,20 @@ std::vector<Turn> turns_of(const Vector3& step) {
   return turns;
 }
 
-/// In parts of the largest that count as the same.
-std::vector<std::int64_t> rounded(const std::vector<double>& values) {
-  double most = 0.0;
-  for (const double value : values) most = std::max(most, std::abs(value));
-  const double unit = most > 0.0 ? same * most : 1.0;
-  std::vector<std::int64_t> result;
-  for (const double value : values) result.push_back(std::llround(value / unit));
-  return result;
-}
+/// Values in parts of the largest that count as the same.
+class Rounding {
+ public:
+  explicit Rounding(const std::vector<double>& values) : values_(values) {
+    double most = 0.0;
+    for (const double value : values) most = std::max(most, std::abs(value));
+    if (most > 0.0) parts_ = 1.0 / (same * most);
+  }
+  std::int64_t operator[](std::size_t k) const { return std::llround(parts_ * values_[k]); }
+
+ private:
+  const std::vector<double>& values_;
+  double parts_ = 1.0;
+};
 
 class Surroundings {
  public:
@@ -91,6 +96,7 @@ class Surroundings {
     Key label;
     Index offset, kind;  // its other end: where, and its kind
   };
+  void number_offsets();
   void label_bonds(const BondStiffness& stiffness);
   void measure_areas(const Facets& facets);
   Views first_views(std::span<const Index> particles, const Turn& turn) const;
@@ -103,14 +109,17 @@ class Surroundings {
   Index start(Index bond, bool reversed) const {
     return reversed ? input_.bonds.second[bond] : input_.bonds.first[bond];
   }
+  Index offset(Index bond, bool reversed) const {
+    return offset_of_[input_.bonds.kind_of(bond)] + reversed;
+  }
   std::size_t seen(Index bond, bool reversed) const {
-    return kind_[start(bond, reversed)] * offsets_.size() + 2 * offset_of_[bond] + reversed;
+    return kind_[start(bond, reversed)] * offsets_.size() + offset(bond, reversed);
   }
 
   const CalibrationInput& input_;
   std::size_t size_;
   std::vector<Offset> offsets_;   // in steps, each followed by its reverse
-  std::vector<Index> offset_of_;  // per bond: half of its number there
+  std::vector<Index> offset_of_;  // per kind of bond: its number there
   std::vector<Key> label_;        // per bond: how stiff it is, and whether that may change
   std::vector<Offset> area_;      // per particle
   std::vector<Key> on_surface_;   // per particle
@@ -130,36 +139,38 @@ Surroundings::Surroundings(const CalibrationInput& input, const Facets& facets,
       area_(size_, Offset{}),
       on_surface_(size_, 0),
       turns_(turns_of(*input.step)) {
+  number_offsets();
   label_bonds(stiffness);
   measure_areas(facets);
 }
 
-void Surroundings::label_bonds(const BondStiffness& stiffness) {
+void Surroundings::number_offsets() {
   const Bonds& bonds = input_.bonds;
   const Vector3& step = *input_.step;
-  const std::vector<std::int64_t> axial = rounded(stiffness.axial);
-  const std::vector<std::int64_t> bending = rounded(stiffness.bending);
   std::unordered_map<Key, Index> numbers;
-  Offset last{};
-  Key label = 0;
-  offset_of_.reserve(static_cast<std::size_t>(bonds.size()));
-  label_.reserve(static_cast<std::size_t>(bonds.size()));
-  for (Index b = 0; b < bonds.size(); ++b) {
+  offset_of_.reserve(bonds.lengths.size());
+  for (Index k = 0; k < bonds.num_kinds(); ++k) {
     Offset offset{};
     for (int a = 0; a < 3; ++a) {
-      offset[a] = std::llround(bonds.length(b) * bonds.direction(b)[a] / step[a]);
+      offset[a] = std::llround(bonds.lengths[k] * bonds.direction_of_kind(k)[a] / step[a]);
     }
     const auto [entry, is_new] =
-        numbers.try_emplace(join(0, offset), static_cast<Index>(numbers.size()));
+        numbers.try_emplace(join(0, offset), static_cast<Index>(offsets_.size()));
     if (is_new) {
       offsets_.push_back(offset);
       offsets_.push_back({-offset[0], -offset[1], -offset[2]});
     }
     offset_of_.push_back(entry->second);
-    const Offset kind = {input_.free[b], axial[b], bending.empty() ? 0 : bending[b]};
-    if (b == 0 || kind != last) label = join(0, kind);
-    last = kind;
-    label_.push_back(label);
+  }
+}
+
+void Surroundings::label_bonds(const BondStiffness& stiffness) {
+  const Rounding axial(stiffness.axial), bending(stiffness.bending);
+  const bool bends = !stiffness.bending.empty();
+  label_.resize(stiffness.axial.size());
+#pragma omp parallel for schedule(static)
+  for (std::size_t b = 0; b < label_.size(); ++b) {
+    label_[b] = join(0, Offset{input_.free[b], axial[b], bends ? bending[b] : 0});
   }
 }
 
@@ -173,8 +184,8 @@ void Surroundings::measure_areas(const Facets& facets) {
       for (int a = 0; a < 3; ++a) area[i * 3 + a] += facets.shares[c] * facets.area_vector(f)[a];
     }
   }
-  const std::vector<std::int64_t> parts = rounded(area);
-  for (std::size_t k = 0; k < parts.size(); ++k) area_[k / 3][k % 3] = parts[k];
+  const Rounding parts(area);
+  for (std::size_t k = 0; k < area.size(); ++k) area_[k / 3][k % 3] = parts[k];
 }
 
 auto Surroundings::first_views(std::span<const Index> particles, const Turn& turn) const -> Views {
@@ -200,7 +211,7 @@ void Surroundings::sort_places() {
     for (Index b = 0; b < input_.bonds.size(); ++b) {
       for (const bool reversed : {false, true}) {
         sum[start(b, reversed)] +=
-            mix(offsets[2 * offset_of_[b] + reversed] + label_[b] + views[start(b, !reversed)]);
+            mix(offsets[offset(b, reversed)] + label_[b] + views[start(b, !reversed)]);
       }
     }
     for (std::size_t i = 0; i < size_; ++i) views[i] = join(views[i], sum[i]);
@@ -228,7 +239,7 @@ void Surroundings::find_neighbours() {
   first_neighbour_.assign(ends.offsets.begin(), ends.offsets.end());
   for (const Index end : ends.values) {
     const Index b = end / 2, reversed = end % 2;
-    neighbours_.push_back({label_[b], 2 * offset_of_[b] + reversed, kind_[start(b, !reversed)]});
+    neighbours_.push_back({label_[b], offset(b, reversed != 0), kind_[start(b, !reversed)]});
   }
 }
 

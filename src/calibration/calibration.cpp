@@ -1,18 +1,41 @@
 #include "calibration/calibration.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "base/error.hpp"
+#include "calibration/balance_measure.hpp"
 #include "calibration/balance_search.hpp"
 #include "calibration/calibration_cost.hpp"
-#include "calibration/calibration_equations.hpp"
 #include "calibration/facet_shares.hpp"
 
 namespace perilink {
 namespace {
+
+/// Numbers of those that are marked.
+std::vector<Index> marked(const std::vector<std::uint8_t>& marks) {
+  std::vector<Index> numbers;
+  for (std::size_t k = 0; k < marks.size(); ++k) {
+    if (marks[k] != 0) numbers.push_back(static_cast<Index>(k));
+  }
+  return numbers;
+}
+
+/// Forces of the whole body, and weights of its free bonds, into the report.
+/// \param start  stiffnesses before the calibration
+void measure_all(const CalibrationInput& input, const Facets& facets, const BondStiffness& start,
+                 const BondStiffness& found, double least_weight, CalibrationReport& report) {
+  const Index num_particles = input.particles.size();
+  const ForceRows rows{input.particles.dim, !start.bending.empty()};
+  const std::vector<std::uint8_t> ends = mark_ends(input.bonds, input.free, num_particles);
+  report_balance(
+      rows, forces_out_of_balance(rows, facets, input.materials, input.bonds, found, num_particles),
+      marked(ends), measure_particles(input.bonds, start.axial, num_particles), report);
+  report_weights(marked(input.free), found.axial, start.axial, least_weight, report);
+}
 
 /// Bonds that lie alike are made alike: a problem whose size hardly depends on that of the body.
 /// \param drops_first  whether what must vanish was worth dropping
@@ -23,28 +46,24 @@ std::optional<CalibrationReport> calibrate_alike(const CalibrationInput& input,
                                                  BondStiffness& stiffness, bool& drops_first) {
   const OrbitSample sample =
       sample_orbits(orbits, input.particles.size(), input.bonds, input.free, stiffness);
-  const CalibrationInput sampled{input.particles, sample.bonds, input.materials, sample.free,
-                                 input.box};
-  BalanceSearch search(sampled, options, facets, sample.stiffness, &sample.orbits, true);
   CalibrationReport report;
+  BondStiffness sampled;
   try {
+    const CalibrationInput part{input.particles, sample.bonds, input.materials, sample.free,
+                                input.box};
+    BalanceSearch search(part, options, facets, sample.stiffness, &sample.orbits, true);
     report = search.run(alike_budget(input, orbits, !stiffness.bending.empty()));
     drops_first = search.drops_first();
+    sampled = search.result().stiffness;
   } catch (const SolverError&) {  // no factor: rows that depend on others, or no memory
     return std::nullopt;
   }
-  CalibrationEquations whole(input, options.least_weight, facets, stiffness);
   report.alike = true;
-  CalibrationEquations::State state = whole.save();
-  if (!spread(sample, search.result().stiffness, orbits, state.stiffness)) {
-    return std::nullopt;
-  }
-  whole.restore(state);
-  whole.report_balance(report);
+  BondStiffness found = stiffness;
+  if (!spread(sample, sampled, orbits, found)) return std::nullopt;
+  measure_all(input, facets, stiffness, found, options.least_weight, report);
   if (std::max(report.residual_after, report.moment_after) > exact_balance) return std::nullopt;
-  report.at_least_weight = report.dropped = 0;
-  whole.report_weights(report);
-  stiffness = std::move(state.stiffness);
+  stiffness = std::move(found);
   return report;
 }
 

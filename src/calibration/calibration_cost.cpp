@@ -39,15 +39,17 @@ constexpr double most_alike_operations = 6.0;
 constexpr double worth_a_try = 2.0;
 /// Bytes for every bond that may change on its own, in space (lattices of 170 000 to 1 100 000
 /// bonds: 900 to 1 600, clouds of 1 200 000 to 27 000 000: 580 to 610 in all; by a factor 21 000 of
-/// 69 000 bonds), and for the square of the number of equations of bonds that are made alike
-/// and that number (7 200: 0.24 GB in all, 9 490: 0.41, 14 110: 0.58).
-/// With all of them there are the bonds themselves, and what searches, or a count of what they have
-/// reached, hold for each (7 667 168 in the plane, most of them left out: 74 in all).
-constexpr double bytes_of_any_bond = 75.0, bytes_where_held = 100.0;
+/// 69 000 bonds), and for the square of the number of equations of bonds that are made alike and
+/// that number (6 900 to 13 400 in bodies of 150 000 to 4 600 000 bonds: 0.08 to 0.27 GB in all,
+/// within 23 %).
+/// With all of them there are the bonds themselves, fewer bytes where they share directions, and
+/// what searches, or a count of what they have reached, hold for each (7 667 168 in the plane, most
+/// of them left out: 74 in all).
+constexpr double bytes_of_any_bond = 75.0, bytes_where_held = 100.0, bytes_where_shared = 32.0;
 constexpr double most_of_few = 0.5;
 constexpr double bytes_of_bond = 1300.0, bytes_in_cloud = 450.0;
-constexpr double bytes_by_factor = 20000.0, bytes_of_equations = 1.8, bytes_of_equation = 12000.0;
-/// The matrix of their equations is nearly full: so many would take 1 GB.
+constexpr double bytes_by_factor = 20000.0, bytes_of_equations = 0.36, bytes_of_equation = 6000.0;
+/// The factor of their equations is nearly full, and its time grows with the third power.
 constexpr double most_alike_equations = 20000.0;
 
 /// The same constants all over; materials may differ in strength.
@@ -159,7 +161,11 @@ CalibrationReport expected_calibration(const CalibrationInput& input, const Face
     report.bytes = bytes_of_single_bonds(input, moments);
   }
   const bool left_out = !orbits && meets_few(input);
-  report.bytes += (left_out ? bytes_of_any_bond : bytes_where_held) * input.bonds.size();
+  const bool shared = orbits && !input.bonds.kind.empty();
+  report.bytes += (left_out ? bytes_of_any_bond
+                   : shared ? bytes_where_shared
+                            : bytes_where_held) *
+                  input.bonds.size();
   return report;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "calibration/least_change/equations/variable_parts.hpp"
@@ -55,9 +54,9 @@ CalibrationEquations::CalibrationEquations(const CalibrationInput& input, double
       facets_(facets),
       start_{stiffness, facets.shares},
       given_(start_),
-      floor_(static_cast<std::size_t>(input.bonds.size()), Floor::least_weight) {
+      floor_(static_cast<std::size_t>(input.bonds.size()), Floor::least_weight),
+      scales_(measure_particles(input.bonds, stiffness.axial, input.particles.size())) {
   choose_points();
-  measure_particles();
   on_surface_.assign(static_cast<std::size_t>(input.particles.size()), 0);
   for (Index f = 0; f < facets_.size(); ++f) {  // materials may differ in strength only
     if (constants_across(facets_, f, input.materials) == LameConstants{}) continue;
@@ -102,24 +101,6 @@ void CalibrationEquations::order_by_place(Add add) {
     return std::minmax(point_of_[input_.bonds.first[b]], point_of_[input_.bonds.second[b]]);
   };
   std::ranges::sort(free_bonds_, {}, [&](Index b) { return std::pair<Index, Index>(ends(b)); });
-}
-
-void CalibrationEquations::measure_particles() {
-  const std::size_t count = static_cast<std::size_t>(input_.particles.size());
-  modulus_.assign(count, 0.0);
-  length_.assign(count, 0.0);
-  std::vector<double> forces(count, 0.0);
-  const Bonds& bonds = input_.bonds;
-  for (Index b = 0; b < bonds.size(); ++b) {
-    const double force = stiffness_.axial[b] * bonds.length(b);
-    for (const Index i : {bonds.first[b], bonds.second[b]}) {
-      modulus_[i] += 0.5 * force * bonds.length(b);
-      forces[i] += 0.5 * force;
-    }
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    if (forces[i] > 0.0) length_[i] = modulus_[i] / forces[i];
-  }
 }
 
 CalibrationEquations::Variable CalibrationEquations::axial_variable(Index b) const {
@@ -287,8 +268,10 @@ void CalibrationEquations::set_right_sides(PointEquations& equations) const {
   for (const Index i : particle_of_) {
     for (std::size_t r = 0; r < rows; ++r) {
       equations.right.push_back(r < known ? rest[i * known + r] : 0.0);
-      const double arm = static_cast<int>(r) < equations.odd ? length_[i] : r < known ? 1.0 : 0.0;
-      equations.scale.push_back(arm / modulus_[i]);
+      const double arm = static_cast<int>(r) < equations.odd ? scales_.length[i]
+                         : r < known                         ? 1.0
+                                                             : 0.0;
+      equations.scale.push_back(arm / scales_.modulus[i]);
     }
   }
   for (Index v = 0; v < equations.num_variables(); ++v) {
@@ -327,42 +310,12 @@ void CalibrationEquations::gather_dilatations(PointEquations& equations) const {
 }
 
 void CalibrationEquations::report_balance(CalibrationReport& report) const {
-  const std::vector<double> rest = out_of_balance();
-  const std::size_t rows = static_cast<std::size_t>(forces_.count());
-  report.residual_after = report.moment_after = report.sum_after = 0.0;
-  report.unmet = 0;
-  report.worst_particle = no_index;
-  for (const Index i : particle_of_) {
-    double force = 0.0, moment = 0.0;  // largest on this particle
-    for (std::size_t r = 0; r < rows; ++r) {
-      double size = std::abs(rest[i * rows + r]) / modulus_[i];
-      if (!std::isfinite(size)) size = std::numeric_limits<double>::infinity();
-      const bool is_force = static_cast<int>(r) < forces_.odd();
-      double& largest = is_force ? force : moment;
-      largest = std::max(largest, is_force ? size * length_[i] : size);
-    }
-    report.unmet += std::max(force, moment) > met;
-    report.sum_after += std::max(force, moment);
-    if (std::max(force, moment) > std::max(report.residual_after, report.moment_after)) {
-      report.worst_particle = i;
-    }
-    report.residual_after = std::max(report.residual_after, force);
-    report.moment_after = std::max(report.moment_after, moment);
-  }
+  perilink::report_balance(forces_, out_of_balance(), particle_of_, scales_, report);
 }
 
 void CalibrationEquations::report_weights(CalibrationReport& report) const {
-  report.free_bonds = static_cast<Index>(free_bonds_.size());
-  for (const Index b : free_bonds_) {
-    if (stiffness_.axial[b] == 0.0) {
-      ++report.dropped;
-      continue;
-    }
-    const double weight = stiffness_.axial[b] / start_.stiffness.axial[b];
-    report.at_least_weight += weight <= 1.000001 * least_weight_;
-    report.smallest_weight = std::min(report.smallest_weight, weight);
-    report.largest_weight = std::max(report.largest_weight, weight);
-  }
+  perilink::report_weights(free_bonds_, stiffness_.axial, start_.stiffness.axial, least_weight_,
+                           report);
 }
 
 }  // namespace perilink

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "calibration/balance_measure.hpp"
 #include "calibration/bond_equations.hpp"
 #include "calibration/bond_orbits.hpp"
 #include "calibration/calibration_input.hpp"
@@ -18,10 +19,6 @@ namespace perilink {
 /// two ends, and, where all bonds are free, the shares that corners have in their facets.
 class CalibrationEquations {
  public:
-  /// Forces and moments out of balance above this are told to the user. Round-off leaves up to 1e-8
-  /// along boundaries of some hundred spacings.
-  static constexpr double met = 1e-7;
-
   /// \param least_weight  floor of the axial stiffness, relative to the start
   /// \param stiffness     start of the calibration
   /// \param orbits        bonds that change alike; only their representatives are asked for
@@ -40,9 +37,9 @@ class CalibrationEquations {
   /// Makes a solution of these equations the present state.
   void apply(std::span<const double> weights);
 
-  /// Forces and moments out of balance, into the report.
+  /// Forces and moments out of balance, into the report (balance_measure.hpp).
   void report_balance(CalibrationReport& report) const;
-  /// Weights of the free bonds, into the report.
+  /// The same for the weights of the free bonds.
   void report_weights(CalibrationReport& report) const;
 
   /// Takes the floor from the bonds of particles that are out of balance by more than the limit.
@@ -118,7 +115,6 @@ class CalibrationEquations {
   void choose_points();
   template <class Add>
   void order_by_place(Add add);
-  void measure_particles();
   bool shares_vary() const { return input_.all_free(); }
   bool carries_moments() const { return forces_.bending; }
 
@@ -141,8 +137,7 @@ class CalibrationEquations {
   std::vector<Index> kept_;               // the free bonds that were not dropped
   std::vector<Floor> floor_;              // per bond
   std::vector<std::uint8_t> on_surface_;  // per particle: at a facet
-  std::vector<double> modulus_;           // 1/2 sum k xi^2 of each particle at the start
-  std::vector<double> length_;            // mean xi of each particle
+  ParticleScales scales_;                 // at the start
 };
 
 }  // namespace perilink

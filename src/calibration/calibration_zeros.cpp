@@ -79,7 +79,7 @@ bool CalibrationEquations::allow_zero(double limit) {
     if (point_of_[i] == no_index) return false;
     const auto forces = rest.begin() + static_cast<std::ptrdiff_t>(i * rows);
     return std::any_of(forces, forces + forces_.odd(), [&](double force) {
-      return std::abs(force) * length_[i] > limit * modulus_[i];
+      return std::abs(force) * scales_.length[i] > limit * scales_.modulus[i];
     });
   };
   std::vector<std::uint8_t> loose(orbits_ ? orbits_->num_views : floor_.size(), 0);

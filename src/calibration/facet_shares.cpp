@@ -1,6 +1,7 @@
 #include "calibration/facet_shares.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <Eigen/Dense>
@@ -14,6 +15,12 @@ namespace {
 /// Defects below this, relative to the sum of all terms, are round-off and change nothing.
 constexpr double balanced = 1e-14;
 
+/// Products of three rigid motions.
+Eigen::Index count_of_works(const RigidMotions& motions) {
+  const int count = motions.count();
+  return count * (count + 1) * (count + 2) / 6;
+}
+
 /// Work of the boundary forces of all uniform strains at a corner, (delta_ab A_c + delta_ac A_b +
 /// delta_bc A_a) : (e f g), on every product e f g of three rigid motions.
 Eigen::VectorXd work_on_killing_tensors(const RigidMotions& motions, std::span<const double> x,
@@ -21,16 +28,20 @@ Eigen::VectorXd work_on_killing_tensors(const RigidMotions& motions, std::span<c
   Vector3 area{};
   std::copy(area_vector.begin(), area_vector.end(), area.begin());
   const int count = motions.count();
-  Eigen::VectorXd work(count * (count + 1) * (count + 2) / 6);
+  std::array<Vector3, 6> at;
+  std::array<double, 6> along;
+  for (int i = 0; i < count; ++i) {
+    at[i] = motions.at(i, x);
+    along[i] = dot(area, at[i]);
+  }
+  Eigen::VectorXd work(count_of_works(motions));
   Eigen::Index next = 0;
   for (int i = 0; i < count; ++i) {
-    const Vector3 e = motions.at(i, x);
     for (int j = i; j < count; ++j) {
-      const Vector3 f = motions.at(j, x);
+      const double product = dot(at[i], at[j]);
       for (int k = j; k < count; ++k) {
-        const Vector3 g = motions.at(k, x);
         work[next++] =
-            dot(e, f) * dot(area, g) + dot(e, g) * dot(area, f) + dot(f, g) * dot(area, e);
+            product * along[k] + dot(at[i], at[k]) * along[j] + dot(at[j], at[k]) * along[i];
       }
     }
   }
@@ -46,34 +57,24 @@ class Part {
 
   void balance() {
     const RigidMotions motions = make_motions();
-    Eigen::VectorXd defect, size;
-    std::vector<Eigen::MatrixXd> gradients;  // per facet: of the work with the corners' shares
-    Eigen::MatrixXd gram;
+    const Eigen::Index rows = count_of_works(motions);
+    Eigen::VectorXd defect = Eigen::VectorXd::Zero(rows), size = defect;
     for (const Index f : members_) {
-      gradients.push_back(works(motions, f));
-      Eigen::MatrixXd& work = gradients.back();
-      if (gram.size() == 0) {
-        gram = Eigen::MatrixXd::Zero(work.rows(), work.rows());
-        defect = size = Eigen::VectorXd::Zero(work.rows());
-      }
-      const Index begin = facets_.corners.offsets[f];
+      const Eigen::MatrixXd work = works(motions, f);
       for (Eigen::Index c = 0; c < work.cols(); ++c) {
-        defect += facets_.shares[begin + c] * work.col(c);
-        size += facets_.shares[begin + c] * work.col(c).cwiseAbs();
+        defect += shares_of(f)[c] * work.col(c);
+        size += shares_of(f)[c] * work.col(c).cwiseAbs();
       }
-      // Shares of a facet change without changing their sum.
-      work.colwise() -= work.rowwise().mean().eval();
-      if (facets_.is_glued(f)) work.setZero();
+    }
+    if (defect.cwiseAbs().maxCoeff() <= balanced * size.maxCoeff()) return;
+    Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(rows, rows);
+    for (const Index f : members_) {
+      const Eigen::MatrixXd work = gradient(motions, f);
       gram.noalias() += work * work.transpose();
     }
-    if (defect.size() == 0 || defect.cwiseAbs().maxCoeff() <= balanced * size.maxCoeff()) return;
     // 6 of the 56 products in 3D repeat.
     const Eigen::VectorXd multiplier = gram.completeOrthogonalDecomposition().solve(-defect);
-    for (std::size_t k = 0; k < members_.size(); ++k) {
-      const Eigen::VectorXd change = gradients[k].transpose() * multiplier;
-      const Index begin = facets_.corners.offsets[members_[k]];
-      for (Eigen::Index c = 0; c < change.size(); ++c) facets_.shares[begin + c] += change[c];
-    }
+    for (const Index f : members_) shares_of(f) += gradient(motions, f).transpose() * multiplier;
   }
 
  private:
@@ -110,6 +111,19 @@ class Part {
       result.col(static_cast<Eigen::Index>(c)) = work;
     }
     return result;
+  }
+
+  /// That of the work with the corners' shares, which change without changing their sum.
+  Eigen::MatrixXd gradient(const RigidMotions& motions, Index f) const {
+    Eigen::MatrixXd work = works(motions, f);
+    work.colwise() -= work.rowwise().mean().eval();
+    if (facets_.is_glued(f)) work.setZero();
+    return work;
+  }
+
+  Eigen::Map<Eigen::VectorXd> shares_of(Index f) {
+    const Index begin = facets_.corners.offsets[f];
+    return {facets_.shares.data() + begin, facets_.corners.offsets[f + 1] - begin};
   }
 
   Facets& facets_;

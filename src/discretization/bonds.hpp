@@ -22,10 +22,11 @@ struct Bonds {
 
   Index size() const { return static_cast<Index>(first.size()); }
   Index kind_of(Index b) const { return kind.empty() ? b : kind[b]; }
+  Index num_kinds() const { return static_cast<Index>(lengths.size()); }
   double length(Index b) const { return lengths[kind_of(b)]; }
-  std::span<const double> direction(Index b) const {
-    return {directions.data() + static_cast<std::size_t>(kind_of(b)) * dim,
-            static_cast<std::size_t>(dim)};
+  std::span<const double> direction(Index b) const { return direction_of_kind(kind_of(b)); }
+  std::span<const double> direction_of_kind(Index k) const {
+    return {directions.data() + static_cast<std::size_t>(k) * dim, static_cast<std::size_t>(dim)};
   }
   Index other_end(Index b, Index particle) const {
     return first[b] == particle ? second[b] : first[b];

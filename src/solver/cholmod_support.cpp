@@ -105,15 +105,10 @@ cholmod_dense view_column(std::span<double> values) {
 
 CholmodFactorPtr analyze_supernodal(CholmodSession& session, const SparseMatrix& lower,
                                     std::span<const Index> groups) {
-  std::vector<Index> permutation;
-  const bool in_order = groups.empty();
-  if (!in_order) permutation = order_by_particles(lower, groups);
-  // Unknowns that come in the order of elimination, in postorder, are read where they are.
-  session.get()->method[0].ordering = in_order ? CHOLMOD_NATURAL : CHOLMOD_GIVEN;
-  session.get()->postorder = !in_order;
+  std::vector<Index> permutation = order_by_particles(lower, groups);
+  session.get()->method[0].ordering = CHOLMOD_GIVEN;
   cholmod_sparse matrix = view_lower(lower);
-  CholmodFactorPtr factor(cholmod_analyze_p(&matrix, in_order ? nullptr : permutation.data(),
-                                            nullptr, 0, session.get()),
+  CholmodFactorPtr factor(cholmod_analyze_p(&matrix, permutation.data(), nullptr, 0, session.get()),
                           CholmodFactorDeleter{session.get()});
   check(session.get(), "analysing", matrix.nrow);
   return factor;
@@ -125,11 +120,13 @@ void factorize_numerically(CholmodSession& session, const SparseMatrix& lower,
     cholmod_change_factor(CHOLMOD_REAL, true, true, true, true, factor, session.get());
     check(session.get(), "making room to factorise", factor->n);
   }
-  double* values = static_cast<double*>(factor->x);
+  std::vector<double*> values;
+  for (std::size_t s = 0; s < factor->nsuper; ++s) {
+    values.push_back(supernode_of(*factor, static_cast<Index>(s)).values);
+  }
+  const SparseMatrix ordered = in_order_of(*factor, lower);
   factor->minor = static_cast<std::size_t>(
-      factor->ordering == CHOLMOD_NATURAL
-          ? factorize_supernodes(lower, *factor, values, threads)
-          : factorize_supernodes(in_order_of(*factor, lower), *factor, values, threads));
+      factorize_supernodes<double>(columns_of(ordered), *factor, values, threads));
   if (factor->minor < factor->n) {
     const Index unknown = static_cast<const Index*>(factor->Perm)[factor->minor];
     throw NotPositiveDefinite("the stiffness matrix is not positive definite (unknown " +

@@ -36,7 +36,7 @@ struct CholmodFactorDeleter {
 };
 using CholmodFactorPtr = std::unique_ptr<cholmod_factor, CholmodFactorDeleter>;
 
-/// Supernodal analysis with the order of ordering.hpp; without groups with that of the matrix.
+/// Supernodal analysis with the order of ordering.hpp.
 CholmodFactorPtr analyze_supernodal(CholmodSession& session, const SparseMatrix& lower,
                                     std::span<const Index> groups);
 

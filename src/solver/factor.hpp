@@ -34,7 +34,7 @@ class Factor {
   /// \param matrix  lower triangle
   /// \param groups  number of the particle of each unknown; the unknowns of one particle are
   ///                neighbours, and the fill-reducing ordering is made on the much smaller graph of
-  ///                the particles; empty: they come as elimination_order() wants them
+  ///                the particles
   /// \throws SolverError when K is not positive definite or does not fit in memory
   virtual void factorize(const SparseMatrix& matrix, std::span<const Index> groups) = 0;
 

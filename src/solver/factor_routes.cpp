@@ -1,7 +1,6 @@
 #include "solver/factor_routes.hpp"
 
 #include <atomic>
-#include <numeric>
 
 #include "solver/cholmod_support.hpp"
 #include "solver/cholmod_updown_factor.hpp"
@@ -31,15 +30,6 @@ FactorStatistics estimate_factor(const SparseMatrix& matrix, std::span<const Ind
   CholmodSession session;
   const CholmodFactorPtr factor = analyze_supernodal(session, matrix, groups);
   return measure_factor(*factor, session.get()->fl);
-}
-
-std::vector<Index> elimination_order(const SparseMatrix& lower) {
-  CholmodSession session;
-  std::vector<Index> each(static_cast<std::size_t>(lower.cols()));
-  std::iota(each.begin(), each.end(), 0);
-  const CholmodFactorPtr factor = analyze_supernodal(session, lower, each);
-  const Index* order = static_cast<const Index*>(factor->Perm);
-  return {order, order + factor->n};
 }
 
 }  // namespace perilink

@@ -16,10 +16,6 @@ std::unique_ptr<Factor> make_factor(FactorRoute route, int threads);
 /// number of L.
 FactorStatistics estimate_factor(const SparseMatrix& matrix, std::span<const Index> groups);
 
-/// The order, in postorder, in which a factor of a matrix of this pattern would eliminate its rows:
-/// matrices that come in it are factorised where they are.
-std::vector<Index> elimination_order(const SparseMatrix& lower);
-
 /// Factors that make_factor has made in this process: tests count those that nobody needs.
 int factors_made();
 

@@ -135,8 +135,8 @@ void tell_equilibria(Summary& summary, const CaseFile& input, const Equilibria& 
   summary.add("broken_bonds", found.broken_bonds);
   summary.add("yield_events", last.yield_events);
   if (found.has_events) {
-    summary.line("events", "{} broken bonds, {} yield events, {} rows", found.broken_bonds,
-                 last.yield_events, last.step);
+    summary.line("events", "{} broken bonds, {} yield or softening events, {} rows",
+                 found.broken_bonds, last.yield_events, last.step);
   }
   summary.add("external_work", last.external_work);
   summary.add("strain_energy", last.strain_energy);

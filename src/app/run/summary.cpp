@@ -116,7 +116,8 @@ void tell_cracks(Summary& summary, const std::vector<ToldCrack>& cracks) {
   }
   if (cracks.empty()) return;
   const ToldCrack& first = cracks.front();
-  summary.line("cracks", "the largest has {} bond{} and is open by {:.4g} at most, at ({:.6g})",
+  summary.line("cracks",
+               "the largest has {} damaged bond{} and is open by {:.4g} at most, at ({:.6g})",
                first.state.bonds, first.state.bonds == 1 ? "" : "s", first.state.largest,
                fmt::join(first.at, ", "));
 }

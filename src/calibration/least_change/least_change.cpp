@@ -6,6 +6,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "calibration/least_change/interior_point.hpp"
 #include "calibration/least_change/normal_equations.hpp"
@@ -240,9 +241,10 @@ LeastChange solve(const PointEquations& equations, const LeastChangeOptions& opt
   return DualNewton<Normal>(equations, options, normal).solve();
 }
 
-LeastChange solve_tied(const PointEquations& equations, const LeastChangeOptions& options,
+LeastChange solve_tied(PointEquations equations, const LeastChangeOptions& options,
                        KeptPreconditioner& kept) {
   const TiedEquations tied = tie(equations, kept.tied_rows);
+  equations = {};
   TiedNormalEquations normal(tied, kept.tied);
   LeastChange change = DualNewton<TiedNormalEquations>(tied.equations, options, normal).solve();
   change.weights = tied.weights(change.weights);
@@ -251,9 +253,9 @@ LeastChange solve_tied(const PointEquations& equations, const LeastChangeOptions
 
 }  // namespace
 
-LeastChange least_change(const PointEquations& equations, const LeastChangeOptions& options,
+LeastChange least_change(PointEquations equations, const LeastChangeOptions& options,
                          KeptPreconditioner& kept) {
-  if (!equations.unknown.empty()) return solve_tied(equations, options, kept);
+  if (!equations.unknown.empty()) return solve_tied(std::move(equations), options, kept);
   const auto are = [&](int rows, int odd, bool grouped) {
     return equations.rows == rows && equations.odd == odd && equations.group.empty() != grouped;
   };
@@ -275,9 +277,9 @@ LeastChange least_change(const PointEquations& equations, const LeastChangeOptio
                               std::to_string(equations.odd) + " of them odd, are not built in");
 }
 
-LeastChange least_change(const PointEquations& equations, const LeastChangeOptions& options) {
+LeastChange least_change(PointEquations equations, const LeastChangeOptions& options) {
   KeptPreconditioner kept;
-  return least_change(equations, options, kept);
+  return least_change(std::move(equations), options, kept);
 }
 
 }  // namespace perilink

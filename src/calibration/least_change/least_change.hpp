@@ -36,11 +36,11 @@ struct LeastChange {
 /// the method of multipliers, lead to the least squared residual. Newton's method may get lost on
 /// the way.
 /// \throws std::invalid_argument for numbers of rows, odd ones and groups that are not built in
-LeastChange least_change(const PointEquations& equations, const LeastChangeOptions& options);
+LeastChange least_change(PointEquations equations, const LeastChangeOptions& options);
 
 /// The same with a preconditioner that is kept for the next problem and renewed where it serves
 /// badly.
-LeastChange least_change(const PointEquations& equations, const LeastChangeOptions& options,
+LeastChange least_change(PointEquations equations, const LeastChangeOptions& options,
                          KeptPreconditioner& kept);
 
 }  // namespace perilink

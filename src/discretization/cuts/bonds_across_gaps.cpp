@@ -35,9 +35,10 @@ bool is_inside(const Outline& outline, const Vector3& x, double tolerance) {
 }
 
 /// Between two planes of the grid a bond stays in the same cells: their middles decide.
+/// \param stations  room for where it passes planes
 bool stays_inside(const Outline& outline, std::span<const double> from, std::span<const double> to,
-                  double tolerance) {
-  std::vector<double> stations = {0.0, 1.0};
+                  double tolerance, std::vector<double>& stations) {
+  stations.assign({0.0, 1.0});
   for (int a = 0; a < outline.dim; ++a) {
     for (const double cut : outline.cuts[a]) {
       if ((from[a] - cut) * (to[a] - cut) >= 0.0) continue;
@@ -63,12 +64,13 @@ Index remove_bonds_across_gaps(const Particles& particles, Bonds& bonds, std::sp
   const auto full = [](std::uint8_t cell) { return cell != 0; };
   if (std::all_of(outline.occupied.begin(), outline.occupied.end(), full)) return 0;
   std::vector<std::uint8_t> keep;
+  std::vector<double> stations;
   for (Index b = 0; b < bonds.size(); ++b) {
     const Index i = bonds.first[b], j = bonds.second[b];
     const bool both_solid =
         particles.kind[i] == ParticleKind::solid && particles.kind[j] == ParticleKind::solid;
-    keep.push_back(!both_solid ||
-                   stays_inside(outline, particles.position(i), particles.position(j), tolerance));
+    keep.push_back(!both_solid || stays_inside(outline, particles.position(i),
+                                               particles.position(j), tolerance, stations));
   }
   return keep_bonds(bonds, keep);
 }

@@ -143,6 +143,12 @@ void cut_bonds(const Body& body, const NetworkInput& input, Network& network) {
 
 namespace {
 
+/// They are most of what the network of a large elastic body takes, and calibrations come on top.
+void share_directions_of_many(const NetworkInput& input, Bonds& bonds) {
+  constexpr Index many = 100'000;
+  if (input.elastic && bonds.size() > many) share_directions(bonds);
+}
+
 /// Bonds of the solid and their stiffness.
 Network make_calibrated_bonds(const Body& body, const NetworkInput& input,
                               const PairConstants& constants) {
@@ -155,6 +161,7 @@ Network make_calibrated_bonds(const Body& body, const NetworkInput& input,
     remove_bonds_outside(network.particles, network.bonds, body.facets, body.lattice.spacing);
   }
   remove_loose_ghosts(network.particles, network.bonds);
+  share_directions_of_many(input, network.bonds);
   network.facets = body.facets;
   add_bonds(constants, input, network);
   if (input.model == BondModel::micropolar) network.torsion = input.torsion;
@@ -221,8 +228,7 @@ Network build_network(const Body& body, const NetworkInput& input) {
   if (!network.inflection.empty()) network.inflection.resize(network.stiffness.size(), 0.5);
   if (!network.hinged.empty()) network.hinged.resize(network.stiffness.size(), 0);
   if (input.shell) make_shell(input, network);
-  constexpr Index many = 100'000;
-  if (input.elastic && network.num_elements() > many) share_directions(network.bonds);
+  share_directions_of_many(input, network.bonds);
   return network;
 }
 

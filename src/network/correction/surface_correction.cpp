@@ -76,10 +76,11 @@ class Correction {
   void favor_short_bonds();
   void hinge();
   void set_strength(const LatticeFamilies* families);
-  void take_bulk_families(const LatticeFamilies& families);
+  void take_bulk_families(const LatticeFamilies& families, std::span<const Index> of_kinds);
   std::vector<double> wanted_moduli(const LatticeFamilies* families) const;
   void scale_to(const std::vector<double>& wanted, std::span<const std::uint8_t> free);
-  std::vector<std::uint8_t> free_bonds(const LatticeFamilies& families) const;
+  std::vector<std::uint8_t> free_bonds(const LatticeFamilies& families,
+                                       std::span<const Index> of_kinds) const;
 
   const Body& body_;
   const NetworkInput& input_;
@@ -107,12 +108,23 @@ void Correction::favor_short_bonds() {
   }
 }
 
+/// Which of the families bonds of each kind are.
+std::vector<Index> families_of_kinds(const LatticeFamilies& families, const Bonds& bonds) {
+  std::vector<Index> result;
+  result.reserve(bonds.lengths.size());
+  for (Index k = 0; k < bonds.num_kinds(); ++k) {
+    result.push_back(families.find(bonds.direction_of_kind(k), bonds.lengths[k]));
+  }
+  return result;
+}
+
 /// Stiffness of the isotropic families, in proportion to the volumes of the ends.
-void Correction::take_bulk_families(const LatticeFamilies& families) {
+void Correction::take_bulk_families(const LatticeFamilies& families,
+                                    std::span<const Index> of_kinds) {
   const double volume = body_.lattice.cell_volume;
   for (Index e = 0; e < network_.bonds.size(); ++e) {
     const Index i = network_.bonds.first[e], j = network_.bonds.second[e];
-    const Index k = families.find(network_.bonds.direction(e), network_.bonds.length(e));
+    const Index k = of_kinds[network_.bonds.kind_of(e)];
     if (k == no_index) continue;
     const double share =
         network_.particles.volumes[i] / volume * (network_.particles.volumes[j] / volume);
@@ -155,7 +167,8 @@ void Correction::scale_to(const std::vector<double>& wanted, std::span<const std
 /// and in space where neighbours are few, the particles bonded to such ends count as well: the
 /// equations of a thinner layer are nearly singular there, and those of forces and moments along a
 /// side have no positive weights.
-std::vector<std::uint8_t> Correction::free_bonds(const LatticeFamilies& families) const {
+std::vector<std::uint8_t> Correction::free_bonds(const LatticeFamilies& families,
+                                                 std::span<const Index> of_kinds) const {
   std::vector<Index> regular(static_cast<std::size_t>(network_.particles.size()), 0);
   const Bonds& bonds = network_.bonds;
   std::vector<LameConstants> constants;  // materials may differ in strength only
@@ -163,7 +176,7 @@ std::vector<std::uint8_t> Correction::free_bonds(const LatticeFamilies& families
   for (Index b = 0; b < bonds.size(); ++b) {
     const Index i = bonds.first[b], j = bonds.second[b];
     if (!(constants[material(i)] == constants[material(j)])) continue;
-    if (families.find(bonds.direction(b), bonds.length(b)) == no_index) continue;
+    if (of_kinds[bonds.kind_of(b)] == no_index) continue;
     ++regular[i];
     ++regular[j];
   }
@@ -206,10 +219,12 @@ void Correction::energy() {
 void Correction::calibrate(bool give_up) {
   const Timer timer;
   std::optional<LatticeFamilies> families;
+  std::vector<Index> of_kinds;
   fade_at_horizon();
   if (on_lattice()) {
     families.emplace(body_, input_);
-    take_bulk_families(*families);
+    of_kinds = families_of_kinds(*families, network_.bonds);
+    take_bulk_families(*families, of_kinds);
   } else if (!can_break(input_)) {
     favor_short_bonds();
   }
@@ -218,7 +233,7 @@ void Correction::calibrate(bool give_up) {
   calibration.give_up = give_up;
   calibration.only_alike = input_.only_alike;
   if (family) {
-    calibration.free = free_bonds(*family);
+    calibration.free = free_bonds(*family, of_kinds);
     if (network_.hinged.empty()) {
       calibration.box = lattice_box(body_);
       const Pattern pattern = body_.lattice.pattern;

@@ -7,6 +7,7 @@
 #include <new>
 #include <numeric>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -75,7 +76,7 @@ void divide(int m, int n, const float* a, float* b, int rows) {
 template <class Number>
 class Factorization {
  public:
-  Factorization(const SparseMatrix& lower, const cholmod_factor& factor, Number* values,
+  Factorization(const AddColumn& add, const cholmod_factor& factor, std::span<Number* const> values,
                 int threads);
   Index run();
 
@@ -85,23 +86,25 @@ class Factorization {
   struct Workspace {
     std::vector<Index> place;  ///< per row of the matrix: its own number in the supernode at hand
     std::unique_ptr<Number[]> product;  ///< shape (tile_rows, widest supernode)
+    std::vector<double> column;         ///< in double precision where the factor is not
   };
-  Node supernode(Index s) const { return supernode_of(factor_, values_, s); }
+  Node supernode(Index s) const { return supernode_of(factor_, values_[s], s); }
   void find_pulls();
   double operations(Index s) const;
   Index compute(Index s, int thread, int threads);
-  void place_matrix(const Node& node, Index column, const std::vector<Index>& place) const;
+  void place_matrix(const Node& node, Index column, std::span<const Index> place,
+                    std::span<double> exact) const;
   void pull(const Node& node, const Pull& pull, Index begin, Index end,
             const std::vector<Index>& place, Number* product) const;
   Index factorize_columns(const Node& node, int threads) const;
   template <class Visit>
   static void share(Index count, int threads, Visit visit);
 
-  const SparseMatrix& lower_;
+  const AddColumn& add_;
   const cholmod_factor& factor_;
-  Number* values_;
+  std::span<Number* const> values_;
   int threads_ = 1;
-  Index count_, widest_ = 0;
+  Index count_, widest_ = 0, longest_ = 0;
   SupernodeTree tree_;
   SupernodeTree::Cut cut_;
   std::vector<Index> begin_;  ///< per supernode: its first pull
@@ -110,9 +113,9 @@ class Factorization {
 };
 
 template <class Number>
-Factorization<Number>::Factorization(const SparseMatrix& lower, const cholmod_factor& factor,
-                                     Number* values, int threads)
-    : lower_(lower),
+Factorization<Number>::Factorization(const AddColumn& add, const cholmod_factor& factor,
+                                     std::span<Number* const> values, int threads)
+    : add_(add),
       factor_(factor),
       values_(values),
       count_(static_cast<Index>(factor.nsuper)),
@@ -128,6 +131,7 @@ Factorization<Number>::Factorization(const SparseMatrix& lower, const cholmod_fa
     own.place.resize(factor_.n);
     own.product =
         std::make_unique_for_overwrite<Number[]>(static_cast<std::size_t>(widest_) * tile_rows);
+    if (!std::is_same_v<Number, double>) own.column.resize(static_cast<std::size_t>(longest_));
   }
 }
 
@@ -146,6 +150,7 @@ void Factorization<Number>::find_pulls() {
   for (Index s = 0; s < count_; ++s) {
     for_each_target(s, [&](Index target, const Pull&) { ++begin_[target + 1]; });
     widest_ = std::max(widest_, supernode(s).columns);
+    longest_ = std::max(longest_, supernode(s).count);
   }
   for (Index s = 0; s < count_; ++s) begin_[s + 1] += begin_[s];
   pulls_.resize(static_cast<std::size_t>(begin_.back()));
@@ -209,13 +214,14 @@ Index Factorization<Number>::compute(Index s, int thread, int threads) {
   const Node node = supernode(s);
   std::vector<Index>& place = workspaces_[thread].place;
   for (Index r = 0; r < node.count; ++r) place[node.rows[r]] = r;
-  share(node.columns, threads, [&](Index column) { place_matrix(node, column, place); });
+  const auto worker = [&] { return threads > 1 ? omp_get_thread_num() : thread; };
+  share(node.columns, threads,
+        [&](Index column) { place_matrix(node, column, place, workspaces_[worker()].column); });
   if (begin_[s] < begin_[s + 1]) {
     share((node.count + tile_rows - 1) / tile_rows, threads, [&](Index tile) {
-      const int worker = threads > 1 ? omp_get_thread_num() : thread;
       const Index begin = tile * tile_rows, end = std::min(begin + tile_rows, node.count);
       for (Index k = begin_[s]; k < begin_[s + 1]; ++k) {
-        pull(node, pulls_[k], begin, end, place, workspaces_[worker].product.get());
+        pull(node, pulls_[k], begin, end, place, workspaces_[worker()].product.get());
       }
     });
   }
@@ -225,11 +231,18 @@ Index Factorization<Number>::compute(Index s, int thread, int threads) {
 /// The numbers of the matrix, zeros between them.
 template <class Number>
 void Factorization<Number>::place_matrix(const Node& node, Index column,
-                                         const std::vector<Index>& place) const {
+                                         std::span<const Index> place,
+                                         std::span<double> exact) const {
   Number* values = node.column(column);
-  std::fill_n(values, node.count, Number{0});
-  for (SparseMatrix::InnerIterator entry(lower_, node.first + column); entry; ++entry) {
-    values[place[entry.row()]] = static_cast<Number>(entry.value());
+  const auto count = static_cast<std::size_t>(node.count);
+  if constexpr (std::is_same_v<Number, double>) {
+    std::fill_n(values, count, 0.0);
+    add_(node.first + column, place, {values, count});
+  } else {
+    std::fill_n(exact.begin(), count, 0.0);
+    add_(node.first + column, place, exact.first(count));
+    std::ranges::transform(exact.first(count), values,
+                           [](double x) { return static_cast<Number>(x); });
   }
 }
 
@@ -293,17 +306,19 @@ Index Factorization<Number>::factorize_columns(const Node& node, int threads) co
 }  // namespace
 
 template <class Number>
-Index factorize_supernodes(const SparseMatrix& lower, const cholmod_factor& factor, Number* values,
-                           int threads) {
+Index factorize_supernodes(const AddColumn& add, const cholmod_factor& factor,
+                           std::span<Number* const> values, int threads) {
   try {
-    return Factorization<Number>(lower, factor, values, threads).run();
+    return Factorization<Number>(add, factor, values, threads).run();
   } catch (const std::bad_alloc&) {
     throw SolverError("out of memory while factorising a matrix of " + std::to_string(factor.n) +
                       " rows");
   }
 }
 
-template Index factorize_supernodes(const SparseMatrix&, const cholmod_factor&, double*, int);
-template Index factorize_supernodes(const SparseMatrix&, const cholmod_factor&, float*, int);
+template Index factorize_supernodes(const AddColumn&, const cholmod_factor&,
+                                    std::span<double* const>, int);
+template Index factorize_supernodes(const AddColumn&, const cholmod_factor&,
+                                    std::span<float* const>, int);
 
 }  // namespace perilink

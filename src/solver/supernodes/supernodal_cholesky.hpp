@@ -2,6 +2,8 @@
 
 #include <cholmod.h>
 
+#include <span>
+
 #include "solver/supernodes/sparse_matrix.hpp"
 
 namespace perilink {
@@ -11,12 +13,13 @@ namespace perilink {
 /// elimination tree, and above these the rows of large supernodes. Which pieces there are depends
 /// on the pattern alone, and each is computed by one thread: any number of threads gives the same
 /// bytes.
-/// \param lower  lower triangle in the order of the factor, shape (n, n)
-/// \param values  those of L, in double or single precision, shape (factor.xsize)
+/// \param add     the matrix, which need not be stored
+/// \param values  where those of each supernode go, in double or single precision, shape (count,
+///                columns) each
 /// \throws SolverError  where there is no memory
 /// \return the first column at which the matrix is not positive definite; n where it is
 template <class Number>
-Index factorize_supernodes(const SparseMatrix& lower, const cholmod_factor& factor, Number* values,
-                           int threads);
+Index factorize_supernodes(const AddColumn& add, const cholmod_factor& factor,
+                           std::span<Number* const> values, int threads);
 
 }  // namespace perilink

@@ -23,18 +23,20 @@ struct Supernode {
   Number* column(Index j) const { return values + static_cast<std::size_t>(j) * count; }
 };
 
-/// \param values  all numbers of L, shape (factor.xsize); none: of the pattern alone
+/// \param values  its numbers, shape (count, columns)
 template <class Number>
 Supernode<Number> supernode_of(const cholmod_factor& factor, Number* values, Index s) {
   const auto ints = [](const void* array) { return static_cast<const Index*>(array); };
   const Index* super = ints(factor.super);
   const Index* first_row = ints(factor.pi);
-  Number* own = values == nullptr ? nullptr : values + ints(factor.px)[s];
-  return {ints(factor.s) + first_row[s], own, super[s], super[s + 1] - super[s],
+  return {ints(factor.s) + first_row[s], values, super[s], super[s + 1] - super[s],
           first_row[s + 1] - first_row[s]};
 }
+/// \return without numbers where the factor has none
 inline Supernode<double> supernode_of(const cholmod_factor& factor, Index s) {
-  return supernode_of(factor, static_cast<double*>(factor.x), s);
+  auto* all = static_cast<double*>(factor.x);
+  return supernode_of(factor, all == nullptr ? all : all + static_cast<const Index*>(factor.px)[s],
+                      s);
 }
 
 /// The elimination tree of the supernodes.

@@ -55,34 +55,6 @@ TEST_P(EveryRoute, SolvesLikeADenseFactor) {
   EXPECT_LT(relative_difference(solution, dense_solution(lattice.dense(), rhs)), tolerance);
 }
 
-/// Rows that come in the order of elimination need no other.
-TEST_P(EveryRoute, TakesRowsInTheirOrder) {
-  const auto lattice = make_spring_lattice(13, 17, 3.0);
-  const auto factor = make(), ordered = make();
-  const std::vector<Index> order = elimination_order(lattice.lower);
-  const std::vector<Index> place = invert(order);
-  std::vector<Eigen::Triplet<double, Index>> entries;
-  for (Index c = 0; c < lattice.size; ++c) {
-    for (SparseMatrix::InnerIterator entry(lattice.lower, c); entry; ++entry) {
-      const auto [first, second] = std::minmax({place[c], place[entry.row()]});
-      entries.emplace_back(second, first, entry.value());
-    }
-  }
-  SparseMatrix permuted(lattice.size, lattice.size);
-  permuted.setFromTriplets(entries.begin(), entries.end());
-  const auto rhs = random_vector(lattice.size, 1);
-  std::vector<double> solution(rhs.size()), side(rhs.size()), found(rhs.size());
-  factor->factorize(lattice.lower, lattice.groups);
-  factor->solve(rhs, solution);
-  ordered->factorize(permuted, {});
-  for (Index k = 0; k < lattice.size; ++k) side[k] = rhs[order[k]];
-  ordered->solve(side, side);
-  for (Index k = 0; k < lattice.size; ++k) found[order[k]] = side[k];
-  EXPECT_LT(relative_difference(found, solution), tolerance);
-  // No more fill than that of the particles, whose order is one of coarser steps.
-  EXPECT_LT(ordered->statistics().entries, 1.5 * factor->statistics().entries);
-}
-
 TEST_P(EveryRoute, PivotIsTheRatioOfDeterminants) {
   const auto lattice = make_spring_lattice(9, 9, 2.3);
   const auto factor = make();

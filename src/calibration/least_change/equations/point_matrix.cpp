@@ -39,13 +39,6 @@ PointMatrix::PointMatrix(std::vector<Index> first_row, Pairs pairs)
   matrix_.outerIndexPtr()[first_row_.back()] = next;
 }
 
-bool PointMatrix::holds(const Pairs& pairs) const {
-  return std::ranges::all_of(pairs, [&](const std::pair<Index, Index>& pair) {
-    return std::binary_search(later_.begin() + offsets_[pair.first],
-                              later_.begin() + offsets_[pair.first + 1], pair.second);
-  });
-}
-
 double* PointMatrix::block(Index upper, Index lower, Index column) {
   double* begin = matrix_.valuePtr() + matrix_.outerIndexPtr()[first_row_[upper] + column];
   if (upper == lower) return begin - column;

@@ -18,9 +18,6 @@ class PointMatrix {
   ///                   than once
   PointMatrix(std::vector<Index> first_row, Pairs pairs);
 
-  /// Whether the pattern holds these pairs.
-  bool holds(const Pairs& pairs) const;
-
   /// Where the rows of a point begin in a column of another one before it, or in its own (where
   /// those above the column are not stored).
   double* block(Index upper, Index lower, Index column);

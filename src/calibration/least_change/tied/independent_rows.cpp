@@ -1,9 +1,13 @@
 #include "calibration/least_change/tied/independent_rows.hpp"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
+
+#include "base/side_by_side.hpp"
 
 namespace perilink {
 namespace {
@@ -21,27 +25,6 @@ constexpr std::size_t most_together = 600;
 /// What contradictions leave of the right side of a row that follows from others, over the largest.
 /// Round-off leaves 1e-12.
 constexpr double implied_right = 1e-10;
-
-/// The rows of a point, dense in the columns that they hold.
-struct PointRows {
-  PointRows(const TiedEquations::Matrix& matrix, Eigen::Index first, Eigen::Index rows) {
-    const int* column = matrix.innerIndexPtr();
-    columns.assign(column + matrix.outerIndexPtr()[first],
-                   column + matrix.outerIndexPtr()[first + rows]);
-    std::ranges::sort(columns);
-    columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
-    values.setZero(rows, static_cast<Eigen::Index>(columns.size()));
-    for (Eigen::Index r = 0; r < rows; ++r) {
-      for (TiedEquations::Matrix::InnerIterator entry(matrix, first + r); entry; ++entry) {
-        const auto found = std::ranges::lower_bound(columns, static_cast<int>(entry.col()));
-        values(r, found - columns.begin()) = entry.value();
-      }
-    }
-  }
-
-  std::vector<int> columns;  // ascending
-  Eigen::MatrixXd values;    // shape (rows, columns)
-};
 
 /// The independent directions of the rows of a point, as columns, and zeros behind them.
 /// \param products  A A'
@@ -133,37 +116,16 @@ void find_implied(const TiedEquations& tied, const std::vector<Index>& rows,
 
 }  // namespace
 
-void turn_rows(TiedEquations& tied, std::vector<Eigen::MatrixXd>& bases) {
-  PointEquations& equations = tied.equations;
-  const Eigen::Index rows = equations.rows;
-  bases.resize(static_cast<std::size_t>(equations.num_points()));
-  TiedEquations::Matrix turned(tied.matrix.rows(), tied.matrix.cols());
-  turned.reserve(tied.matrix.nonZeros());
-  for (std::size_t p = 0; p < bases.size(); ++p) {
-    const Eigen::Index first = static_cast<Eigen::Index>(p) * rows;
-    const PointRows own(tied.matrix, first, rows);
-    const Eigen::MatrixXd products = own.values * own.values.transpose();
-    Eigen::MatrixXd& basis = bases[p];
-    const auto misses_some = [&] {
-      const double held = (basis.transpose() * products * basis).trace();
-      return held < (1.0 - missed) * products.trace();
-    };
-    if (basis.rows() != rows || misses_some()) basis = basis_of(products);
-    const Eigen::MatrixXd values = basis.transpose() * own.values;
-    for (Eigen::Index r = 0; r < rows; ++r) {
-      turned.startVec(first + r);
-      for (std::size_t k = 0; k < own.columns.size(); ++k) {
-        const double value = values(r, static_cast<Eigen::Index>(k));
-        if (value != 0.0) turned.insertBack(first + r, own.columns[k]) = value;
-      }
-    }
-    Eigen::Map<Eigen::VectorXd> right(equations.right.data() + first, rows);
-    Eigen::Map<Eigen::VectorXd> scale(equations.scale.data() + first, rows);
-    right = (basis.transpose() * right.cwiseProduct(scale)).eval();
-    scale.setOnes();
-  }
-  turned.finalize();
-  tied.matrix = std::move(turned);
+void turn_rows(PointRows& own, Eigen::MatrixXd& basis) {
+  const Eigen::Index rows = own.values.rows();
+  const Eigen::MatrixXd products = own.values * own.values.transpose();
+  const auto misses_some = [&] {
+    const double held = (basis.transpose() * products * basis).trace();
+    return held < (1.0 - missed) * products.trace();
+  };
+  if (basis.rows() != rows || misses_some()) basis = basis_of(products);
+  own.values = (basis.transpose() * own.values).eval();
+  own.right = (basis.transpose() * own.right).eval();
 }
 
 void leave_out_implied(TiedEquations& tied, std::vector<std::uint8_t>& implied) {
@@ -171,19 +133,21 @@ void leave_out_implied(TiedEquations& tied, std::vector<std::uint8_t>& implied) 
   implied.resize(tied.equations.right.size(), 0);
   const std::vector<std::uint8_t> before =
       std::exchange(implied, std::vector<std::uint8_t>(implied.size(), 0));
-  std::vector<Index> rows;
+  std::vector<std::vector<Index>> together;  // rows
   for (const auto& group : alike_points(tied)) {
-    rows.clear();
+    if (group.size() < 2) continue;
+    together.emplace_back();
     for (const Index p : group) {
+      if (together.back().size() > most_together) together.emplace_back();
       for (Index k = p * per_point; k < (p + 1) * per_point; ++k) {
-        if (tied.matrix.outerIndexPtr()[k + 1] > tied.matrix.outerIndexPtr()[k]) rows.push_back(k);
-      }
-      if (rows.size() > most_together || (p == group.back() && group.size() > 1)) {
-        find_implied(tied, rows, before, implied);
-        rows.clear();
+        if (tied.matrix.outerIndexPtr()[k + 1] > tied.matrix.outerIndexPtr()[k]) {
+          together.back().push_back(k);
+        }
       }
     }
   }
+  for_each_side_by_side(static_cast<Index>(together.size()), omp_get_max_threads(),
+                        [&](Index g) { find_implied(tied, together[g], before, implied); });
   tied.matrix.prune([&](Eigen::Index row, Eigen::Index, double) { return !implied[row]; });
   for (std::size_t k = 0; k < implied.size(); ++k) {
     if (implied[k]) tied.equations.right[k] = 0.0;

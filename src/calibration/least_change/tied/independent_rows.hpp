@@ -7,11 +7,18 @@
 
 namespace perilink {
 
+/// The scaled rows of a point, dense in the unknowns that take part, and their right sides.
+struct PointRows {
+  std::vector<int> columns;  ///< ascending
+  Eigen::MatrixXd values;    ///< shape (rows, columns)
+  Eigen::VectorXd right;
+};
+
 /// Symmetry of a place lets forces along what it mirrors vanish, and makes others follow from each
 /// other. Such points get U'A in place of their rows A, U an orthonormal basis of what these span:
 /// A'A is what it was, and so are the answer and the steps towards it.
-/// \param bases  per point: U with zeros behind it, of an earlier search where it still holds all
-void turn_rows(TiedEquations& tied, std::vector<Eigen::MatrixXd>& bases);
+/// \param basis  U with zeros behind it, of an earlier search where it still holds all
+void turn_rows(PointRows& own, Eigen::MatrixXd& basis);
 
 /// Places that differ only far away share nearly all of their bonds, and symmetry makes some of
 /// their rows follow from those of the others: one that looks to its left like a first and to its

@@ -1,8 +1,11 @@
 #include "calibration/least_change/tied/tie.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 #include <unordered_map>
 
+#include "base/csr.hpp"
 #include "calibration/least_change/equations/variable_parts.hpp"
 #include "calibration/least_change/tied/independent_rows.hpp"
 
@@ -13,17 +16,62 @@ namespace {
 /// the search for a strip of one row of cells took 121 iterations, more than its test allows.
 constexpr std::size_t dear = 2000;
 
-}  // namespace
+/// Variables at each point.
+Csr variables_at_points(const PointEquations& equations) {
+  return sorted_into_rows(equations.num_points(), [&](auto act) {
+    for (Index v = 0; v < equations.num_variables(); ++v) {
+      Index last = no_index;
+      for_each_part(equations, v, [&](Index p, int, int, double) {
+        if (p != no_index && p != last) act(p, v);
+        last = p;
+      });
+    }
+  });
+}
 
-TiedEquations tie(const PointEquations& equations, TiedRows& kept) {
-  TiedEquations tied;
-  PointEquations& small = tied.equations;
-  small.dim = equations.dim;
-  small.rows = equations.rows;
-  small.odd = equations.odd;
-  small.right = equations.right;
-  small.scale = equations.scale;
-  small.ridge = equations.ridge;
+/// \param variables  those at the point
+PointRows rows_of_point(const PointEquations& equations, const TiedEquations& tied, Index point,
+                        std::span<const Index> variables) {
+  const std::size_t rows = static_cast<std::size_t>(equations.rows), first = point * rows;
+  PointRows own;
+  for (const Index v : variables) own.columns.push_back(tied.unknown_of[v]);
+  std::ranges::sort(own.columns);
+  own.columns.erase(std::unique(own.columns.begin(), own.columns.end()), own.columns.end());
+  own.values.setZero(equations.rows, static_cast<Eigen::Index>(own.columns.size()));
+  own.right = Eigen::Map<const Eigen::VectorXd>(equations.right.data() + first, equations.rows);
+  for (const Index v : variables) {
+    const double root = tied.root[tied.unknown_of[v]];
+    const double* a = equations.coefficients.data() + v * rows;
+    const auto found = std::ranges::lower_bound(own.columns, tied.unknown_of[v]);
+    auto column = own.values.col(found - own.columns.begin());
+    for_each_part(equations, v, [&](Index p, int from, int to, double sign) {
+      if (p != point) return;
+      for (int r = from; r < to; ++r) {
+        column[r] += sign * a[r] / root;
+        own.right[r] += sign * a[r] / root - sign * a[r];
+      }
+    });
+  }
+  const Eigen::Map<const Eigen::VectorXd> scale(equations.scale.data() + first, equations.rows);
+  own.values.array().colwise() *= scale.array();
+  own.right.array() *= scale.array();
+  return own;
+}
+
+/// Takes over what is not zero.
+void append(const PointRows& own, Index first, TiedEquations& tied) {
+  for (Eigen::Index r = 0; r < own.values.rows(); ++r) {
+    tied.matrix.startVec(first + r);
+    for (std::size_t k = 0; k < own.columns.size(); ++k) {
+      const double value = own.values(r, static_cast<Eigen::Index>(k));
+      if (value != 0.0) tied.matrix.insertBack(first + r, own.columns[k]) = value;
+    }
+    tied.equations.right.push_back(own.right[r]);
+  }
+}
+
+/// Names of unknowns become numbers; bounds are those of the unknowns.
+void number_unknowns(const PointEquations& equations, TiedEquations& tied) {
   std::unordered_map<Index, Index> numbers;
   for (const Index name : equations.unknown) {
     const Index u = numbers.emplace(name, static_cast<Index>(numbers.size())).first->second;
@@ -32,36 +80,40 @@ TiedEquations tie(const PointEquations& equations, TiedRows& kept) {
     tied.root[u] += 1.0;
   }
   for (double& root : tied.root) root = std::sqrt(root);
-  small.lower.resize(tied.root.size());
-  small.upper.resize(tied.root.size());
-  std::vector<Eigen::Triplet<double>> entries;
-  const std::size_t rows = static_cast<std::size_t>(equations.rows);
-  entries.reserve(2 * rows * tied.unknown_of.size());
+  tied.equations.lower.resize(tied.root.size());
+  tied.equations.upper.resize(tied.root.size());
   for (Index v = 0; v < equations.num_variables(); ++v) {
     const Index u = tied.unknown_of[v];
-    const double root = tied.root[u];
-    small.lower[u] = 1.0 + root * (equations.lower[v] - 1.0);
-    small.upper[u] = 1.0 + root * (equations.upper[v] - 1.0);
-    const double* a = equations.coefficients.data() + v * rows;
-    for_each_part(equations, v, [&](Index p, int from, int to, double sign) {
-      if (p == no_index) return;
-      for (int r = from; r < to; ++r) {
-        const std::size_t row = p * rows + r;
-        const double value = sign * a[r];
-        entries.emplace_back(static_cast<int>(row), u, equations.scale[row] * value / root);
-        small.right[row] += value / root - value;
-      }
-    });
+    tied.equations.lower[u] = 1.0 + tied.root[u] * (equations.lower[v] - 1.0);
+    tied.equations.upper[u] = 1.0 + tied.root[u] * (equations.upper[v] - 1.0);
   }
-  tied.matrix.resize(static_cast<Eigen::Index>(small.right.size()),
-                     static_cast<Eigen::Index>(tied.root.size()));
-  tied.matrix.setFromTriplets(entries.begin(), entries.end());
+}
+
+}  // namespace
+
+TiedEquations tie(const PointEquations& equations, TiedRows& kept) {
+  TiedEquations tied;
+  tied.equations.dim = equations.dim;
+  tied.equations.rows = equations.rows;
+  tied.equations.odd = equations.odd;
+  tied.equations.ridge = equations.ridge;
+  tied.equations.scale.assign(equations.scale.size(), 1.0);
+  number_unknowns(equations, tied);
   // With couples the search for a wall of one cell ended in round-off, at 2e-9 of the forces.
-  if (equations.one_ended >= equations.num_variables()) {
-    turn_rows(tied, kept.bases);
-    tied.independent = tied.equations.right.size() >= dear;
-    if (tied.independent) leave_out_implied(tied, kept.implied);
+  const bool turns = equations.one_ended >= equations.num_variables();
+  const Index num_points = equations.num_points();
+  if (turns) kept.bases.resize(static_cast<std::size_t>(num_points));
+  tied.matrix.resize(static_cast<Eigen::Index>(equations.right.size()),
+                     static_cast<Eigen::Index>(tied.root.size()));
+  const Csr variables = variables_at_points(equations);
+  for (Index p = 0; p < num_points; ++p) {
+    PointRows own = rows_of_point(equations, tied, p, variables.row(p));
+    if (turns) turn_rows(own, kept.bases[p]);
+    append(own, p * equations.rows, tied);
   }
+  tied.matrix.finalize();
+  tied.independent = turns && equations.right.size() >= dear;
+  if (tied.independent) leave_out_implied(tied, kept.implied);
   return tied;
 }
 

@@ -6,7 +6,8 @@
 namespace perilink {
 
 /// The equations with a column for each unknown, without rows that follow from others.
-/// \param kept  empty at first
+/// \param equations  without groups
+/// \param kept       empty at first
 TiedEquations tie(const PointEquations& equations, TiedRows& kept);
 
 }  // namespace perilink

@@ -18,7 +18,7 @@ namespace perilink {
 struct TiedEquations {
   using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 
-  PointEquations equations;  ///< right sides, scale and ridge; bounds of the unknowns
+  PointEquations equations;  ///< scaled right sides, ridge; bounds of the unknowns
   /// Scaled, shape (points * rows, unknowns). Where rows of a point follow from each other they are
   /// those of a basis, and zero behind it.
   Matrix matrix;

@@ -9,8 +9,7 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "solver/factor_routes.hpp"
-#include "solver/ordering.hpp"
+#include "calibration/least_change/equations/point_matrix.hpp"
 
 namespace perilink {
 namespace {
@@ -22,49 +21,39 @@ constexpr std::array<double, 3> floors = {1e-7, 1e-6, 1e-5};
 constexpr double stale_iterations = 10.0;
 /// ... and more of large factors: an operation of a solution, whose speed is that of the memory,
 /// takes as long as so many of a factor. New factors are worth more than their time.
-constexpr double slower = 4.0, worth_more = 4.0;
+constexpr double slower = 5.5, worth_more = 4.0;
 
-PointMatrix::Pairs shared_points(const TiedEquations::Matrix& columns, Index rows) {
-  PointMatrix::Pairs pairs = shared_variables(columns, rows);
+std::vector<std::pair<Index, Index>> shared_points(const TiedEquations::Matrix& columns,
+                                                   Index rows) {
+  auto pairs = shared_variables(columns, rows);
   std::erase_if(pairs,
                 [](const std::pair<Index, Index>& pair) { return pair.first == pair.second; });
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   return pairs;
 }
 
-/// Where each point comes in the order of elimination.
-std::vector<Index> order_of(const PointMatrix::Pairs& pairs, Index num_points) {
-  std::vector<Index> each(static_cast<std::size_t>(num_points) + 1);
-  std::iota(each.begin(), each.end(), 0);
-  const PointMatrix graph(std::move(each), pairs);
-  return invert(elimination_order(graph.matrix()));
-}
-
 }  // namespace
 
 TiedFactor::TiedFactor(const TiedEquations& tied, const TiedEquations::Matrix& columns)
-    : rows_(tied.equations.rows), matrix_(make_matrix(tied, shared_points(columns, rows_))) {}
-
-PointMatrix::Pairs TiedFactor::in_order(PointMatrix::Pairs pairs) const {
-  for (auto& [p, q] : pairs) std::tie(p, q) = std::minmax({order_[p], order_[q]});
-  return pairs;
-}
-
-/// The pattern, of the rows that hold something.
-PointMatrix TiedFactor::make_matrix(const TiedEquations& tied, const PointMatrix::Pairs& pairs) {
-  order_ = order_of(pairs, tied.equations.num_points());
+    : rows_(tied.equations.rows), pairs_(shared_points(columns, rows_)) {
+  const Index num_points = tied.equations.num_points();
+  const auto holds = [&](Index row) {
+    return tied.matrix.outerIndexPtr()[row + 1] > tied.matrix.outerIndexPtr()[row];
+  };
+  std::vector<Index> each(static_cast<std::size_t>(num_points) + 1), sizes(each.size() - 1, 0);
+  std::iota(each.begin(), each.end(), 0);
+  for (Index row = 0; row < num_points * rows_; ++row) sizes[row / rows_] += holds(row);
+  const PointMatrix graph(std::move(each), pairs_);
+  factor_ = std::make_unique<PreconditionerFactor>(graph.matrix(), sizes, omp_get_max_threads());
+  statistics_ = factor_->statistics();
   place_.assign(tied.equations.right.size(), no_index);
-  std::vector<Index> first_row;
-  for (const Index p : invert(order_)) {
-    first_row.push_back(static_cast<Index>(row_.size()));
-    for (Index k = p * rows_; k < (p + 1) * rows_; ++k) {
-      if (tied.matrix.outerIndexPtr()[k + 1] == tied.matrix.outerIndexPtr()[k]) continue;
-      place_[k] = static_cast<Index>(row_.size()) - first_row.back();
-      row_.push_back(k);
+  for (const Index p : factor_->order()) {
+    for (Index row = p * rows_; row < (p + 1) * rows_; ++row) {
+      if (!holds(row)) continue;
+      place_[row] = static_cast<Index>(row_.size());
+      row_.push_back(row);
     }
   }
-  first_row.push_back(static_cast<Index>(row_.size()));
-  return {std::move(first_row), in_order(pairs)};
 }
 
 bool TiedFactor::fits(const TiedEquations& tied, const TiedEquations::Matrix& columns) const {
@@ -72,48 +61,64 @@ bool TiedFactor::fits(const TiedEquations& tied, const TiedEquations::Matrix& co
   const std::span<const int> used(columns.innerIndexPtr(),
                                   static_cast<std::size_t>(columns.nonZeros()));
   return std::ranges::all_of(used, [&](int row) { return place_[row] != no_index; }) &&
-         matrix_.holds(in_order(shared_points(columns, rows_)));
+         std::ranges::includes(pairs_, shared_points(columns, rows_));
 }
 
-void TiedFactor::factorize(const TiedEquations::Matrix& columns, std::span<const double> mobility,
+void TiedFactor::sort(TiedEquations::Matrix& columns) const {
+  std::vector<std::pair<int, double>> entries;
+  for (Eigen::Index u = 0; u < columns.rows(); ++u) {
+    const int begin = columns.outerIndexPtr()[u], end = columns.outerIndexPtr()[u + 1];
+    entries.clear();
+    for (int k = begin; k < end; ++k) {
+      entries.emplace_back(columns.innerIndexPtr()[k], columns.valuePtr()[k]);
+    }
+    std::ranges::sort(entries, {}, [&](const auto& entry) { return place_[entry.first]; });
+    for (int k = begin; k < end; ++k) {
+      std::tie(columns.innerIndexPtr()[k], columns.valuePtr()[k]) = entries[k - begin];
+    }
+  }
+}
+
+/// Where the entries of the rows are among those of their unknowns.
+std::vector<int> TiedFactor::own_entries(const TiedEquations::Matrix& matrix,
+                                         const TiedEquations::Matrix& columns) const {
+  std::vector<int> own(static_cast<std::size_t>(matrix.nonZeros()));
+  std::vector<int> next(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.rows());
+  for (Eigen::Index u = 0; u < columns.rows(); ++u) {
+    for (int k = columns.outerIndexPtr()[u]; k < columns.outerIndexPtr()[u + 1]; ++k) {
+      own[next[columns.innerIndexPtr()[k]]++] = k;
+    }
+  }
+  return own;
+}
+
+void TiedFactor::factorize(const TiedEquations::Matrix& matrix,
+                           const TiedEquations::Matrix& columns, std::span<const double> mobility,
                            std::span<const double> shift) {
-  matrix_.set_zero();
-  const int* row_of = columns.innerIndexPtr();
+  const std::vector<int> own = own_entries(matrix, columns);
+  const int* row = columns.innerIndexPtr();
   const double* value = columns.valuePtr();
-  for (Index u = 0; u < static_cast<Index>(columns.rows()); ++u) {
-    if (mobility[u] == 0.0) continue;
-    for_each_point(columns, u, rows_, [&](int first, int last) {
-      const Index upper = order_[row_of[first] / rows_];
-      for_each_point(columns, u, rows_, [&](int from, int to) {
-        const Index lower = order_[row_of[from] / rows_];
-        if (lower < upper) return;
-        for (int c = first; c < last; ++c) {
-          const double factor = value[c] * mobility[u];
-          double* entries = matrix_.block(upper, lower, place_[row_of[c]]);
-          for (int r = upper == lower ? c : from; r < to; ++r) {
-            entries[place_[row_of[r]]] += factor * value[r];
-          }
-        }
-      });
-    });
-  }
-  const auto entry = [&](Index row) -> double& {
-    const Index point = order_[row / rows_];
-    return matrix_.block(point, point, place_[row])[place_[row]];
-  };
-  if (!factor_) {
-    factor_ = std::make_unique<PreconditionerFactor>(matrix_.matrix(), omp_get_max_threads());
-    statistics_ = factor_->statistics();
-  }
   double trace = 0.0;
-  for (const Index row : row_) trace += entry(row);
+  for (Eigen::Index k = 0; k < matrix.nonZeros(); ++k) {
+    const double number = matrix.valuePtr()[k];
+    trace += number * number * mobility[matrix.innerIndexPtr()[k]];
+  }
   const double mean = trace / static_cast<double>(row_.size());
-  for (const Index row : row_) entry(row) += entry(row) > 0.0 ? shift[row] : 1.0;
-  double before = 0.0;
   for (const double floor : floors) {
-    for (const Index row : row_) entry(row) += (floor - before) * mean;
-    before = floor;
-    if (factor_->factorize(matrix_.matrix())) return;
+    const auto add = [&](Index column, std::span<const Index> place, std::span<double> values) {
+      const Index own_row = row_[column];
+      for (int k = matrix.outerIndexPtr()[own_row]; k < matrix.outerIndexPtr()[own_row + 1]; ++k) {
+        const int unknown = matrix.innerIndexPtr()[k];
+        const double factor = matrix.valuePtr()[k] * mobility[unknown];
+        if (factor == 0.0) continue;
+        for (int e = own[k]; e < columns.outerIndexPtr()[unknown + 1]; ++e) {
+          values[place[place_[row[e]]]] += factor * value[e];
+        }
+      }
+      double& diagonal = values[place[column]];
+      diagonal += (diagonal > 0.0 ? shift[own_row] : 1.0) + floor * mean;
+    };
+    if (factor_->factorize(add)) return;
   }
   throw SolverError("the equations of bonds that are made alike have no factor");
 }

@@ -2,9 +2,9 @@
 
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
-#include "calibration/least_change/equations/point_matrix.hpp"
 #include "calibration/least_change/tied/tied_equations.hpp"
 #include "solver/preconditioner_factor.hpp"
 
@@ -14,14 +14,21 @@ namespace perilink {
 class TiedFactor {
  public:
   /// \param columns  the matrix, transposed
+  /// \throws SolverError  where there is no memory for the factor
   TiedFactor(const TiedEquations& tied, const TiedEquations::Matrix& columns);
 
   /// Whether it can be made for these columns, too.
   bool fits(const TiedEquations& tied, const TiedEquations::Matrix& columns) const;
+  /// Sorts the entries of each unknown in the order of elimination, which factorize() asks for.
+  void sort(TiedEquations::Matrix& columns) const;
+  /// The system is not stored: the factor asks for one column after the other.
+  /// \param matrix    M
+  /// \param columns   the same, transposed and sorted
   /// \param mobility  D
   /// \param shift     added to the diagonal
-  void factorize(const TiedEquations::Matrix& columns, std::span<const double> mobility,
-                 std::span<const double> shift);
+  /// \throws SolverError  where there is none
+  void factorize(const TiedEquations::Matrix& matrix, const TiedEquations::Matrix& columns,
+                 std::span<const double> mobility, std::span<const double> shift);
   void solve(std::span<const double> residual, std::span<double> result) const;
   /// Iterations of conjugate gradients that take as long as a new factor, and those for which one
   /// is made: it serves the solutions behind this one, too.
@@ -32,16 +39,15 @@ class TiedFactor {
   double operations_of_solution() const;
 
  private:
-  PointMatrix::Pairs in_order(PointMatrix::Pairs pairs) const;
-  PointMatrix make_matrix(const TiedEquations& tied, const PointMatrix::Pairs& pairs);
+  std::vector<int> own_entries(const TiedEquations::Matrix& matrix,
+                               const TiedEquations::Matrix& columns) const;
 
   Index rows_;
-  std::vector<Index> order_;  // per point: where it comes in the order of elimination
-  std::vector<Index> row_;    // those that hold something, in that order
-  std::vector<Index> place_;  // per row: its place among those of its point; no_index: none
-  FactorStatistics statistics_;
-  PointMatrix matrix_;
+  std::vector<std::pair<Index, Index>> pairs_;  // points that share a variable, ascending
+  std::vector<Index> row_;    // those that hold something, in the order of elimination
+  std::vector<Index> place_;  // per row: where it comes there; no_index: not
   std::unique_ptr<PreconditionerFactor> factor_;
+  FactorStatistics statistics_;
 };
 
 }  // namespace perilink

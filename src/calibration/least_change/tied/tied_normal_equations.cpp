@@ -47,6 +47,7 @@ TiedNormalEquations::TiedNormalEquations(const TiedEquations& tied,
     shift_[static_cast<Eigen::Index>(k)] = tied.equations.ridge_of(k % rows) + proximity_;
   }
   if (factor_ && !factor_->fits(tied, transposed_)) factor_.reset();
+  if (factor_) factor_->sort(transposed_);
 }
 
 void TiedNormalEquations::apply_transpose(const Vector& y, std::vector<double>& result) const {
@@ -68,8 +69,11 @@ void TiedNormalEquations::measure(const std::vector<double>& unknowns, const Vec
 }
 
 void TiedNormalEquations::prepare() {
-  if (!factor_) factor_ = std::make_unique<TiedFactor>(tied_, transposed_);
-  factor_->factorize(transposed_, mobility,
+  if (!factor_) {
+    factor_ = std::make_unique<TiedFactor>(tied_, transposed_);
+    factor_->sort(transposed_);
+  }
+  factor_->factorize(tied_.matrix, transposed_, mobility,
                      {shift_.data(), static_cast<std::size_t>(shift_.size())});
   spent_ += factor_->operations();
   stale_ = false;

@@ -89,7 +89,8 @@ TEST(Summary, TellsTheLargestCracks) {
   const double x = 0.5 * (model.network.particles.position(bonds.first[5])[0] +
                           model.network.particles.position(bonds.second[5])[0]);
   EXPECT_DOUBLE_EQ(summary.json["cracks"][0]["widest_at"][0], x);
-  EXPECT_THAT(summary.text, HasSubstr("the largest has 2 bonds and is open by 0.3 at most"));
+  EXPECT_THAT(summary.text,
+              HasSubstr("the largest has 2 damaged bonds and is open by 0.3 at most"));
   Summary none;
   tell_cracks(none, {});
   EXPECT_TRUE(none.text.empty());

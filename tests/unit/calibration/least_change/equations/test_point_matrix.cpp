@@ -33,12 +33,5 @@ TEST(PointMatrix, FindsBlocksBehindEachOther) {
   EXPECT_EQ(matrix.matrix().coeff(3, 0), 3.0);
 }
 
-TEST(PointMatrix, KnowsWhichPatternsItHolds) {
-  const PointMatrix matrix({0, 1, 2, 3, 4}, {{2, 3}, {0, 3}, {0, 1}});
-  EXPECT_TRUE(matrix.holds({{0, 1}, {2, 3}}));
-  EXPECT_TRUE(matrix.holds({}));
-  EXPECT_FALSE(matrix.holds({{0, 1}, {1, 2}}));
-}
-
 }  // namespace
 }  // namespace perilink
