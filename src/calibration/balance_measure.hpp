@@ -11,8 +11,8 @@
 
 namespace perilink {
 
-/// Forces and moments out of balance above this are told to the user. Round-off leaves up to 1e-8
-/// along boundaries of some hundred spacings.
+/// Forces and moments out of balance above this are told to the user, and have no solution with the
+/// floors of all bonds. Round-off leaves up to 1e-8 along boundaries of some hundred spacings.
 inline constexpr double met_balance = 1e-7;
 
 /// What forces and moments out of balance are measured by, from the stiffnesses at the start.

@@ -9,9 +9,6 @@
 namespace perilink {
 namespace {
 
-/// Forces out of balance above this have no solution with the floors of all bonds.
-constexpr double met = met_balance;
-
 /// Where a factor leaves every step a hundredth of the residual at most, coarse searches take it
 /// for a contradiction when a tenth is left.
 constexpr double contradiction_by_factor = 0.1;
@@ -122,7 +119,7 @@ bool BalanceSearch::balance(double tolerance) {
   balance_by(first, priced_ ? price : no_price, tolerance);
   const bool solvable = moments_ || !in_space_;
   // The tolerance is that of the mean.
-  const bool unsolved = solvable && unbalanced() > std::max(met, 100.0 * tolerance);
+  const bool unsolved = solvable && unbalanced() > std::max(met_balance, 100.0 * tolerance);
   const bool lost = tied_ && unbalanced() > largest_before;
   if (first == Method::newton && (unsolved || lost)) {
     const CalibrationEquations::State climbed = equations_.save();
@@ -136,7 +133,7 @@ bool BalanceSearch::balance(double tolerance) {
       equations_.report_balance(report_);
     }
   }
-  if (unbalanced() <= met || left() <= before) return true;
+  if (unbalanced() <= met_balance || left() <= before) return true;
   equations_.restore(settled);
   equations_.report_balance(report_);
   return false;
@@ -191,7 +188,7 @@ bool BalanceSearch::balance_dropping_bonds() {
   }
   if (!nearer) return false;
   const double floored = unbalanced();
-  if (!priced_ && equations_.allow_zero(in_space_ ? coarsely_met : met)) {
+  if (!priced_ && equations_.allow_zero(in_space_ ? coarsely_met : met_balance)) {
     const CalibrationEquations::State with_floors = equations_.save();
     equations_.restore(settled_);
     hopeless_ = far_from_worth * floored;
@@ -262,7 +259,7 @@ CalibrationReport BalanceSearch::run(double operations) {
       equations_.report_balance(report_);
     }
   }
-  if (moments_ && !tied_ && unbalanced() > met) soften_moments();
+  if (moments_ && !tied_ && unbalanced() > met_balance) soften_moments();
   if (!(unbalanced() <= start)) {  // too few neighbours all over
     equations_.take_all_back();
     equations_.report_balance(report_);

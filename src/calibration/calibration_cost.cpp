@@ -43,8 +43,8 @@ constexpr double worth_a_try = 2.0;
 /// that number (6 900 to 13 400 in bodies of 150 000 to 4 600 000 bonds: 0.08 to 0.27 GB in all,
 /// within 23 %).
 /// With all of them there are the bonds themselves, fewer bytes where they share directions, and
-/// what searches, or a count of what they have reached, hold for each (7 667 168 in the plane, most
-/// of them left out: 74 in all).
+/// what searches, or a count of what they have reached, hold for each (7 667 168 in the plane,
+/// mostly left out: 74 in all).
 constexpr double bytes_of_any_bond = 75.0, bytes_where_held = 100.0, bytes_where_shared = 32.0;
 constexpr double most_of_few = 0.5;
 constexpr double bytes_of_bond = 1300.0, bytes_in_cloud = 450.0;

@@ -11,8 +11,7 @@ namespace perilink {
 
 /// A factor in single precision, for preconditioners that need no more digits: it takes half the
 /// memory, and a solution, in double precision, reads half as much. The matrix, which need not be
-/// stored, is dense in the blocks of pairs of points: order and supernodes are found on the graph
-/// of the points.
+/// stored, is dense in the blocks of pairs of points: their graph gives order and supernodes.
 class PreconditionerFactor {
  public:
   /// \param graph  lower triangle of the pattern by points; its numbers are not read

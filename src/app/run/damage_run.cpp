@@ -211,8 +211,9 @@ void DamageRun::show_progress(const StepRecord& record) {
   }
   if (done) done = std::clamp(*done, 0.0, 1.0);
   std::string state = fmt::format("{} broken bonds", record.broken_bonds);
-  if (record.yield_events > 0)
+  if (record.yield_events > 0) {
     state += fmt::format(", {} yield or softening events", record.yield_events);
+  }
   state += fmt::format(", load factor {:.4g}", record.load_factor);
   if (record.stage > 0) {
     const std::string& name = input.stages[static_cast<std::size_t>(record.stage - 1)].name;
