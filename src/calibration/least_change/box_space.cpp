@@ -59,6 +59,17 @@ std::vector<double> point_blocks(const PointEquations& equations, const std::vec
   return blocks;
 }
 
+void invert_blocks(int rows, std::vector<double>& blocks) {
+  // One size for all: a decomposition of fixed size takes the compiler seconds for each.
+  using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 26, 26>;
+  const std::size_t size = static_cast<std::size_t>(rows) * rows;
+  for (std::size_t begin = 0; begin < blocks.size(); begin += size) {
+    Eigen::Map<MatrixXd> block(blocks.data() + begin, rows, rows);
+    const Eigen::LLT<Small> factor(block);
+    block = factor.solve(Small::Identity(rows, rows));
+  }
+}
+
 void finish_blocks(int size, const std::vector<double>& diagonal, std::vector<double>& blocks) {
   const std::size_t rows = static_cast<std::size_t>(size);
   for (std::size_t p = 0; p < diagonal.size() / rows; ++p) {

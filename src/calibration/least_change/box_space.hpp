@@ -84,4 +84,8 @@ std::vector<double> point_blocks(const PointEquations& equations, const std::vec
 /// \param rows  equations of a point
 void finish_blocks(int rows, const std::vector<double>& diagonal, std::vector<double>& blocks);
 
+/// Replaces symmetric positive definite blocks, shape (points, rows, rows), by their inverses.
+/// \param rows  26 at most
+void invert_blocks(int rows, std::vector<double>& blocks);
+
 }  // namespace perilink

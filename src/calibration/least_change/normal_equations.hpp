@@ -253,10 +253,10 @@ void NormalEquations<Rows, Odd, Grouped>::build_blocks() {
   } else {
     blocks = point_blocks(equations_, mobility, added);
   }
+  invert_blocks(Rows, blocks);
   inverse_blocks_.resize(size_ / Rows);
   for (std::size_t p = 0; p < inverse_blocks_.size(); ++p) {
-    inverse_blocks_[p] =
-        Eigen::Map<const Block>(blocks.data() + p * Rows * Rows).llt().solve(Block::Identity());
+    inverse_blocks_[p] = Eigen::Map<const Block>(blocks.data() + p * Rows * Rows);
   }
   // The coarse system serves other weights too; the blocks are cheap.
   if (with_boxes_ && last_iterations_ > (kept_.boxes->is_nested() ? 2 : 1) * stale_coarse) {
