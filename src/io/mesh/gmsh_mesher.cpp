@@ -50,6 +50,8 @@ struct Gmsh {
   decltype(&gmshOpen) open = nullptr;
   decltype(&gmshWrite) write = nullptr;
   decltype(&gmshOptionSetNumber) set_number = nullptr;
+  decltype(&gmshModelGetEntities) entities = nullptr;
+  decltype(&gmshModelMeshGetElementTypes) element_types = nullptr;
   decltype(&gmshModelMeshGenerate) generate = nullptr;
   decltype(&gmshLoggerGetLastError) last_error = nullptr;
 };
@@ -72,6 +74,8 @@ Gmsh load_gmsh() {
   find(gmsh.open, "gmshOpen");
   find(gmsh.write, "gmshWrite");
   find(gmsh.set_number, "gmshOptionSetNumber");
+  find(gmsh.entities, "gmshModelGetEntities");
+  find(gmsh.element_types, "gmshModelMeshGetElementTypes");
   find(gmsh.generate, "gmshModelMeshGenerate");
   find(gmsh.last_error, "gmshLoggerGetLastError");
   return gmsh;
@@ -100,11 +104,8 @@ class Session {
     for (std::string& word : words) arguments.push_back(word.data());
     initialize(gmsh_.initialize, arguments, error_);
     check();
-    for (const auto& [name, value] :
-         {std::pair{"General.Terminal", 0.0}, std::pair{"General.NumThreads", 1.0},
-          std::pair{"Mesh.MshFileVersion", 4.1}, std::pair{"Mesh.Binary", 1.0}}) {
-      set(name, value);
-    }
+    set("General.Terminal", 0.0);
+    set("General.NumThreads", 1.0);
   }
 
   void set(const char* option, double value) {
@@ -119,7 +120,24 @@ class Session {
     gmsh_.generate(dim, &error_);
     check();
   }
+  /// Whether all entities of a dimension have elements, and there is one.
+  bool is_meshed(int dim) {
+    int *pairs = nullptr, *types = nullptr;  // they go with the process
+    std::size_t count = 0, num_types = 0;
+    gmsh_.entities(&pairs, &count, dim, &error_);
+    check();
+    bool all = count > 0;
+    for (std::size_t k = 0; all && k < count; k += 2) {
+      gmsh_.element_types(&types, &num_types, dim, pairs[k + 1], &error_);
+      check();
+      all = num_types > 0;
+    }
+    return all;
+  }
+  /// Whatever a script says of files that it would have written itself.
   void write(const std::string& target) {
+    set("Mesh.MshFileVersion", 4.1);
+    set("Mesh.Binary", 1.0);
     gmsh_.write(target.c_str(), &error_);
     check();
   }
@@ -146,7 +164,9 @@ void write_mesh(const std::string& path, int dim, std::optional<double> size,
     session.set("Mesh.MeshSizeMin", *size);
     session.set("Mesh.MeshSizeMax", *size);
   }
-  session.generate(dim);
+  // A script that meshes itself may have changed the mesh since, for one by Plugin(Crack).
+  const bool ready = session.is_meshed(dim) && (dim == 3 || !session.is_meshed(3));
+  if (!ready) session.generate(dim);
   session.write(target);
 }
 

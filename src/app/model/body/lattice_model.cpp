@@ -216,7 +216,7 @@ Model lattice_places(const CaseFile& input, const LatticeShape& shape, const Exp
 
 Model build_lattice_model(const CaseFile& input) {
   const LatticeShape shape(input);
-  std::vector<std::string> notes;
+  std::vector<std::string> notes = shape.notes();
   const ExplicitModel body = build_lattice(input, shape, notes);
   LatticeNetwork statics = lattice_network(body);
   Model model = lattice_places(input, shape, body, statics.slots);
