@@ -97,7 +97,8 @@ void add_positions(const GmshSections& sections, const std::string& path, Mesh& 
 /// Nodes that belong to no element of the mesh may lie anywhere.
 void refuse_bent(const GmshSections& sections, const std::string& path, const Mesh& mesh) {
   double lower = INFINITY, upper = -INFINITY, extent = 0.0;
-  const double* first = sections.coordinates.data() + 3 * std::size_t(mesh.cells.front());
+  const double* first =
+      sections.coordinates.data() + 3 * static_cast<std::size_t>(mesh.cells.front());
   for (const std::vector<Index>* corners : {&mesh.cells, &mesh.facets}) {
     for (const Index point : *corners) {
       const double* x = sections.coordinates.data() + 3 * static_cast<std::size_t>(point);

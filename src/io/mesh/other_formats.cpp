@@ -31,7 +31,7 @@ std::string renamed(const std::string& path, const char* ending) {
 }
 
 /// How a mesh of another format becomes one of gmsh.
-enum class Way { gmsh, gmsh_without_groups, gmsh_with_library, volume, rename, none };
+enum class Way { gmsh, gmsh_without_groups, gmsh_with_library, volume, geometry, none };
 
 struct Format {
   std::string_view name;
@@ -50,9 +50,9 @@ constexpr std::array formats = {
     Format{"Nastran", " .bdf .nas ", "BEGIN BULK", Way::gmsh_without_groups},
     Format{"Medit", " .mesh .meshb ", "MeshVersionFormatted", Way::gmsh_without_groups},
     Format{"STL", " .stl ", "solid", Way::volume},
-    Format{"STEP", "", "ISO-10303-21", Way::rename},
-    Format{"BREP", "", "DBRep_DrawableShape", Way::rename},
-    Format{"IGES", " .iges .igs ", "", Way::none},
+    Format{"STEP", "", "ISO-10303-21", Way::geometry},
+    Format{"BREP", "", "DBRep_DrawableShape", Way::geometry},
+    Format{"IGES", " .iges .igs ", "", Way::geometry},
     Format{"LS-DYNA", " .k .key ", "*KEYWORD", Way::none},
     Format{"Abaqus or CalculiX", " .inp ", "*", Way::none},
     Format{"Ansys", " .cdb ", "/PREP7", Way::none},
@@ -90,7 +90,7 @@ std::string advice_for(const Format& format, const std::string& path) {
           "it holds a surface; mesh its inside: write Merge \"{}\"; Surface Loop(1) = "
           "Surface{{:}}; Volume(1) = {{1}}; into a file body.geo beside it, and name body.geo",
           std::filesystem::path(path).filename().string());
-    case Way::rename: return "it is a geometry: let its name end with .step or .brep, as it is";
+    case Way::geometry: return "it is a geometry: give it as a .step or .brep file";
     case Way::none: break;
   }
   return "gmsh does not convert it. Save it as .unv, .med or .bdf, which gmsh converts, in the "

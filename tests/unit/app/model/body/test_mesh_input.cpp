@@ -12,14 +12,19 @@
 #include "app/model/from_case/configure.hpp"
 #include "app/model/model_regions.hpp"
 #include "base/error.hpp"
+#include "io/mesh/gmsh_mesher.hpp"
+#include "io/text/csv.hpp"
 #include "support/gmsh_texts.hpp"
 #include "support/halved_meshes.hpp"
+#include "support/replaced.hpp"
 #include "support/temporary_directory.hpp"
+#include "support/whole_run.hpp"
 
 namespace perilink {
 namespace {
 
 using test::TemporaryDirectory;
+using ::testing::Contains;
 using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -135,6 +140,112 @@ TEST_F(MeshInput, SaysHowToMakeGroupsWhereThereAreNone) {
   }
   test::write_text(directory_ / "body.msh", text);
   EXPECT_THAT(refusal("", ""), HasSubstr("write Physical Surface(\"plate\") = {...};"));
+}
+
+TEST_F(MeshInput, NamesOfGroupsNeedToBeUniqueInTheirDimensionOnly) {
+  test::write_text(directory_ / "body.msh",
+                   replaced(test::square_mesh, "2 5 \"plate\"", "2 5 \"lower\""));
+  const CaseFile input = parse("group = \"plate\"", "group = \"lower\"");
+  const Model model = build_model(input);
+  EXPECT_EQ(particles_of_region(input, model, "solid", "").size(), 5u)
+      << "its cells, not its lines";
+  EXPECT_THAT(model.notes,
+              Contains("the region \"solid\" is the physical group \"lower\" of triangles; the "
+                       "one of lines with this name is not used"));
+}
+
+TEST_F(MeshInput, RefusesTwoGroupsOfOneNameAndDimensionWhereTheyAreNamed) {
+  test::write_text(directory_ / "body.msh",
+                   replaced(test::square_mesh, "\"lower and left\"", "\"lower\""));
+  EXPECT_THAT(refusal("", ""), AllOf(HasSubstr("regions[2].group: is \"lower\""),
+                                     HasSubstr("two physical groups of lines with this name"),
+                                     HasSubstr("a name of its own")));
+  EXPECT_EQ(refusal("group = \"lower\"", "x = [0, 2]\ny = [0, 0]"), "accepted");
+  EXPECT_THAT(refusal("group = \"lower\"",
+                      "x = [0, 2]\ny = [0, 0]\n[[rebar]]\ngroup = \"lower\"\n"
+                      "youngs_modulus = 1\narea = 0.1\n"),
+              HasSubstr("rebar[1].group: is \"lower\""));
+}
+
+/// A plate in tension by its right side: stress E u / L, energy half of force times displacement.
+TEST_F(MeshInput, MarksUnusedNodesAndNamesChangeNothing) {
+  const std::string clean = test::square_mesh;
+  const std::string meshes[] = {clean, "\xEF\xBB\xBF" + clean,
+                                replaced(clean, "9 9 0\n", "9 9 7\n"),
+                                replaced(clean, "2 5 \"plate\"", "2 5 \"lower\""),
+                                replaced(clean, "\"lower and left\"", "\"lower\"")};
+  for (const std::string& mesh : meshes) {
+    test::write_text(directory_ / "body.msh", mesh);
+    const test::WholeRun run("[body]\nmesh = \"" + (directory_ / "body.msh").string() +
+                             R"("
+method = "linear_elements"
+[[regions]]
+name = "plate"
+x = [0, 2]
+y = [0, 2]
+[[regions]]
+name = "left"
+x = [0, 0]
+y = [0, 2]
+[[regions]]
+name = "right"
+x = [2, 2]
+y = [0, 2]
+[[regions]]
+name = "corner"
+x = [0, 0]
+y = [0, 0]
+[[materials]]
+region = "plate"
+youngs_modulus = 30000
+poissons_ratio = 0.3
+[[supports]]
+region = "left"
+fix = ["x"]
+[[supports]]
+region = "corner"
+fix = ["y"]
+[[displacements]]
+region = "right"
+x = 0.002
+[analysis]
+type = "elastic"
+)");
+    const CsvTable table = run.history();
+    EXPECT_NEAR(table.rows[0][table.column("load")], 60.0, 1e-9);
+    EXPECT_NEAR(table.rows[0][table.column("strain_energy")], 0.06, 1e-12);
+  }
+}
+
+TEST_F(MeshInput, GeometriesSayTheirUnitAndSize) {
+  if (!has_gmsh()) GTEST_SKIP() << "built without gmsh";
+  const auto write = [&](const std::string& name) {
+    const std::string script = (directory_ / "make.geo").string();
+    test::write_text(
+        script,
+        "SetFactory(\"OpenCASCADE\"); Rectangle(1) = {1, 0, 0, 2, 1};\nSave \"" + name + "\";\n");
+    mesh_geometry(script, 2, 1.0e3, true);
+    return test::read_text(directory_ / name);
+  };
+  const auto notes_of = [&](const std::string& name, const char* size) {
+    const Model model = build_model(parse_case(
+        "[body]\nmesh = \"" + name + "\"\nmesh_size = " + size +
+            "\nhorizon_ratio = 3\nsurface = \"none\"\n[[materials]]\nregion = \"all\"\n"
+            "youngs_modulus = 1\nfracture_energy = 1\n[[regions]]\nname = \"all\"\n"
+            "x = [0, 9e3]\ny = [0, 9e3]\n[[supports]]\nregion = \"all\"\nfix = [\"x\", \"y\"]\n",
+        (directory_ / "case.toml").string()));
+    return model.notes;
+  };
+  const std::string metres =
+      replaced(write("body.step"), "SI_UNIT(.MILLI.,.METRE.)", "SI_UNIT($,.METRE.)");
+  test::write_text(directory_ / "body.step", metres);
+  EXPECT_THAT(notes_of("body.step", "500"),
+              Contains(AllOf(HasSubstr("body.step: lengths are in millimetres"),
+                             HasSubstr("the mesh goes from (1000, 0) to (3000, 1000)"))));
+  write("body.brep");
+  EXPECT_THAT(notes_of("body.brep", "0.5"),
+              Contains(AllOf(HasSubstr("BREP files state no unit"),
+                             HasSubstr("the mesh goes from (1, 0) to (3, 1)"))));
 }
 
 TEST_F(MeshInput, CracksCutBonds) {
