@@ -91,10 +91,10 @@ TEST_F(MeshedCase, MeshesOfOtherFormatsAreRefusedWithWhatConvertsThem) {
   } meshes[] = {
       {"body.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n",
        "body.msh:2: is in version \"2.2\" of gmsh's format",
-       "gmsh ../body.msh -save -format msh41 -o ../body_41.msh"},
+       "gmsh \"../body.msh\" -save -format msh41 -o \"../body_41.msh\""},
       {"body.inp", "*HEADING\n", "body.inp", "is in the format of Abaqus or CalculiX"},
       {"body.vtk", "# vtk DataFile Version 2.0\n", "is in the format of VTK",
-       "gmsh ../body.vtk -save -format msh41 -o ../body_41.msh"},
+       "gmsh \"../body.vtk\" -save -format msh41 -o \"../body_41.msh\""},
   };
   for (const auto& [mesh, text, fault, advice] : meshes) {
     write_text(directory_ / mesh, text);

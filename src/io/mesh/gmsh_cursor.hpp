@@ -11,15 +11,12 @@ namespace perilink {
 /// throws InputError with file and line where the value is missing or out of range.
 class GmshCursor {
  public:
-  /// \param bytes  must outlive this object; a byte order mark of UTF-8 is passed over
-  GmshCursor(std::string_view bytes, std::string path) : bytes_(bytes), path_(std::move(path)) {
-    if (bytes_.starts_with("\xEF\xBB\xBF")) at_ = 3;
-  }
+  /// \param bytes  must outlive this object
+  GmshCursor(std::string_view bytes, std::string path) : bytes_(bytes), path_(std::move(path)) {}
 
   const std::string& path() const { return path_; }
 
   void set_binary(bool binary) { binary_ = binary; }
-  bool binary() const { return binary_; }
   bool at_end();
 
   /// A line of text, without its end; also in binary files, whose headers are text.

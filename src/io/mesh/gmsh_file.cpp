@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "base/error.hpp"
@@ -113,24 +114,25 @@ void refuse_bent(const GmshSections& sections, const std::string& path, const Me
   }
 }
 
-/// The group of a physical tag, made when it is first met.
-MeshGroup& group_of(std::map<GmshKey, MeshGroup>& groups, const GmshSections& sections,
-                    const GmshKey& key) {
-  MeshGroup& group = groups[key];
-  group.dim = key.first;
-  const auto name = sections.names.find(key);
-  group.name = name != sections.names.end() ? name->second : std::to_string(key.second);
-  return group;
-}
+using Groups = std::map<GmshKey, MeshGroup>;
+using FirstTags = std::map<std::pair<int, std::string>, int>;  // by dimension and name
 
-void sort_points(std::vector<Index>& points) {
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
+/// The group of a physical tag, made when it is first met. Tags of one dimension and name share it.
+MeshGroup& group_of(Groups& groups, FirstTags& first, const GmshSections& sections,
+                    const GmshKey& key) {
+  const auto found = sections.names.find(key);
+  std::string name = found != sections.names.end() ? found->second : std::to_string(key.second);
+  MeshGroup& group =
+      groups[{key.first, first.try_emplace({key.first, name}, key.second).first->second}];
+  group.dim = key.first;
+  group.name = std::move(name);
+  return group;
 }
 
 void add_elements(const GmshSections& sections, const std::string& path, Mesh& mesh) {
   const NodeTable table(sections, path);
-  std::map<GmshKey, MeshGroup> groups;
+  Groups groups;
+  FirstTags first_tags;
   std::vector<Index> nodes;
   for (const GmshBlock& block : sections.blocks) {
     const int dim = block.entity.first;
@@ -149,19 +151,21 @@ void add_elements(const GmshSections& sections, const std::string& path, Mesh& m
     if (elements != nullptr) elements->insert(elements->end(), nodes.begin(), nodes.end());
     if (is_cell) mesh.cell_tags.insert(mesh.cell_tags.end(), block.tags.begin(), block.tags.end());
     if (!grouped) continue;
-    std::vector<int> distinct = tags->second;
-    std::sort(distinct.begin(), distinct.end());
-    distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
-    for (const int tag : distinct) {
-      MeshGroup& group = group_of(groups, sections, {dim, tag});
-      group.points.insert(group.points.end(), nodes.begin(), nodes.end());
+    std::set<MeshGroup*> distinct;
+    for (const int tag : tags->second) {
+      distinct.insert(&group_of(groups, first_tags, sections, {dim, tag}));
+    }
+    for (MeshGroup* group : distinct) {
+      group->points.insert(group->points.end(), nodes.begin(), nodes.end());
       for (std::size_t k = 0; elements != nullptr && k < nodes.size() / width; ++k) {
-        group.elements.push_back(first + static_cast<Index>(k));
+        group->elements.push_back(first + static_cast<Index>(k));
       }
     }
   }
   for (auto& [key, group] : groups) {
-    sort_points(group.points);
+    std::vector<Index>& points = group.points;
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
     mesh.groups.push_back(std::move(group));
   }
 }

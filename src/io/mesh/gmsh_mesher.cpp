@@ -123,16 +123,13 @@ class Session {
   /// Whether all entities of a dimension have elements, and there is one.
   bool is_meshed(int dim) {
     int *pairs = nullptr, *types = nullptr;  // they go with the process
-    std::size_t count = 0, num_types = 0;
+    std::size_t count = 0, num_types = 1;
     gmsh_.entities(&pairs, &count, dim, &error_);
-    check();
-    bool all = count > 0;
-    for (std::size_t k = 0; all && k < count; k += 2) {
+    for (std::size_t k = 0; error_ == 0 && num_types > 0 && k < count; k += 2) {
       gmsh_.element_types(&types, &num_types, dim, pairs[k + 1], &error_);
-      check();
-      all = num_types > 0;
     }
-    return all;
+    check();
+    return count > 0 && num_types > 0;
   }
   /// Whatever a script says of files that it would have written itself.
   void write(const std::string& target) {
@@ -165,8 +162,7 @@ void write_mesh(const std::string& path, int dim, std::optional<double> size,
     session.set("Mesh.MeshSizeMax", *size);
   }
   // A script that meshes itself may have changed the mesh since, for one by Plugin(Crack).
-  const bool ready = session.is_meshed(dim) && (dim == 3 || !session.is_meshed(3));
-  if (!ready) session.generate(dim);
+  if (!session.is_meshed(dim) || (dim == 2 && session.is_meshed(3))) session.generate(dim);
   session.write(target);
 }
 

@@ -161,6 +161,7 @@ void read_section(GmshCursor& file, const std::string& name, GmshSections& secti
 }  // namespace
 
 GmshSections read_gmsh_sections(std::string_view bytes, const std::string& path) {
+  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);  // mark of UTF-8
   GmshCursor file(bytes, path);
   GmshSections sections;
   bool format_known = false;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cctype>
 #include <filesystem>
@@ -12,116 +11,81 @@
 namespace perilink {
 namespace {
 
-std::string quoted_for_shell(const std::string& text) {
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
-}
-
-std::string file_for_shell(const std::string& path) {
-  const auto is_plain = [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '/' || c == '.' || c == '_' || c == '-' || c == '+';
-  };
-  const bool plain = std::all_of(path.begin(), path.end(), is_plain) && !path.starts_with('-');
-  return plain ? path : quoted_for_shell(path);
-}
-
-std::string renamed(const std::string& path, const char* ending) {
-  return std::filesystem::path(path).replace_extension().string() + ending;
-}
-
-/// How a mesh of another format becomes one of gmsh.
-enum class Way { gmsh, gmsh_without_groups, gmsh_with_library, volume, geometry, none };
+// Advice: {0} is the conversion by gmsh, {1} the format, {2} the file.
+constexpr const char* by_gmsh = "{0}";
+constexpr const char* with_library = "with a gmsh that was built with {1}, {0}";
+constexpr const char* without_groups = "its groups are lost, so give boxes as regions; {0}";
+constexpr const char* inside =
+    "it holds a surface; mesh its inside: write Merge \"{2}\"; Surface Loop(1) = Surface{{:}}; "
+    "Volume(1) = {{1}}; into a file body.geo beside it, and name body.geo";
+constexpr const char* geometry = "it is a geometry: give it as a .step or .brep file";
+constexpr const char* not_by_gmsh =
+    "gmsh does not convert it. Save it as .unv, .med or .bdf, which gmsh converts, in the program "
+    "that wrote it, or give the geometry as .step or .geo";
 
 struct Format {
   std::string_view name;
   std::string_view endings;  ///< of file names, between blanks
   std::string_view begin;    ///< first bytes; empty: not told by them
-  Way way;
+  const char* advice;
 };
 
-/// gmsh 4.8 was tried on files of each that it reads.
 constexpr std::array formats = {
-    Format{"I-deas (.unv)", " .unv ", "    -1", Way::gmsh},
-    Format{"gmsh, version 1", "", "$NOD", Way::gmsh},
-    Format{"MED", " .med .mmed .rmed ", "", Way::gmsh_with_library},
-    Format{"CGNS", " .cgns ", "", Way::gmsh_with_library},
-    Format{"VTK", " .vtk ", "# vtk", Way::gmsh_without_groups},
-    Format{"Nastran", " .bdf .nas ", "BEGIN BULK", Way::gmsh_without_groups},
-    Format{"Medit", " .mesh .meshb ", "MeshVersionFormatted", Way::gmsh_without_groups},
-    Format{"STL", " .stl ", "solid", Way::volume},
-    Format{"STEP", "", "ISO-10303-21", Way::geometry},
-    Format{"BREP", "", "DBRep_DrawableShape", Way::geometry},
-    Format{"IGES", " .iges .igs ", "", Way::geometry},
-    Format{"LS-DYNA", " .k .key ", "*KEYWORD", Way::none},
-    Format{"Abaqus or CalculiX", " .inp ", "*", Way::none},
-    Format{"Ansys", " .cdb ", "/PREP7", Way::none},
-    Format{"Fluent", " .cas ", "(", Way::none},
-    Format{"Exodus", " .e .exo .exii ", "CDF", Way::none},
-    Format{"COMSOL", " .mphtxt ", "# Created by COMSOL", Way::none},
-    Format{"VTK (XML)", " .vtu .vtp .pvtu ", "<VTKFile", Way::none},
-    Format{"XDMF", " .xdmf .xmf ", "<?xml", Way::none},
-    Format{"HDF5", " .h5 .hdf5 ", "\x89HDF", Way::none},
+    Format{"gmsh, version 1", "", "$NOD", by_gmsh},
+    Format{"I-deas (.unv)", " .unv ", "    -1", by_gmsh},
+    Format{"MED", " .med .mmed .rmed ", "", with_library},
+    Format{"CGNS", " .cgns ", "", with_library},
+    Format{"VTK", " .vtk ", "# vtk", without_groups},
+    Format{"Nastran", " .bdf .nas ", "BEGIN BULK", without_groups},
+    Format{"Medit", " .mesh .meshb ", "MeshVersionFormatted", without_groups},
+    Format{"STL", " .stl ", "solid", inside},
+    Format{"STEP", "", "ISO-10303-21", geometry},
+    Format{"IGES", " .iges .igs ", "", geometry},
+    Format{"LS-DYNA", " .k .key ", "*KEYWORD", not_by_gmsh},
+    Format{"Abaqus or CalculiX", " .inp ", "*", not_by_gmsh},
+    Format{"Ansys", " .cdb ", "/PREP7", not_by_gmsh},
+    Format{"Fluent", " .cas ", "(", not_by_gmsh},
+    Format{"VTK (XML)", " .vtu .vtp .pvtu ", "<VTKFile", not_by_gmsh},
 };
-
-const Format* format_of(std::string_view bytes, const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  ending = " " + ending + " ";
-  for (const Format& format : formats) {
-    if (ending.size() > 2 && format.endings.find(ending) != std::string_view::npos) return &format;
-  }
-  for (const Format& format : formats) {
-    if (!format.begin.empty() && bytes.starts_with(format.begin)) return &format;
-  }
-  return nullptr;
-}
-
-std::string advice_for(const Format& format, const std::string& path) {
-  switch (format.way) {
-    case Way::gmsh: return conversion_to_41(path);
-    case Way::gmsh_without_groups:
-      return "its groups are lost, so give boxes as regions; " + conversion_to_41(path);
-    case Way::gmsh_with_library:
-      return fmt::format("with a gmsh that was built with {}, ", format.name) +
-             conversion_to_41(path);
-    case Way::volume:
-      return fmt::format(
-          "it holds a surface; mesh its inside: write Merge \"{}\"; Surface Loop(1) = "
-          "Surface{{:}}; Volume(1) = {{1}}; into a file body.geo beside it, and name body.geo",
-          std::filesystem::path(path).filename().string());
-    case Way::geometry: return "it is a geometry: give it as a .step or .brep file";
-    case Way::none: break;
-  }
-  return "gmsh does not convert it. Save it as .unv, .med or .bdf, which gmsh converts, in the "
-         "program that wrote it, or give the geometry as .step or .geo";
-}
 
 }  // namespace
 
 std::string conversion_to_41(const std::string& path) {
-  const std::string target = renamed(path, "_41.msh");
-  return fmt::format("convert it, and name the new file: gmsh {} -save -format msh41 -o {}",
-                     file_for_shell(path), file_for_shell(target));
+  return fmt::format(
+      "convert it, and name the new file: gmsh \"{}\" -save -format msh41 -o \"{}_41.msh\"", path,
+      std::filesystem::path(path).replace_extension().string());
 }
 
 std::string conversion_to_first_order(const std::string& path) {
   if (is_geometry(path)) return "delete Mesh.ElementOrder and SetOrder from the script";
-  const std::string script =
-      fmt::format("Merge \"{}\"; SetOrder 1; Mesh.MshFileVersion = 4.1; Save \"{}\";", path,
-                  renamed(path, "_order1.msh"));
-  return fmt::format("convert it, and name the new file: echo {} > order1.geo && gmsh order1.geo -",
-                     quoted_for_shell(script));
+  return fmt::format(
+      "convert it, and name the new file: write Merge \"{}\"; SetOrder 1; Mesh.MshFileVersion = "
+      "4.1; Save \"{}_order1.msh\"; into a file order1.geo in the present folder, and run gmsh "
+      "order1.geo -",
+      path, std::filesystem::path(path).replace_extension().string());
 }
 
-FormatFault other_format(std::string_view bytes, const std::string& path) {
-  const Format* format = format_of(bytes, path);
-  if (format != nullptr) {
-    return {fmt::format("is in the format of {}, not in gmsh's format 4.1", format->name),
-            advice_for(*format, path)};
+std::pair<std::string, std::string> other_format(std::string_view bytes, const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  ending = ending.empty() ? "no ending" : " " + ending + " ";
+  const Format* found = nullptr;
+  for (const Format& format : formats) {
+    if (format.endings.find(ending) != std::string_view::npos) {
+      found = &format;
+      break;
+    }
+    const bool begins = !format.begin.empty() && bytes.starts_with(format.begin);
+    if (begins && found == nullptr) found = &format;
   }
-  return {"does not begin with $MeshFormat, so it is no mesh of gmsh",
-          "give a mesh of gmsh's format 4.1: gmsh FILE.geo -2 -format msh41 (-3 for solids)"};
+  if (found == nullptr) {
+    return {"does not begin with $MeshFormat, so it is no mesh of gmsh",
+            "give a mesh of gmsh's format 4.1: gmsh FILE.geo -2 -format msh41 (-3 for solids)"};
+  }
+  const std::string command = conversion_to_41(path),
+                    file = std::filesystem::path(path).filename().string();
+  return {fmt::format("is in the format of {}, not in gmsh's format 4.1", found->name),
+          fmt::vformat(found->advice, fmt::make_format_args(command, found->name, file))};
 }
 
 }  // namespace perilink

@@ -2,28 +2,18 @@
 
 #include <string>
 #include <string_view>
-
-/// \file
-/// Messages for meshes that are not of gmsh's format 4.1: their format, and commands that convert
-/// them.
+#include <utility>
 
 namespace perilink {
 
-/// Advice with the command by which gmsh saves a mesh in format 4.1, groups kept. gmsh must be able
-/// to read the mesh.
+/// Advice with the command by which gmsh saves a mesh that it can read in format 4.1.
 std::string conversion_to_41(const std::string& path);
 
-/// Advice with the command by which gmsh makes a mesh of first order from one of second order,
-/// groups kept; for a geometry the options that ask for second order.
+/// Advice that makes a mesh of first order from one of second order.
 std::string conversion_to_first_order(const std::string& path);
 
-/// Fault and advice of a message.
-struct FormatFault {
-  std::string fault, advice;
-};
-
-/// Names the format of a file that does not begin as a mesh of gmsh does: by the ending of its
-/// name, otherwise by its first bytes.
-FormatFault other_format(std::string_view bytes, const std::string& path);
+/// Fault and advice for a file that does not begin as a mesh of gmsh does. Its format is told by
+/// the ending of its name, otherwise by its first bytes.
+std::pair<std::string, std::string> other_format(std::string_view bytes, const std::string& path);
 
 }  // namespace perilink

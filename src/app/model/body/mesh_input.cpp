@@ -38,20 +38,6 @@ const char* elements_of(const MeshGroup& group) {
   return elements[group.dim];
 }
 
-/// A name stands for one group of each dimension.
-void refuse_twins(const CaseFile& input, const Mesh& mesh, const std::string& key,
-                  const std::string& name) {
-  int count[4] = {0, 0, 0, 0};
-  for (const MeshGroup& group : mesh.groups) {
-    if (group.name != name || ++count[group.dim] < 2) continue;
-    throw InputError(input.where(key),
-                     fmt::format("is {}, but {} has two physical groups of {} with this name",
-                                 quoted(name), mesh_path(input).string(), elements_of(group)),
-                     "give each of them a name of its own in the geometry, or take them together: "
-                     "one Physical with all the entities");
-  }
-}
-
 std::string suggest_group(const Mesh& mesh, const std::string& name) {
   if (mesh.groups.empty()) {
     return fmt::format(
@@ -67,32 +53,24 @@ std::string suggest_group(const Mesh& mesh, const std::string& name) {
 void refuse_unknown_groups(const CaseFile& input, const Mesh& mesh) {
   for (std::size_t i = 0; i < input.regions.size(); ++i) {
     const std::string& name = input.regions[i].group;
-    const std::string key = item_key("regions", i, "group");
-    refuse_twins(input, mesh, key, name);
     if (name.empty() || find_group(mesh, name) != nullptr) continue;
-    throw InputError(input.where(key),
+    throw InputError(input.where(item_key("regions", i, "group")),
                      fmt::format("is {}, but {} has no such physical group", quoted(name),
                                  mesh_path(input).string()),
                      suggest_group(mesh, name));
-  }
-  for (std::size_t k = 0; k < input.rebar.size(); ++k) {
-    refuse_twins(input, mesh, item_key("rebar", k, "group"), input.rebar[k].group);
-  }
-  for (std::size_t k = 0; k < input.interfaces.size(); ++k) {
-    refuse_twins(input, mesh, item_key("interfaces", k, "group"), input.interfaces[k].group);
   }
 }
 
 /// Says which group a name means that has several, and the unit of a geometry that has one.
 void add_notes(const CaseFile& input, MeshInput& read) {
   for (const Region& region : input.regions) {
-    const MeshGroup* taken = region.group.empty() ? nullptr : find_group(read.mesh, region.group);
-    for (const MeshGroup& group : read.mesh.groups) {
-      if (taken == nullptr || &group == taken || group.name != taken->name) continue;
-      read.notes.push_back(fmt::format(
-          "the region {} is the physical group {} of {}; the one of {} with this name is not used",
-          quoted(region.name), quoted(group.name), elements_of(*taken), elements_of(group)));
-    }
+    const auto named = [&](const MeshGroup& group) { return group.name == region.group; };
+    if (std::count_if(read.mesh.groups.begin(), read.mesh.groups.end(), named) < 2) continue;
+    read.notes.push_back(fmt::format(
+        "the region {} is the physical group {} of {}; groups of lower dimension have the same "
+        "name and are not used",
+        quoted(region.name), quoted(region.group),
+        elements_of(*find_group(read.mesh, region.group))));
   }
   const fs::path path = mesh_path(input);
   if (!is_geometry(path.string()) || is_gmsh_script(path.string())) return;

@@ -218,13 +218,16 @@ TEST(GmshFile, NodesOfNoElementOfTheMeshMayLieOffThePlane) {
   EXPECT_THAT(gmsh_message(replaced(off, "3 40 10", "3 40 60")), HasSubstr("z goes from 0 to 5"));
 }
 
-TEST(GmshFile, GroupsMayHaveOneName) {
-  const Mesh mesh = parse_gmsh(
-      replaced(replaced(square_mesh, "\"plate\"", "\"lower\""), "\"lower and left\"", "\"lower\""),
-      "m", 2);
-  ASSERT_EQ(mesh.groups.size(), 4u);
-  for (const std::size_t g : {1, 2, 3}) EXPECT_EQ(mesh.groups[g].name, "lower");
-  EXPECT_EQ(mesh.groups[3].dim, 2);
+TEST(GmshFile, GroupsOfOneNameAndDimensionAreOne) {
+  const std::string shared =
+      replaced(replaced(square_mesh, "\"plate\"", "\"lower\""), "\"lower and left\"", "\"lower\"");
+  const Mesh mesh = parse_gmsh(shared, "m", 2);
+  ASSERT_EQ(mesh.groups.size(), 3u);
+  EXPECT_EQ(mesh.groups[1].name, "lower");
+  EXPECT_THAT(mesh.groups[1].elements, ElementsAre(0, 1)) << "the first line is in both tags";
+  EXPECT_THAT(mesh.groups[1].points, ElementsAre(0, 1, 3));
+  EXPECT_EQ(mesh.groups[2].name, "lower");
+  EXPECT_EQ(mesh.groups[2].dim, 2);
 }
 
 TEST(GmshFile, KeepsCellsOfNoGroupOnly) {
@@ -257,7 +260,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Fault{"version2", "4.1 0 8", "2.2 0 8", "body.msh:2: is in version \"2.2\""},
         Fault{"version4", "4.1 0 8", "4 0 8",
-              "name the new file: gmsh body.msh -save -format msh41 -o body_41.msh"},
+              "new file: gmsh \"body.msh\" -save -format msh41 -o \"body_41.msh\""},
         Fault{"numbersOf4Bytes", "4.1 0 8", "4.1 0 4", "numbers of 4 bytes"},
         Fault{"kind", "4.1 0 8", "4.1 3 8", "neither text nor binary"},
         Fault{"otherFile", "$MeshFormat", "solid", "is in the format of STL"},

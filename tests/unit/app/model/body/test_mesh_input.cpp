@@ -150,21 +150,8 @@ TEST_F(MeshInput, NamesOfGroupsNeedToBeUniqueInTheirDimensionOnly) {
   EXPECT_EQ(particles_of_region(input, model, "solid", "").size(), 5u)
       << "its cells, not its lines";
   EXPECT_THAT(model.notes,
-              Contains("the region \"solid\" is the physical group \"lower\" of triangles; the "
-                       "one of lines with this name is not used"));
-}
-
-TEST_F(MeshInput, RefusesTwoGroupsOfOneNameAndDimensionWhereTheyAreNamed) {
-  test::write_text(directory_ / "body.msh",
-                   replaced(test::square_mesh, "\"lower and left\"", "\"lower\""));
-  EXPECT_THAT(refusal("", ""), AllOf(HasSubstr("regions[2].group: is \"lower\""),
-                                     HasSubstr("two physical groups of lines with this name"),
-                                     HasSubstr("a name of its own")));
-  EXPECT_EQ(refusal("group = \"lower\"", "x = [0, 2]\ny = [0, 0]"), "accepted");
-  EXPECT_THAT(refusal("group = \"lower\"",
-                      "x = [0, 2]\ny = [0, 0]\n[[rebar]]\ngroup = \"lower\"\n"
-                      "youngs_modulus = 1\narea = 0.1\n"),
-              HasSubstr("rebar[1].group: is \"lower\""));
+              Contains("the region \"solid\" is the physical group \"lower\" of triangles; groups "
+                       "of lower dimension have the same name and are not used"));
 }
 
 /// A plate in tension by its right side: stress E u / L, energy half of force times displacement.
