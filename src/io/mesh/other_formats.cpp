@@ -59,9 +59,8 @@ std::string conversion_to_41(const std::string& path) {
 std::string conversion_to_first_order(const std::string& path) {
   if (is_geometry(path)) return "delete Mesh.ElementOrder and SetOrder from the script";
   return fmt::format(
-      "convert it, and name the new file: write Merge \"{}\"; SetOrder 1; Mesh.MshFileVersion = "
-      "4.1; Save \"{}_order1.msh\"; into a file order1.geo in the present folder, and run gmsh "
-      "order1.geo -",
+      "convert it, and name the new file: echo 'Merge \"{}\"; SetOrder 1; Mesh.MshFileVersion = "
+      "4.1; Save \"{}_order1.msh\";' > order1.geo && gmsh order1.geo -",
       path, std::filesystem::path(path).replace_extension().string());
 }
 
