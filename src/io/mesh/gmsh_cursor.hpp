@@ -33,8 +33,6 @@ class GmshCursor {
   /// memory may be reserved for it.
   /// \param values_each  numbers of each of the things, at least; none counts as one
   std::size_t count(std::size_t values_each, const char* things);
-  /// Skips four-byte integers or words.
-  void skip_integers(std::size_t number);
 
   /// Goes behind the line "$End<section>".
   void skip_to_end_of(std::string_view section);

@@ -10,8 +10,6 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <utility>
 #include <vector>
@@ -243,8 +241,7 @@ class TemporaryMesh {
 };
 
 void check_script(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string text = read_regular_file(path);
   static const std::regex constant(R"(DefineConstant\s*\[(?:[^\]]*[\s,])?h\s*=)");
   if (std::regex_search(text, constant)) return;
   throw InputError(
@@ -269,9 +266,7 @@ Mesh mesh_geometry(const std::string& path, int dim, std::optional<double> size,
                                                : "gmsh crashed on it",
                      "open the geometry with gmsh to see what is wrong");
   }
-  std::ifstream file(target.path(), std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  return parse_gmsh(bytes, path, dim);  // messages name the geometry
+  return parse_gmsh(read_regular_file(target.path()), path, dim);  // messages name the geometry
 }
 
 #endif

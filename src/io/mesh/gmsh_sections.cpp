@@ -69,7 +69,7 @@ void read_entities(GmshCursor& file, GmshSections& sections) {
       }
       // A negative tag turns the group's elements round, which they do not notice here.
       for (int& group : physical) group = std::abs(std::max(file.integer(), -INT32_MAX));
-      if (dim > 0) file.skip_integers(file.count(1, "bounding entities"));
+      for (auto k = dim > 0 ? file.count(1, "bounding entities") : 0; k > 0; --k) file.integer();
       sections.physical_tags[{dim, tag}] = std::move(physical);
     }
   }
