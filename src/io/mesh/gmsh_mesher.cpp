@@ -118,7 +118,7 @@ class Session {
     gmsh_.generate(dim, &error_);
     check();
   }
-  /// Whether all entities of a dimension have elements, and there is one.
+  /// Whether there are entities of a dimension, and all of them have elements.
   bool is_meshed(int dim) {
     int *pairs = nullptr, *types = nullptr;  // they go with the process
     std::size_t count = 0, num_types = 1;
@@ -129,7 +129,7 @@ class Session {
     check();
     return count > 0 && num_types > 0;
   }
-  /// Whatever a script says of files that it would have written itself.
+  /// Writes format 4.1, also where the script has asked for another one.
   void write(const std::string& target) {
     set("Mesh.MshFileVersion", 4.1);
     set("Mesh.Binary", 1.0);

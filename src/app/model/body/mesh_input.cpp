@@ -26,7 +26,7 @@ fs::path seen_from_case(const CaseFile& input, const std::string& file) {
 
 fs::path mesh_path(const CaseFile& input) { return seen_from_case(input, *input.body.mesh); }
 
-/// The group of a name; where groups of several dimensions have it, that of the highest.
+/// The group of a name, of the highest dimension where several have it.
 const MeshGroup* find_group(const Mesh& mesh, const std::string& name) {
   const auto found = std::find_if(mesh.groups.rbegin(), mesh.groups.rend(),
                                   [&](const MeshGroup& group) { return group.name == name; });
