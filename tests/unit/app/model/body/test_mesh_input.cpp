@@ -11,6 +11,7 @@
 
 #include "app/model/from_case/configure.hpp"
 #include "app/model/model_regions.hpp"
+#include "app/run/run_kind.hpp"
 #include "base/error.hpp"
 #include "io/mesh/gmsh_mesher.hpp"
 #include "io/text/csv.hpp"
@@ -18,7 +19,6 @@
 #include "support/halved_meshes.hpp"
 #include "support/replaced.hpp"
 #include "support/temporary_directory.hpp"
-#include "support/whole_run.hpp"
 
 namespace perilink {
 namespace {
@@ -144,14 +144,18 @@ TEST_F(MeshInput, SaysHowToMakeGroupsWhereThereAreNone) {
 
 TEST_F(MeshInput, NamesOfGroupsNeedToBeUniqueInTheirDimensionOnly) {
   test::write_text(directory_ / "body.msh",
-                   replaced(test::square_mesh, "2 5 \"plate\"", "2 5 \"lower\""));
-  const CaseFile input = parse("group = \"plate\"", "group = \"lower\"");
+                   replaced(replaced(test::square_mesh, "\"corner\"", "\"lower\""),
+                            "\"lower and left\"", "\"plate\""));
+  const CaseFile input = parse();
   const Model model = build_model(input);
-  EXPECT_EQ(particles_of_region(input, model, "solid", "").size(), 5u)
-      << "its cells, not its lines";
-  EXPECT_THAT(model.notes,
-              Contains("the region \"solid\" is the physical group \"lower\" of triangles; groups "
-                       "of lower dimension have the same name and are not used"));
+  EXPECT_THAT(particles_of_region(input, model, "base", ""), ElementsAre(0, 1)) << "not its point";
+  EXPECT_EQ(particles_of_region(input, model, "solid", "").size(), 5u) << "not its lines";
+  for (const char* group : {"\"base\" is the physical group \"lower\" of lines; ",
+                            "\"solid\" is the physical group \"plate\" of triangles; "}) {
+    EXPECT_THAT(model.notes, Contains(std::string("the region ") + group +
+                                      "groups of lower dimension have the same name and are not "
+                                      "used"));
+  }
 }
 
 /// A plate in tension by its right side: stress E u / L, energy half of force times displacement.
@@ -163,8 +167,8 @@ TEST_F(MeshInput, MarksUnusedNodesAndNamesChangeNothing) {
                                 replaced(clean, "\"lower and left\"", "\"lower\"")};
   for (const std::string& mesh : meshes) {
     test::write_text(directory_ / "body.msh", mesh);
-    const test::WholeRun run("[body]\nmesh = \"" + (directory_ / "body.msh").string() +
-                             R"("
+    const CaseFile input = parse_case(R"([body]
+mesh = "body.msh"
 method = "linear_elements"
 [[regions]]
 name = "plate"
@@ -197,8 +201,14 @@ region = "right"
 x = 0.002
 [analysis]
 type = "elastic"
-)");
-    const CsvTable table = run.history();
+)",
+                                      (directory_ / "case.toml").string());
+    const auto run = make_run(input, 1, true);
+    std::filesystem::create_directories(directory_ / "out");
+    RunFiles& files = run->open(directory_ / "out", true);
+    run->analyse();
+    files.finish();
+    const CsvTable table = read_csv((directory_ / "out/history.csv").string());
     EXPECT_NEAR(table.rows[0][table.column("load")], 60.0, 1e-9);
     EXPECT_NEAR(table.rows[0][table.column("strain_energy")], 0.06, 1e-12);
   }
@@ -211,17 +221,14 @@ TEST_F(MeshInput, GeometriesSayTheirUnitAndSize) {
     test::write_text(
         script,
         "SetFactory(\"OpenCASCADE\"); Rectangle(1) = {1, 0, 0, 2, 1};\nSave \"" + name + "\";\n");
-    mesh_geometry(script, 2, 1.0e3, true);
+    mesh_geometry(script, 2, {}, true);
     return test::read_text(directory_ / name);
   };
   const auto notes_of = [&](const std::string& name, const char* size) {
-    const Model model = build_model(parse_case(
-        "[body]\nmesh = \"" + name + "\"\nmesh_size = " + size +
-            "\nhorizon_ratio = 3\nsurface = \"none\"\n[[materials]]\nregion = \"all\"\n"
-            "youngs_modulus = 1\nfracture_energy = 1\n[[regions]]\nname = \"all\"\n"
-            "x = [0, 9e3]\ny = [0, 9e3]\n[[supports]]\nregion = \"all\"\nfix = [\"x\", \"y\"]\n",
-        (directory_ / "case.toml").string()));
-    return model.notes;
+    CaseFile input = parse("mesh = \"body.msh\"", "mesh = \"" + name + "\"\nmesh_size = " + size);
+    input.regions.clear();  // the geometry has no groups
+    input.materials.clear();
+    return read_mesh_input(input, 2).notes;
   };
   const std::string metres =
       replaced(write("body.step"), "SI_UNIT(.MILLI.,.METRE.)", "SI_UNIT($,.METRE.)");
