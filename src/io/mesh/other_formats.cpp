@@ -25,7 +25,7 @@ constexpr const char* not_by_gmsh =
 
 struct Format {
   std::string_view name;
-  std::string_view endings;  ///< of file names, between blanks
+  std::string_view endings;  ///< file names end so; between blanks
   std::string_view begin;    ///< first bytes; empty: not told by them
   const char* advice;
 };
