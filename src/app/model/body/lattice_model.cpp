@@ -173,6 +173,7 @@ class GroupFinder {
 
 ExplicitModel build_lattice(const CaseFile& input, const LatticeShape& shape,
                             std::vector<std::string>& notes) {
+  notes.insert(notes.end(), shape.notes().begin(), shape.notes().end());
   LatticeRows lattice = cut_lattice(input, shape, notes);
   try {
     return make_explicit_model(input.body.problem, input.body.variant, std::move(lattice),
@@ -216,7 +217,7 @@ Model lattice_places(const CaseFile& input, const LatticeShape& shape, const Exp
 
 Model build_lattice_model(const CaseFile& input) {
   const LatticeShape shape(input);
-  std::vector<std::string> notes = shape.notes();
+  std::vector<std::string> notes;
   const ExplicitModel body = build_lattice(input, shape, notes);
   LatticeNetwork statics = lattice_network(body);
   Model model = lattice_places(input, shape, body, statics.slots);
