@@ -85,6 +85,27 @@ TEST_F(MeshedCase, OverlappingPartsAreRefusedWithTheirElements) {
   }
 }
 
+TEST_F(MeshedCase, MeshesOfOtherFormatsAreRefusedWithWhatConvertsThem) {
+  const struct {
+    const char *mesh, *text, *fault, *advice;
+  } meshes[] = {
+      {"body.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n",
+       "body.msh:2: is in version \"2.2\" of gmsh's format",
+       "gmsh \"../body.msh\" -save -format msh41 -o \"../body_41.msh\""},
+      {"body.inp", "*HEADING\n", "body.inp", "is in the format of Abaqus or CalculiX"},
+      {"body.vtk", "# vtk DataFile Version 2.0\n", "is in the format of VTK",
+       "gmsh \"../body.vtk\" -save -format msh41 -o \"../body_41.msh\""},
+  };
+  for (const auto& [mesh, text, fault, advice] : meshes) {
+    write_text(directory_ / mesh, text);
+    for (const char* command : {"check", "run"}) {
+      const auto end = run(mesh, {command});
+      EXPECT_EQ(end.exit_status, 2);
+      EXPECT_THAT(end.err, AllOf(HasSubstr(fault), HasSubstr(advice)));
+    }
+  }
+}
+
 /// A square of 8 by 8 squares of two triangles, and a bent curve across them.
 std::string square_with_curve() {
   constexpr int count = 8;

@@ -113,7 +113,8 @@ std::string nearest_text(const Particles& particles, const Region* region) {
 }  // namespace
 
 const Group& group_named(const Model& model, const std::string& name) {
-  return *std::find_if(model.groups.begin(), model.groups.end(),
+  // Where several groups have this name, the last one has the highest dimension.
+  return *std::find_if(model.groups.rbegin(), model.groups.rend(),
                        [&](const Group& group) { return group.name == name; });
 }
 

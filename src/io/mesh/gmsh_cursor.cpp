@@ -122,10 +122,6 @@ std::size_t GmshCursor::count(std::size_t values_each, const char* things) {
   return static_cast<std::size_t>(value);
 }
 
-void GmshCursor::skip_integers(std::size_t number) {
-  for (std::size_t i = 0; i < number; ++i) integer();
-}
-
 void GmshCursor::skip_to_end_of(std::string_view section) {
   const std::string mark = fmt::format("$End{}", section);
   const std::size_t found = bytes_.find(mark, at_);

@@ -14,8 +14,9 @@ class GmshCursor {
   /// \param bytes  must outlive this object
   GmshCursor(std::string_view bytes, std::string path) : bytes_(bytes), path_(std::move(path)) {}
 
+  const std::string& path() const { return path_; }
+
   void set_binary(bool binary) { binary_ = binary; }
-  bool binary() const { return binary_; }
   bool at_end();
 
   /// A line of text, without its end; also in binary files, whose headers are text.
@@ -32,8 +33,6 @@ class GmshCursor {
   /// memory may be reserved for it.
   /// \param values_each  numbers of each of the things, at least; none counts as one
   std::size_t count(std::size_t values_each, const char* things);
-  /// Skips four-byte integers or words.
-  void skip_integers(std::size_t number);
 
   /// Goes behind the line "$End<section>".
   void skip_to_end_of(std::string_view section);

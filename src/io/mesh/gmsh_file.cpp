@@ -6,12 +6,12 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "base/error.hpp"
 #include "base/files.hpp"
 #include "io/mesh/gmsh_sections.hpp"
-#include "io/text/toml_tree.hpp"
 
 namespace perilink {
 namespace {
@@ -89,55 +89,50 @@ void add_positions(const GmshSections& sections, const std::string& path, Mesh& 
     refuse(path, fmt::format("has {} nodes", count),
            fmt::format("at most {} are possible: mesh with larger cells", most_nodes));
   }
-  double lower = INFINITY, upper = -INFINITY, extent = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
     const double* x = sections.coordinates.data() + 3 * i;
     mesh.positions.insert(mesh.positions.end(), x, x + mesh.dim);
-    lower = std::min(lower, x[2]);
-    upper = std::max(upper, x[2]);
-    for (int axis = 0; axis < 2; ++axis) {
-      extent = std::max(extent, std::abs(x[axis] - sections.coordinates[axis]));
+  }
+}
+
+/// Nodes that belong to no element of the mesh may lie anywhere.
+void refuse_bent(const GmshSections& sections, const std::string& path, const Mesh& mesh) {
+  double lower = INFINITY, upper = -INFINITY, extent = 0.0;
+  const double* first =
+      sections.coordinates.data() + 3 * static_cast<std::size_t>(mesh.cells.front());
+  for (const std::vector<Index>* corners : {&mesh.cells, &mesh.facets}) {
+    for (const Index point : *corners) {
+      const double* x = sections.coordinates.data() + 3 * static_cast<std::size_t>(point);
+      lower = std::min(lower, x[2]);
+      upper = std::max(upper, x[2]);
+      extent = std::max({extent, std::abs(x[0] - first[0]), std::abs(x[1] - first[1])});
     }
   }
-  if (mesh.dim == 2 && upper - lower > flatness * extent) {
+  if (upper - lower > flatness * extent) {
     refuse(path, fmt::format("is no plane mesh: z goes from {:.6g} to {:.6g}", lower, upper),
            "draw two-dimensional bodies in the plane of x and y");
   }
 }
 
-/// The group of a physical tag, made when it is first met.
-MeshGroup& group_of(std::map<GmshKey, MeshGroup>& groups, const GmshSections& sections,
+using Groups = std::map<GmshKey, MeshGroup>;
+using FirstTags = std::map<std::pair<int, std::string>, int>;  // by dimension and name
+
+/// The group of a physical tag, made when it is first met. Tags of one dimension and name share it.
+MeshGroup& group_of(Groups& groups, FirstTags& first, const GmshSections& sections,
                     const GmshKey& key) {
-  MeshGroup& group = groups[key];
+  const auto found = sections.names.find(key);
+  std::string name = found != sections.names.end() ? found->second : std::to_string(key.second);
+  MeshGroup& group =
+      groups[{key.first, first.try_emplace({key.first, name}, key.second).first->second}];
   group.dim = key.first;
-  const auto name = sections.names.find(key);
-  group.name = name != sections.names.end() ? name->second : std::to_string(key.second);
+  group.name = std::move(name);
   return group;
-}
-
-void sort_points(std::vector<Index>& points) {
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-}
-
-std::vector<MeshGroup> named_once(std::map<GmshKey, MeshGroup>& groups, const std::string& path) {
-  std::vector<MeshGroup> result;
-  std::map<std::string, int> seen;
-  for (auto& [key, group] : groups) {
-    sort_points(group.points);
-    if (!seen.emplace(group.name, group.dim).second) {
-      refuse(path,
-             fmt::format("has two physical groups with the name {}", perilink::quoted(group.name)),
-             "give every physical group a name of its own");
-    }
-    result.push_back(std::move(group));
-  }
-  return result;
 }
 
 void add_elements(const GmshSections& sections, const std::string& path, Mesh& mesh) {
   const NodeTable table(sections, path);
-  std::map<GmshKey, MeshGroup> groups;
+  Groups groups;
+  FirstTags first_tags;
   std::vector<Index> nodes;
   for (const GmshBlock& block : sections.blocks) {
     const int dim = block.entity.first;
@@ -156,18 +151,23 @@ void add_elements(const GmshSections& sections, const std::string& path, Mesh& m
     if (elements != nullptr) elements->insert(elements->end(), nodes.begin(), nodes.end());
     if (is_cell) mesh.cell_tags.insert(mesh.cell_tags.end(), block.tags.begin(), block.tags.end());
     if (!grouped) continue;
-    std::vector<int> distinct = tags->second;
-    std::sort(distinct.begin(), distinct.end());
-    distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
-    for (const int tag : distinct) {
-      MeshGroup& group = group_of(groups, sections, {dim, tag});
-      group.points.insert(group.points.end(), nodes.begin(), nodes.end());
+    std::set<MeshGroup*> distinct;
+    for (const int tag : tags->second) {
+      distinct.insert(&group_of(groups, first_tags, sections, {dim, tag}));
+    }
+    for (MeshGroup* group : distinct) {
+      group->points.insert(group->points.end(), nodes.begin(), nodes.end());
       for (std::size_t k = 0; elements != nullptr && k < nodes.size() / width; ++k) {
-        group.elements.push_back(first + static_cast<Index>(k));
+        group->elements.push_back(first + static_cast<Index>(k));
       }
     }
   }
-  mesh.groups = named_once(groups, path);
+  for (auto& [key, group] : groups) {
+    std::vector<Index>& points = group.points;
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    mesh.groups.push_back(std::move(group));
+  }
 }
 
 }  // namespace
@@ -179,6 +179,7 @@ Mesh parse_gmsh(std::string_view bytes, const std::string& path, int dim) {
   mesh.dim = dim;
   add_positions(sections, path, mesh);
   add_elements(sections, path, mesh);
+  if (dim == 2) refuse_bent(sections, path, mesh);
   return mesh;
 }
 

@@ -10,7 +10,7 @@ namespace perilink {
 /// Reads a mesh of gmsh's format 4.1, text or binary: triangles and lines in two dimensions,
 /// tetrahedra and triangles in three, with the physical groups of every dimension. A group without
 /// a name is called by its number. Cells of no group are kept, other elements of no group are not.
-/// Groups are sorted by dimension and tag.
+/// Groups are sorted by dimension and tag; those of one dimension and name are one.
 /// \param dim  2 or 3
 /// \throws FileError   where the file cannot be read
 /// \throws InputError  where it holds something else, is damaged, or is not of this dimension

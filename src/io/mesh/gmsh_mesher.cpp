@@ -10,8 +10,6 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <utility>
 #include <vector>
@@ -50,6 +48,8 @@ struct Gmsh {
   decltype(&gmshOpen) open = nullptr;
   decltype(&gmshWrite) write = nullptr;
   decltype(&gmshOptionSetNumber) set_number = nullptr;
+  decltype(&gmshModelGetEntities) entities = nullptr;
+  decltype(&gmshModelMeshGetElementTypes) element_types = nullptr;
   decltype(&gmshModelMeshGenerate) generate = nullptr;
   decltype(&gmshLoggerGetLastError) last_error = nullptr;
 };
@@ -72,6 +72,8 @@ Gmsh load_gmsh() {
   find(gmsh.open, "gmshOpen");
   find(gmsh.write, "gmshWrite");
   find(gmsh.set_number, "gmshOptionSetNumber");
+  find(gmsh.entities, "gmshModelGetEntities");
+  find(gmsh.element_types, "gmshModelMeshGetElementTypes");
   find(gmsh.generate, "gmshModelMeshGenerate");
   find(gmsh.last_error, "gmshLoggerGetLastError");
   return gmsh;
@@ -100,11 +102,8 @@ class Session {
     for (std::string& word : words) arguments.push_back(word.data());
     initialize(gmsh_.initialize, arguments, error_);
     check();
-    for (const auto& [name, value] :
-         {std::pair{"General.Terminal", 0.0}, std::pair{"General.NumThreads", 1.0},
-          std::pair{"Mesh.MshFileVersion", 4.1}, std::pair{"Mesh.Binary", 1.0}}) {
-      set(name, value);
-    }
+    set("General.Terminal", 0.0);
+    set("General.NumThreads", 1.0);
   }
 
   void set(const char* option, double value) {
@@ -119,7 +118,21 @@ class Session {
     gmsh_.generate(dim, &error_);
     check();
   }
+  /// Whether there are entities of a dimension, and all of them have elements.
+  bool is_meshed(int dim) {
+    int *pairs = nullptr, *types = nullptr;  // they go with the process
+    std::size_t count = 0, num_types = 1;
+    gmsh_.entities(&pairs, &count, dim, &error_);
+    for (std::size_t k = 0; error_ == 0 && num_types > 0 && k < count; k += 2) {
+      gmsh_.element_types(&types, &num_types, dim, pairs[k + 1], &error_);
+    }
+    check();
+    return count > 0 && num_types > 0;
+  }
+  /// Writes format 4.1, also where the script has asked for another one.
   void write(const std::string& target) {
+    set("Mesh.MshFileVersion", 4.1);
+    set("Mesh.Binary", 1.0);
     gmsh_.write(target.c_str(), &error_);
     check();
   }
@@ -146,7 +159,8 @@ void write_mesh(const std::string& path, int dim, std::optional<double> size,
     session.set("Mesh.MeshSizeMin", *size);
     session.set("Mesh.MeshSizeMax", *size);
   }
-  session.generate(dim);
+  // A script that meshes itself may have changed the mesh since, for one by Plugin(Crack).
+  if (!session.is_meshed(dim) || (dim == 2 && session.is_meshed(3))) session.generate(dim);
   session.write(target);
 }
 
@@ -227,8 +241,7 @@ class TemporaryMesh {
 };
 
 void check_script(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string text = read_regular_file(path);
   static const std::regex constant(R"(DefineConstant\s*\[(?:[^\]]*[\s,])?h\s*=)");
   if (std::regex_search(text, constant)) return;
   throw InputError(
@@ -253,9 +266,7 @@ Mesh mesh_geometry(const std::string& path, int dim, std::optional<double> size,
                                                : "gmsh crashed on it",
                      "open the geometry with gmsh to see what is wrong");
   }
-  std::ifstream file(target.path(), std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  return parse_gmsh(bytes, path, dim);  // messages name the geometry
+  return parse_gmsh(read_regular_file(target.path()), path, dim);  // messages name the geometry
 }
 
 #endif

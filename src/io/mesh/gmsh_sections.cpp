@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "io/mesh/gmsh_cursor.hpp"
+#include "io/mesh/other_formats.hpp"
 #include "io/text/toml_tree.hpp"
 
 namespace perilink {
@@ -14,16 +15,14 @@ namespace {
 /// damaged file could ask for any amount of memory.
 constexpr std::size_t most_physical_groups = 1000;
 
-constexpr const char* save_as_41 =
-    "save it as version 4.1: gmsh -format msh41 FILE.geo -2 (or -3), or Mesh.MshFileVersion = 4.1";
-
 void read_format(GmshCursor& file) {
   const std::string version(file.word());
   if (version != "4.1") {
-    file.refuse(fmt::format("is in version {} of gmsh's format", quoted(version)), save_as_41);
+    file.refuse(fmt::format("is in version {} of gmsh's format", quoted(version)),
+                conversion_to_41(file.path()));
   }
   const std::int64_t kind = file.text_integer();
-  if (kind != 0 && kind != 1) file.refuse("is neither text nor binary", save_as_41);
+  if (kind != 0 && kind != 1) file.refuse("is neither text nor binary", "write the mesh again");
   if (const std::int64_t bytes = file.text_integer(); bytes != 8) {
     file.refuse(fmt::format("has numbers of {} bytes", bytes), "numbers of 8 bytes are read");
   }
@@ -70,7 +69,7 @@ void read_entities(GmshCursor& file, GmshSections& sections) {
       }
       // A negative tag turns the group's elements round, which they do not notice here.
       for (int& group : physical) group = std::abs(std::max(file.integer(), -INT32_MAX));
-      if (dim > 0) file.skip_integers(file.count(1, "bounding entities"));
+      for (auto k = dim > 0 ? file.count(1, "bounding entities") : 0; k > 0; --k) file.integer();
       sections.physical_tags[{dim, tag}] = std::move(physical);
     }
   }
@@ -118,9 +117,7 @@ int nodes_of_type(const GmshCursor& file, int type) {
     case 8:
     case 9:
     case 10:
-    case 11:
-      file.refuse("has elements of second order",
-                  "mesh with elements of first order: gmsh -order 1, or Mesh.ElementOrder = 1");
+    case 11: file.refuse("has elements of second order", conversion_to_first_order(file.path()));
     default:
       file.refuse(fmt::format("has elements of gmsh's type {}", type),
                   "triangles in the plane and tetrahedra in space, both of first order, are read");
@@ -164,6 +161,7 @@ void read_section(GmshCursor& file, const std::string& name, GmshSections& secti
 }  // namespace
 
 GmshSections read_gmsh_sections(std::string_view bytes, const std::string& path) {
+  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);  // mark of UTF-8
   GmshCursor file(bytes, path);
   GmshSections sections;
   bool format_known = false;
@@ -172,11 +170,13 @@ GmshSections read_gmsh_sections(std::string_view bytes, const std::string& path)
     while (!header.empty() && (header.back() == ' ' || header.back() == '\t')) {
       header.remove_suffix(1);
     }
-    if (header.empty() || header[0] != '$') {
-      file.refuse(format_known ? fmt::format("has {} where a section $... should begin",
-                                             quoted(std::string(header)))
-                               : "does not begin with $MeshFormat, so it is no mesh of gmsh",
-                  format_known ? "" : save_as_41);
+    if (!format_known && header != "$MeshFormat" && header != "$Comments") {
+      const auto [fault, advice] = other_format(bytes, path);
+      file.refuse(fault, advice);
+    }
+    if (!header.starts_with('$')) {
+      file.refuse(
+          fmt::format("has {} where a section $... should begin", quoted(std::string(header))));
     }
     const std::string name(header.substr(1));
     if (name == "MeshFormat") {
@@ -184,14 +184,11 @@ GmshSections read_gmsh_sections(std::string_view bytes, const std::string& path)
       format_known = true;
     } else if (name == "Comments") {
       file.skip_to_end_of(name);
-    } else if (!format_known) {
-      file.refuse(fmt::format("has {} before $MeshFormat", quoted(std::string(header))),
-                  save_as_41);
     } else {
       read_section(file, name, sections);
     }
   }
-  if (!format_known) file.refuse("is empty", save_as_41);
+  if (!format_known) file.refuse("is empty", "write the mesh again");
   if (sections.node_tags.empty() || sections.blocks.empty()) {
     file.refuse("holds no mesh: it has no nodes or no elements",
                 "mesh the geometry before saving it: gmsh FILE.geo -2 (or -3)");

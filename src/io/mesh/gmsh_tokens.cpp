@@ -24,6 +24,7 @@ class Lexer {
   std::vector<GmshToken> run() {
     refuse_controls();
     while (at_ < script_.size()) step();
+    refuse_cut_line();
     tokens_.push_back({GmshToken::Kind::sign, "", line_});
     return std::move(tokens_);
   }
@@ -54,6 +55,18 @@ class Lexer {
     }
     at_ = 0;
     line_ = 1;
+  }
+
+  /// Where the last line has no end, gmsh takes its first statement only.
+  void refuse_cut_line() const {
+    int depth = 0;
+    for (std::size_t k = 0; k + 1 < tokens_.size(); ++k) {
+      const GmshToken& token = tokens_[k];
+      if (token.is("(") || token.is("[") || token.is("{")) ++depth;
+      if (token.is(")") || token.is("]") || token.is("}")) --depth;
+      if (depth > 0 || !token.is(";") || token.line < line_) continue;
+      refuse("ends without a line break, so that gmsh takes only the first statement of this line");
+    }
   }
 
   void step() {

@@ -19,7 +19,8 @@ struct GmshToken {
 /// \param hidden  gets the comments
 /// \param path    for messages
 /// \throws InputError  where gmsh might cut the script otherwise: control characters, comments and
-///         texts without an end, texts that are too long for gmsh
+///         texts without an end, texts that are too long for gmsh, a last line of several
+///         statements without an end
 std::vector<GmshToken> gmsh_tokens(const std::string& script, const std::string& path,
                                    std::vector<GmshToken>& hidden);
 

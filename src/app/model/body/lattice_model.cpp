@@ -173,6 +173,7 @@ class GroupFinder {
 
 ExplicitModel build_lattice(const CaseFile& input, const LatticeShape& shape,
                             std::vector<std::string>& notes) {
+  notes.insert(notes.end(), shape.notes().begin(), shape.notes().end());
   LatticeRows lattice = cut_lattice(input, shape, notes);
   try {
     return make_explicit_model(input.body.problem, input.body.variant, std::move(lattice),

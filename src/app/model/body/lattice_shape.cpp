@@ -60,6 +60,7 @@ void LatticeShape::read_mesh() {
                      "mesh the body again, or give the material a group that has cells");
   }
   mesh_ = std::move(mesh.mesh);
+  notes_ = std::move(mesh.notes);
 }
 
 Box LatticeShape::box() const {

@@ -34,6 +34,8 @@ class LatticeShape {
   bool is_in_hole(const Region& hole, const Vector3& point) const;
   /// Holes of the case; one that is named twice is here twice.
   std::span<const Region* const> holes() const { return holes_; }
+  /// Notes on the mesh that it was read from.
+  const std::vector<std::string>& notes() const { return notes_; }
 
   /// Whether points lie in a region of the case; `body` is not one of them.
   /// \param key  place in the case, for messages
@@ -48,6 +50,7 @@ class LatticeShape {
   double tolerance_ = 0.0;
   std::vector<const Region*> solid_, holes_;
   Mesh mesh_;
+  std::vector<std::string> notes_;
   std::optional<CellSearch> cells_;  ///< search in the mesh with the material
 };
 

@@ -26,10 +26,16 @@ fs::path seen_from_case(const CaseFile& input, const std::string& file) {
 
 fs::path mesh_path(const CaseFile& input) { return seen_from_case(input, *input.body.mesh); }
 
+/// The group of a name, of the highest dimension where several have it.
 const MeshGroup* find_group(const Mesh& mesh, const std::string& name) {
-  const auto found = std::find_if(mesh.groups.begin(), mesh.groups.end(),
+  const auto found = std::find_if(mesh.groups.rbegin(), mesh.groups.rend(),
                                   [&](const MeshGroup& group) { return group.name == name; });
-  return found != mesh.groups.end() ? &*found : nullptr;
+  return found != mesh.groups.rend() ? &*found : nullptr;
+}
+
+const char* elements_of(const MeshGroup& group) {
+  constexpr const char* elements[] = {"points", "lines", "triangles", "tetrahedra"};
+  return elements[group.dim];
 }
 
 std::string suggest_group(const Mesh& mesh, const std::string& name) {
@@ -53,6 +59,34 @@ void refuse_unknown_groups(const CaseFile& input, const Mesh& mesh) {
                                  mesh_path(input).string()),
                      suggest_group(mesh, name));
   }
+}
+
+/// Says which group a name means that has several, and the unit of a geometry that has one.
+void add_notes(const CaseFile& input, MeshInput& read) {
+  for (const Region& region : input.regions) {
+    const auto named = [&](const MeshGroup& group) { return group.name == region.group; };
+    if (std::count_if(read.mesh.groups.begin(), read.mesh.groups.end(), named) < 2) continue;
+    read.notes.push_back(fmt::format(
+        "the region {} is the physical group {} of {}; groups of lower dimension have the same "
+        "name and are not used",
+        quoted(region.name), quoted(region.group),
+        elements_of(*find_group(read.mesh, region.group))));
+  }
+  const fs::path path = mesh_path(input);
+  if (!is_geometry(path.string()) || is_gmsh_script(path.string())) return;
+  const std::vector<double>& positions = read.mesh.positions;
+  std::vector<double> lower(positions.begin(), positions.begin() + read.mesh.dim), upper = lower;
+  for (std::size_t k = 0; k < positions.size(); ++k) {
+    const std::size_t axis = k % lower.size();
+    lower[axis] = std::min(lower[axis], positions[k]);
+    upper[axis] = std::max(upper[axis], positions[k]);
+  }
+  const bool step = std::string_view("sS").find(path.extension().string()[1]) != std::string::npos;
+  read.notes.push_back(fmt::format(
+      "{}: {}; the mesh goes from ({:.6g}) to ({:.6g})", path.string(),
+      step ? "lengths are in millimetres, to which gmsh converts STEP files from any unit"
+           : "BREP files state no unit, so lengths are taken as they stand in the file",
+      fmt::join(lower, ", "), fmt::join(upper, ", ")));
 }
 
 /// Regions of the materials with the material of each, in the order in which they count.
@@ -112,10 +146,7 @@ const MeshGroup& group_of_cells(const CaseFile& input, const Mesh& mesh, const R
   throw InputError(
       input.where(key),
       fmt::format("the region {} is a group of {}, which hold no {}", quoted(region.name),
-                  group->dim == 2   ? "triangles"
-                  : group->dim == 1 ? "lines"
-                                    : "points",
-                  contents),
+                  elements_of(*group), contents),
       fmt::format("name a physical {}, or give a box", mesh.dim == 2 ? "surface" : "volume"));
 }
 
@@ -123,6 +154,7 @@ MeshInput read_mesh_input(const CaseFile& input, int dim) {
   MeshInput read;
   read.mesh = read_mesh(input, "body.mesh", *input.body.mesh, input.body.mesh_size, dim);
   refuse_unknown_groups(input, read.mesh);
+  add_notes(input, read);
   const Patches patches = patches_of(input, read.mesh);
   read.material = materials_of_cells(read.mesh, patches.regions, patches.material);
   return read;
@@ -165,10 +197,11 @@ std::vector<std::uint8_t> ordinary_elements(const CaseFile& input, const MeshInp
 /// Lines beside the mesh hold no facet, and few particles if any.
 void refuse_regions_of_curves(const CaseFile& input, const Body& body) {
   for (std::size_t i = 0; i < input.regions.size(); ++i) {
-    for (const Group& group : body.groups) {
-      if (group.name != input.regions[i].group) continue;
-      refuse_loose_lines(input, item_key("regions", i, "group"), body, group);
-    }
+    const auto group =
+        std::find_if(body.groups.rbegin(), body.groups.rend(),
+                     [&](const Group& own) { return own.name == input.regions[i].group; });
+    if (group == body.groups.rend()) continue;
+    refuse_loose_lines(input, item_key("regions", i, "group"), body, *group);
   }
 }
 
@@ -176,7 +209,8 @@ void refuse_regions_of_curves(const CaseFile& input, const Body& body) {
 
 Body read_mesh_body(const CaseFile& input, int dim, std::vector<std::string>& notes) {
   const MeshInput read = read_mesh_input(input, dim);
-  const auto& [mesh, material] = read;
+  const auto& [mesh, material, mesh_notes] = read;
+  notes.insert(notes.end(), mesh_notes.begin(), mesh_notes.end());
   const auto left_out = std::count(material.begin(), material.end(), no_index);
   if (left_out > 0) {
     notes.push_back(fmt::format("{} of the {} cells of the mesh have no material and are left out",

@@ -14,7 +14,8 @@ namespace perilink {
 /// The mesh that a case names.
 struct MeshInput {
   Mesh mesh;
-  std::vector<Index> material;  ///< per cell; no_index where no material covers it
+  std::vector<Index> material;          ///< per cell; no_index where no material covers it
+  std::vector<std::string> notes = {};  ///< on its unit and the names of its groups
 };
 
 /// Reads a file of a mesh, or meshes a geometry.

@@ -28,10 +28,10 @@ void mark(const CaseFile& input, const Body& body, const std::string& name, std:
           std::vector<std::uint8_t>& sides) {
   const Region& region = *std::find_if(input.regions.begin(), input.regions.end(),
                                        [&](const Region& known) { return known.name == name; });
-  const auto group = std::find_if(body.groups.begin(), body.groups.end(), [&](const Group& known) {
-    return !region.group.empty() && known.name == region.group;
-  });
-  if (group != body.groups.end()) {
+  const auto group = std::find_if(
+      body.groups.rbegin(), body.groups.rend(),
+      [&](const Group& known) { return !region.group.empty() && known.name == region.group; });
+  if (group != body.groups.rend()) {
     for (const Index i : group->particles) sides[i] = side;
     return;
   }

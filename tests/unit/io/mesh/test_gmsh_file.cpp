@@ -198,6 +198,38 @@ TEST(GmshFile, PassesOverCommentsResultsAndWindowsLineEnds) {
   EXPECT_EQ(parse_gmsh(windows, "m", 2).groups[3].name, "plate");
 }
 
+TEST(GmshFile, PassesOverTheByteOrderMark) {
+  const std::string mark = "\xEF\xBB\xBF";
+  EXPECT_EQ(parse_gmsh(mark + square_mesh, "m", 2).positions,
+            parse_gmsh(square_mesh, "m", 2).positions);
+  EXPECT_EQ(gmsh_message(mark + BinaryWriter(square_mesh).write()), "accepted");
+  EXPECT_THAT(gmsh_message(mark + replaced(square_mesh, "4.1 0 8", "2.2 0 8")),
+              HasSubstr("body.msh:2: is in version \"2.2\""));
+}
+
+/// The last node of the square belongs to no element, and may belong to one that is not kept.
+TEST(GmshFile, NodesOfNoElementOfTheMeshMayLieOffThePlane) {
+  const std::string off = replaced(square_mesh, "9 9 0\n", "9 9 5\n");
+  EXPECT_EQ(parse_gmsh(off, "m", 2).cells, parse_gmsh(square_mesh, "m", 2).cells);
+  const std::string loose =
+      replaced(off, "4 7 1 7\n0 1 15 1\n", "5 8 1 8\n0 99 15 1\n8 60\n0 1 15 1\n");
+  EXPECT_EQ(parse_gmsh(loose, "m", 2).cells, parse_gmsh(square_mesh, "m", 2).cells);
+  // A line of a group may be a bar of the body.
+  EXPECT_THAT(gmsh_message(replaced(off, "3 40 10", "3 40 60")), HasSubstr("z goes from 0 to 5"));
+}
+
+TEST(GmshFile, GroupsOfOneNameAndDimensionAreOne) {
+  const std::string shared =
+      replaced(replaced(square_mesh, "\"plate\"", "\"lower\""), "\"lower and left\"", "\"lower\"");
+  const Mesh mesh = parse_gmsh(shared, "m", 2);
+  ASSERT_EQ(mesh.groups.size(), 3u);
+  EXPECT_EQ(mesh.groups[1].name, "lower");
+  EXPECT_THAT(mesh.groups[1].elements, ElementsAre(0, 1)) << "the first line is in both tags";
+  EXPECT_THAT(mesh.groups[1].points, ElementsAre(0, 1, 3));
+  EXPECT_EQ(mesh.groups[2].name, "lower");
+  EXPECT_EQ(mesh.groups[2].dim, 2);
+}
+
 TEST(GmshFile, KeepsCellsOfNoGroupOnly) {
   const std::string text =
       replaced(replaced(square_mesh, "0 1 5 2 11 12", "0 0 2 11 12"), "2 -3 4 2 1 2", "0 2 1 2");
@@ -227,11 +259,13 @@ INSTANTIATE_TEST_SUITE_P(
     Files, GmshFileFault,
     ::testing::Values(
         Fault{"version2", "4.1 0 8", "2.2 0 8", "body.msh:2: is in version \"2.2\""},
-        Fault{"version4", "4.1 0 8", "4 0 8", "save it as version 4.1"},
+        Fault{"version4", "4.1 0 8", "4 0 8",
+              "new file: gmsh \"body.msh\" -save -format msh41 -o \"body_41.msh\""},
         Fault{"numbersOf4Bytes", "4.1 0 8", "4.1 0 4", "numbers of 4 bytes"},
         Fault{"kind", "4.1 0 8", "4.1 3 8", "neither text nor binary"},
-        Fault{"otherFile", "$MeshFormat", "solid", "is no mesh of gmsh"},
-        Fault{"noFormat", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n", "", "before $MeshFormat"},
+        Fault{"otherFile", "$MeshFormat", "solid", "is in the format of STL"},
+        Fault{"noFormat", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n", "",
+              "does not begin with $MeshFormat"},
         Fault{"manyNodes", "0 1 0 1\n10", "0 1 0 9999999\n10", "announces 9999999 nodes"},
         Fault{"manyElements", "2 21 2 4", "2 21 2 400000000000", "more than the rest of the file"},
         Fault{"manyBlocks", "3 6 10 60", "123456789 6 10 60", "announces 123456789 blocks"},
@@ -248,7 +282,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"unknownNode", "4 10 20 50", "4 10 25 50", "node 25, which is not in the file"},
         Fault{"nodeTwice", "20\n30\n40", "20\n20\n40", "two nodes with the tag 20"},
         Fault{"quadrilaterals", "2 21 2 4", "2 21 3 4", "leave out Recombine"},
-        Fault{"secondOrder", "2 21 2 4", "2 21 9 4", "-order 1"},
+        Fault{"secondOrder", "2 21 2 4", "2 21 9 4", "SetOrder 1; "},
         Fault{"hexahedra", "2 21 2 4", "3 21 5 4", "hexahedra"},
         Fault{"otherType", "2 21 2 4", "2 21 77 4", "gmsh's type 77"},
         Fault{"typeOfOtherDimension", "2 21 2 4", "2 21 1 4",
@@ -258,7 +292,6 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"noEnd", "$EndNodes", "$EndKnots", "\"$EndKnots\" where $EndNodes should be"},
         Fault{"betweenSections", "$Entities", "Entities", "where a section $... should begin"},
         Fault{"partitioned", "$Entities", "$PartitionedEntities", "is partitioned"},
-        Fault{"nameTwice", "\"plate\"", "\"lower\"", "two physical groups with the name \"lower\""},
         Fault{"nameWithoutQuotes", "\"plate\"", "plate", "not between quotes"},
         Fault{"groupOfNoDimension", "2 5 \"plate\"", "5 5 \"plate\"", "impossible dimension"},
         Fault{"notPlane", "2 2 0\n", "2 2 0.1\n", "z goes from 0 to 0.1"},

@@ -58,6 +58,46 @@ TEST(GmshMesher, SaysWhatIsWrong) {
   EXPECT_THAT(refusal(path, {}), AllOf(HasSubstr("body.geo"), HasSubstr("holds no mesh")));
 }
 
+/// A square with a line in it, of which the lower end is on the side.
+constexpr const char* square_with_slit = R"(h = 0.25;
+Point(1) = {0, 0, 0, h}; Point(2) = {1, 0, 0, h}; Point(3) = {1, 1, 0, h}; Point(4) = {0, 1, 0, h};
+Point(5) = {0.5, 0, 0, h}; Point(6) = {0.5, 0.5, 0, h};
+Line(1) = {1, 5}; Line(2) = {5, 2}; Line(3) = {2, 3}; Line(4) = {3, 4}; Line(5) = {4, 1};
+Line(6) = {5, 6};
+Curve Loop(1) = {1, 2, 3, 4, 5}; Plane Surface(1) = {1}; Curve{6} In Surface{1};
+Physical Surface("plate", 1) = {1}; Physical Curve("slit", 4) = {6};
+Physical Point("mouth", 5) = {5};
+Mesh.MshFileVersion = 2.2;
+)";
+
+TEST(GmshMesher, KeepsTheMeshOfScriptsThatMeshThemselves) {
+  if (!has_gmsh()) GTEST_SKIP() << "built without gmsh";
+  const test::TemporaryDirectory directory;
+  const auto mesh_of = [&](const std::string& more, int dim = 2) {
+    const std::string path = (directory / "body.geo").string();
+    test::write_text(path, square_with_slit + more + "\n");
+    return mesh_geometry(path, dim, {});
+  };
+  const Mesh plain = mesh_of("");
+  EXPECT_EQ(mesh_of("Mesh 2;").positions, plain.positions);
+  EXPECT_EQ(mesh_of("Mesh 1;").num_cells(), plain.num_cells()) << "not yet meshed";
+  EXPECT_EQ(mesh_of("Mesh 2; RefineMesh;").num_cells(), 4 * plain.num_cells());
+  const Mesh slit = mesh_of(
+      "Mesh 2; Plugin(Crack).Dimension = 1; Plugin(Crack).PhysicalGroup = 4;\n"
+      "Plugin(Crack).OpenBoundaryPhysicalGroup = 5; Plugin(Crack).Run;");
+  EXPECT_EQ(slit.num_cells(), plain.num_cells());
+  // Two flanks of two lines each, which share the tip.
+  ASSERT_EQ(plain.groups[1].points.size(), 3u);
+  EXPECT_EQ(slit.groups[1].elements.size(), 4u);
+  EXPECT_EQ(slit.num_points(), plain.num_points() + 2);
+  // Part of the surfaces only: the others are meshed after the script.
+  const Mesh two = mesh_of(
+      "Mesh 2; Delete Physicals; Point(11) = {2, 0, 0, h}; Point(12) = {3, 0, 0, h};"
+      "Point(13) = {3, 1, 0, h}; Line(11) = {11, 12}; Line(12) = {12, 13};"
+      "Line(13) = {13, 11}; Curve Loop(11) = {11, 12, 13}; Plane Surface(2) = {11};");
+  EXPECT_GT(two.num_cells(), plain.num_cells());
+}
+
 TEST(GmshMesher, RunsNoCommandsOfScriptsUnlessTrusted) {
   if (!has_gmsh()) GTEST_SKIP() << "built without gmsh";
   const test::TemporaryDirectory directory;

@@ -19,7 +19,7 @@ using ::testing::IsEmpty;
 
 std::string answer(const std::string& script) {
   try {
-    check_gmsh_script(script, "body.geo");
+    check_gmsh_script(script + "\n", "body.geo");
   } catch (const InputError& error) {
     return error.what();
   }
@@ -107,6 +107,24 @@ TEST(GmshScript, RefusesWhatGmshMayCutOtherwise) {
               HasSubstr("SystemCall in a text"));
   EXPECT_THAT(answer("E = 1; If (0)\n E = 2; // SystemCall 'x';\nEndIf"),
               HasSubstr("SystemCall in a text or comment"));
+}
+
+/// gmsh 4.8 takes the first statement of such a line only.
+TEST(GmshScript, RefusesLastLinesOfSeveralStatementsWithoutAnEnd) {
+  for (const char* script :
+       {"x = 1;\nMesh 2; RefineMesh;", "Mesh 2; RefineMesh; // twice", "If (1) Mesh 2; EndIf"}) {
+    try {
+      check_gmsh_script(script, "body.geo");
+      ADD_FAILURE() << script;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("ends without a line break"));
+    }
+    EXPECT_EQ(answer(script), "accepted") << script;
+  }
+  for (const char* script : {"x = 1; y = 2;\nMesh 2;", "Mesh 2; // twice",
+                             "Extrude {0, 0, 1} { Surface{1}; Layers{3}; }", "x = 1; y = 2;\n "}) {
+    EXPECT_NO_THROW(check_gmsh_script(script, "body.geo")) << script;
+  }
 }
 
 /// Each of these ran a command or an unread file with gmsh 4.8, or comes close to one that did.
@@ -201,7 +219,7 @@ TEST(GmshScript, AcceptsWhatDrawsAndMeshes) {
 }
 
 TEST(GmshScript, NamesTheFilesThatItReads) {
-  EXPECT_THAT(check_gmsh_script("Include \"a.geo\"; Merge 'b/c.step';", "m.geo"),
+  EXPECT_THAT(check_gmsh_script("Include \"a.geo\"; Merge 'b/c.step';\n", "m.geo"),
               ElementsAre("a.geo", "b/c.step"));
   EXPECT_THAT(check_gmsh_script("ShapeFromFile(\"a.brep\");", "m.geo"), IsEmpty());
 }
@@ -221,7 +239,7 @@ class GmshScriptFiles : public ::testing::Test {
  protected:
   void write(const std::string& name, const std::string& text) const {
     std::filesystem::create_directories((directory_ / name).parent_path());
-    test::write_text(directory_ / name, text);
+    test::write_text(directory_ / name, text + "\n");
   }
   std::string answer(const std::string& name) const { return answer_of_file(directory_ / name); }
 

@@ -24,7 +24,7 @@ std::vector<std::string> texts(const std::string& script) {
 TEST(GmshTokens, CutsNumbersWordsTextsAndSigns) {
   EXPECT_THAT(texts("1e5Save"), ElementsAre("1e5", "Save", ""));
   EXPECT_THAT(texts("1e+5e 2.e-3.5"), ElementsAre("1e+5", "e", "2.e-3", ".5", ""));
-  EXPECT_THAT(texts("a_1+=1.;b.c"), ElementsAre("a_1", "+=", "1.", ";", "b", ".", "c", ""));
+  EXPECT_THAT(texts("a_1+=1.;b.c\n"), ElementsAre("a_1", "+=", "1.", ";", "b", ".", "c", ""));
   EXPECT_THAT(texts("x>>\"a 'b' //\"'c\"'"), ElementsAre("x", ">>", "a 'b' //", "c\"", ""));
   EXPECT_THAT(texts("a/*\n*/b//c\nd"), ElementsAre("a", "b", "d", ""));
 }

@@ -11,15 +11,20 @@
 
 #include "app/model/from_case/configure.hpp"
 #include "app/model/model_regions.hpp"
+#include "app/run/run_kind.hpp"
 #include "base/error.hpp"
+#include "io/mesh/gmsh_mesher.hpp"
+#include "io/text/csv.hpp"
 #include "support/gmsh_texts.hpp"
 #include "support/halved_meshes.hpp"
+#include "support/replaced.hpp"
 #include "support/temporary_directory.hpp"
 
 namespace perilink {
 namespace {
 
 using test::TemporaryDirectory;
+using ::testing::Contains;
 using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -135,6 +140,106 @@ TEST_F(MeshInput, SaysHowToMakeGroupsWhereThereAreNone) {
   }
   test::write_text(directory_ / "body.msh", text);
   EXPECT_THAT(refusal("", ""), HasSubstr("write Physical Surface(\"plate\") = {...};"));
+}
+
+TEST_F(MeshInput, NamesOfGroupsNeedToBeUniqueInTheirDimensionOnly) {
+  test::write_text(directory_ / "body.msh",
+                   replaced(replaced(test::square_mesh, "\"corner\"", "\"lower\""),
+                            "\"lower and left\"", "\"plate\""));
+  const CaseFile input = parse();
+  const Model model = build_model(input);
+  EXPECT_THAT(particles_of_region(input, model, "base", ""), ElementsAre(0, 1)) << "not its point";
+  EXPECT_EQ(particles_of_region(input, model, "solid", "").size(), 5u) << "not its lines";
+  for (const char* group : {"\"base\" is the physical group \"lower\" of lines; ",
+                            "\"solid\" is the physical group \"plate\" of triangles; "}) {
+    EXPECT_THAT(model.notes, Contains(std::string("the region ") + group +
+                                      "groups of lower dimension have the same name and are not "
+                                      "used"));
+  }
+}
+
+/// A plate in tension by its right side: stress E u / L, energy half of force times displacement.
+TEST_F(MeshInput, MarksUnusedNodesAndNamesChangeNothing) {
+  const std::string clean = test::square_mesh;
+  const std::string meshes[] = {clean, "\xEF\xBB\xBF" + clean,
+                                replaced(clean, "9 9 0\n", "9 9 7\n"),
+                                replaced(clean, "2 5 \"plate\"", "2 5 \"lower\""),
+                                replaced(clean, "\"lower and left\"", "\"lower\"")};
+  for (const std::string& mesh : meshes) {
+    test::write_text(directory_ / "body.msh", mesh);
+    const CaseFile input = parse_case(R"([body]
+mesh = "body.msh"
+method = "linear_elements"
+[[regions]]
+name = "plate"
+x = [0, 2]
+y = [0, 2]
+[[regions]]
+name = "left"
+x = [0, 0]
+y = [0, 2]
+[[regions]]
+name = "right"
+x = [2, 2]
+y = [0, 2]
+[[regions]]
+name = "corner"
+x = [0, 0]
+y = [0, 0]
+[[materials]]
+region = "plate"
+youngs_modulus = 30000
+poissons_ratio = 0.3
+[[supports]]
+region = "left"
+fix = ["x"]
+[[supports]]
+region = "corner"
+fix = ["y"]
+[[displacements]]
+region = "right"
+x = 0.002
+[analysis]
+type = "elastic"
+)",
+                                      (directory_ / "case.toml").string());
+    const auto run = make_run(input, 1, true);
+    std::filesystem::create_directories(directory_ / "out");
+    RunFiles& files = run->open(directory_ / "out", true);
+    run->analyse();
+    files.finish();
+    const CsvTable table = read_csv((directory_ / "out/history.csv").string());
+    EXPECT_NEAR(table.rows[0][table.column("load")], 60.0, 1e-9);
+    EXPECT_NEAR(table.rows[0][table.column("strain_energy")], 0.06, 1e-12);
+  }
+}
+
+TEST_F(MeshInput, GeometriesSayTheirUnitAndSize) {
+  if (!has_gmsh()) GTEST_SKIP() << "built without gmsh";
+  const auto write = [&](const std::string& name) {
+    const std::string script = (directory_ / "make.geo").string();
+    test::write_text(
+        script,
+        "SetFactory(\"OpenCASCADE\"); Rectangle(1) = {1, 0, 0, 2, 1};\nSave \"" + name + "\";\n");
+    mesh_geometry(script, 2, {}, true);
+    return test::read_text(directory_ / name);
+  };
+  const auto notes_of = [&](const std::string& name, const char* size) {
+    CaseFile input = parse("mesh = \"body.msh\"", "mesh = \"" + name + "\"\nmesh_size = " + size);
+    input.regions.clear();  // the geometry has no groups
+    input.materials.clear();
+    return read_mesh_input(input, 2).notes;
+  };
+  const std::string metres =
+      replaced(write("body.step"), "SI_UNIT(.MILLI.,.METRE.)", "SI_UNIT($,.METRE.)");
+  test::write_text(directory_ / "body.step", metres);
+  EXPECT_THAT(notes_of("body.step", "500"),
+              Contains(AllOf(HasSubstr("body.step: lengths are in millimetres"),
+                             HasSubstr("the mesh goes from (1000, 0) to (3000, 1000)"))));
+  write("body.brep");
+  EXPECT_THAT(notes_of("body.brep", "0.5"),
+              Contains(AllOf(HasSubstr("BREP files state no unit"),
+                             HasSubstr("the mesh goes from (1, 0) to (3, 1)"))));
 }
 
 TEST_F(MeshInput, CracksCutBonds) {
