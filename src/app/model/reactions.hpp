@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,7 +27,9 @@ std::vector<double> holding_forces(const Model& model, const ModelState& state);
 struct Reaction {
   Vector3 middle{};  ///< mean of their positions, about which the moment counts [length]
   Vector3 force{};
-  Vector3 moment{};  ///< with the moments that hold rotations
+  Vector3 moment{};          ///< with the moments that hold rotations
+  double force_size = 0.0;   ///< sum of the sizes of the forces
+  double moment_size = 0.0;  ///< sum of the sizes of their moments about the origin
 };
 Reaction reaction_on(const Model& model, std::span<const Index> particles,
                      std::span<const double> forces);
@@ -42,9 +45,28 @@ struct HeldPlace {
 /// [[velocities]]; entries of one table and region are one place.
 std::vector<HeldPlace> held_places(const CaseFile& input, const Model& model);
 
-/// A row for each place, one for all loads and one for the sum of all, with moments about the
-/// origin in the last two; as text of a CSV.
-std::string reaction_table(const std::vector<HeldPlace>& places, const Model& model,
-                           const ModelState& state);
+struct ReactionTable {
+  /// A row for each place, one for all loads and one for the sum of all, with moments about the
+  /// origin in the last two; as text of a CSV.
+  std::string text;
+  Reaction sum;  ///< of loads and reactions, about the origin
+};
+ReactionTable reaction_table(const std::vector<HeldPlace>& places, const Model& model,
+                             const ModelState& state);
+
+/// Compares reactions with loads over the rows of a quasistatic run.
+class ReactionBalance {
+ public:
+  /// \param sum        see ReactionTable
+  /// \param tolerance  on the sum over the largest sizes so far [-]
+  void add(Index row, const Reaction& sum, double tolerance);
+  /// A warning about the first row whose reactions do not balance its loads.
+  std::optional<std::string> doubt() const;
+
+ private:
+  double force_size_ = 0.0, moment_size_ = 0.0;  // largest so far
+  Index row_ = 0;                                // out of balance; 0: none
+  double imbalance_ = 0.0;                       // of this row [-]
+};
 
 }  // namespace perilink
