@@ -193,7 +193,7 @@ struct RunReactions {
 };
 
 /// 400 by 100, elements of eight spacings of 5.
-std::string beam_case(const std::string& supports, const std::string& loads) {
+std::string tall_beam(const std::string& supports, const std::string& loads) {
   return "[body]\nspacing = 5\nhorizon_ratio = 3\nthickness = 10\n" + region("b", 0, 400, 0, 100) +
          region("left", 0, 0, 0, 100) + region("lp", 20, 20, 0, 0) + region("rp", 380, 380, 0, 0) +
          region("right", 400, 400, 0, 100) +
@@ -202,7 +202,7 @@ std::string beam_case(const std::string& supports, const std::string& loads) {
 }
 
 TEST(Reactions, OfABeamOnTwoSupportsAreHalfTheLoadEach) {
-  const RunReactions found(beam_case(
+  const RunReactions found(tall_beam(
       support("lp", "\"x\", \"y\"") + support("rp", "\"y\""),
       "[[point_loads]]\nat = [200, 100]\nforce = [0, -1000]\n[analysis]\ntype = \"elastic\"\n"));
   EXPECT_NEAR(found.rows[0][3], 500.0, 500.0 * balanced);
@@ -212,7 +212,7 @@ TEST(Reactions, OfABeamOnTwoSupportsAreHalfTheLoadEach) {
 
 TEST(Reactions, OfAWallAreTheLoadAndItsMoment) {
   for (const char* order : {"order = 1\n", "order = 2\n"}) {
-    const RunReactions found(beam_case(support("left", "\"x\", \"y\""),
+    const RunReactions found(tall_beam(support("left", "\"x\", \"y\""),
                                        std::string(order) +
                                            "[[loads]]\nregion = \"right\"\nforce = [0, -1000]\n"
                                            "[analysis]\ntype = \"elastic\"\n"));
@@ -226,7 +226,7 @@ TEST(Reactions, OfAWallAreTheLoadAndItsMoment) {
 TEST(Reactions, OfABodyThatBreaksAreItsLoad) {
   for (const char* loads : {"[[loads]]\nregion = \"right\"\nforce = [0, -1000]\n",
                             "[[displacements]]\nregion = \"right\"\ny = -1\n"}) {
-    const RunReactions found(beam_case(support("left", "\"x\", \"y\""),
+    const RunReactions found(tall_beam(support("left", "\"x\", \"y\""),
                                        loads + std::string("[stop]\nbroken_bonds = 3\n")));
     const CsvTable history = found.run.history();
     const double load = history.rows.back()[static_cast<std::size_t>(history.column("load"))];
@@ -247,13 +247,13 @@ TEST(Reactions, BalanceInEveryKindOfRun) {
       "[[stages]]\nname = \"weight\"\nto = 1\n[[stages]]\nname = \"pull\"\nto = 0.001\n"
       "[[loads]]\nregion = \"b\"\nforce = [0, -50]\nstage = \"weight\"\n"
       "[[displacements]]\nregion = \"right\"\nx = 1\nstage = \"pull\"\n";
-  const RunReactions staged(beam_case(support("left", "\"x\", \"y\""), stages));
+  const RunReactions staged(tall_beam(support("left", "\"x\", \"y\""), stages));
   EXPECT_NEAR(staged.rows[0][3] + staged.rows[1][3], 50.0, 50.0 * balanced);
   EXPECT_TRUE(staged.run.summary.doubts.empty()) << staged.run.summary.text;
   const std::string clamp = support("left", "\"x\", \"y\"");
   const std::string end = "[[loads]]\nregion = \"right\"\nforce = [0, -1000]\n";
   for (const char* kind : {"elastic", "damage"}) {
-    const RunReactions iterative(beam_case(
+    const RunReactions iterative(tall_beam(
         clamp, end + fmt::format("[analysis]\ntype = \"{}\"\nsolver = \"iterative\"\n{}", kind,
                                  kind[0] == 'd' ? "[stop]\nbroken_bonds = 2\n" : "")));
     EXPECT_NEAR(iterative.rows.back()[3] / iterative.rows[0][3], 0.0, 1e-8);

@@ -13,6 +13,12 @@
 #include "io/text/csv.hpp"
 
 namespace perilink {
+void pass_to_held(const Carriers& carriers, const Unknowns& free,
+                  std::span<const std::uint8_t> whole, std::span<const double> loads,
+                  std::span<double> forces);
+}  // namespace perilink
+
+namespace perilink {
 namespace {
 
 /// All loads as they are.
@@ -102,6 +108,13 @@ std::vector<std::uint8_t> held_slots(const Model& model) {
   return held;
 }
 
+void pass_to_held(const Model& model, std::span<const std::uint8_t> whole,
+                  std::span<const double> loads, std::span<double> forces) {
+  if (!model.carried) return;
+  const CarriedBody& body = *model.carried;
+  pass_to_held(body.carriers, body.free, whole.empty() ? body.whole : whole, loads, forces);
+}
+
 std::vector<double> holding_forces(const Model& model, const ModelState& state) {
   const Network& network = model.network;
   std::vector<double> motion(state.motion.begin(), state.motion.end());
@@ -113,11 +126,7 @@ std::vector<double> holding_forces(const Model& model, const ModelState& state) 
   }
   load_particles(network, forces);
   const std::vector<double> loads = present_loads(model, state);
-  if (model.carried) {
-    const CarriedBody& body = *model.carried;
-    pass_to_held(body.carriers, body.free, state.whole.empty() ? body.whole : state.whole, loads,
-                 forces);
-  }
+  pass_to_held(model, state.whole, loads, forces);
   const std::vector<std::uint8_t> held = held_slots(model);
   const std::vector<double>& springs = network.support_stiffness;
   for (std::size_t slot = 0; slot < forces.size(); ++slot) {

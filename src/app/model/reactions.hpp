@@ -18,6 +18,11 @@ namespace perilink {
 /// shape (particles, width).
 std::vector<std::uint8_t> held_slots(const Model& model);
 
+/// pass_to_held() of a model, whose bodies without elements it leaves as they are.
+/// \param whole  see ModelState::whole
+void pass_to_held(const Model& model, std::span<const std::uint8_t> whole,
+                  std::span<const double> loads, std::span<double> forces);
+
 /// Force of what holds each component; zero where nothing does. Of a body at rest: what its
 /// elements leave less the loads.
 /// \return shape (particles, width) [force], moments [force length]

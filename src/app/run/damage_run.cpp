@@ -140,7 +140,8 @@ void DamageRun::note_places(const StepRecord& record, StateSource& source) {
     return;
   }
   const StepState state = source.state();
-  places_ = place_forces(model_, record.load_factor, state.secants, state.displacement);
+  places_ =
+      place_forces(model_, record.load_factor, state.secants, state.displacement, {}, state.whole);
 }
 
 /// The first row, the first of each stage, and what the case asks for: a load step may pass a
