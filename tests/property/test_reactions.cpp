@@ -88,7 +88,7 @@ struct Reactions {
     }
     sum = reaction_table(places, model, state).sum;
   }
-  /// Largest of the sums of forces, and of moments about a point of the body over its size, in
+  /// Largest of the sums of forces, and of moments about the middle of the body over its size, in
   /// parts of the forces.
   double imbalance(const Strip& strip) const {
     const double moment = sum.moment[2] - strip.x * sum.force[1] + strip.y * sum.force[0];

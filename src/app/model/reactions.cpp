@@ -74,11 +74,11 @@ Vector3 position_of(const Particles& particles, Index i) {
   return x;
 }
 
-/// A resultant with its moment about the origin.
-Reaction about_origin(Reaction reaction) {
-  const Vector3 more = moment_of(reaction.middle, reaction.force);
+/// A resultant with its moment about another point.
+Reaction about(const Vector3& point, Reaction reaction) {
+  const Vector3 more = moment_of(minus(reaction.middle, point), reaction.force);
   for (int a = 0; a < 3; ++a) reaction.moment[a] += more[a];
-  reaction.middle = {};
+  reaction.middle = point;
   return reaction;
 }
 
@@ -150,15 +150,16 @@ Reaction reaction_on(const Model& model, std::span<const Index> particles,
     const double* own = forces.data() + static_cast<std::size_t>(i) * width;
     std::copy_n(own, dim, force.begin());
     sum.force_size += norm(force);
-    sum.moment_size += norm(arm) * norm(force);
-    for (int a = dim; a < width; ++a) sum.moment_size += std::abs(own[a]);
     for (int a = 0; a < 3; ++a) arm[a] -= sum.middle[a];
     const Vector3 moment = moment_of(arm, force);
     for (int a = 0; a < 3; ++a) {
       sum.force[a] += force[a];
       sum.moment[a] += moment[a];
     }
-    for (int a = dim; a < width; ++a) sum.moment[dim == 2 ? 2 : a - dim] += own[a];
+    for (int a = dim; a < width; ++a) {
+      sum.moment[dim == 2 ? 2 : a - dim] += own[a];
+      sum.moment_size += std::abs(own[a]);
+    }
   }
   return sum;
 }
@@ -209,12 +210,13 @@ ReactionTable reaction_table(const std::vector<HeldPlace>& places, const Model& 
   const std::vector<double> forces = holding_forces(model, state);
   std::vector<Index> everything(static_cast<std::size_t>(model.network.particles.size()));
   std::iota(everything.begin(), everything.end(), 0);
-  Reaction sum = about_origin(reaction_on(model, everything, present_loads(model, state)));
+  const Reaction all = reaction_on(model, everything, present_loads(model, state));
+  Reaction sum = about({}, all);
   std::string loads = row_of("loads", sum, dim);
   for (const HeldPlace& place : places) {
     const Reaction reaction = reaction_on(model, place.particles, forces);
     text += row_of(place.name, reaction, dim);
-    const Reaction moved = about_origin(reaction);
+    const Reaction moved = about({}, reaction);
     for (int a = 0; a < 3; ++a) {
       sum.force[a] += moved.force[a];
       sum.moment[a] += moved.moment[a];
@@ -222,15 +224,13 @@ ReactionTable reaction_table(const std::vector<HeldPlace>& places, const Model& 
     sum.force_size += moved.force_size;
     sum.moment_size += moved.moment_size;
   }
-  return {text + loads + row_of("sum", sum, dim), sum};
+  return {text + loads + row_of("sum", sum, dim), about(all.middle, sum)};
 }
 
-void ReactionBalance::add(Index row, const Reaction& sum, double tolerance) {
-  force_size_ = std::max(force_size_, sum.force_size);
-  moment_size_ = std::max(moment_size_, sum.moment_size);
-  if (row_ > 0 || force_size_ == 0.0) return;
-  const double imbalance = std::max(norm(sum.force) / force_size_,
-                                    moment_size_ > 0.0 ? norm(sum.moment) / moment_size_ : 0.0);
+void ReactionBalance::add(Index row, const Reaction& sum, double length, double tolerance) {
+  size_ = std::max(size_, sum.force_size + sum.moment_size / length);
+  if (row_ > 0 || size_ == 0.0) return;
+  const double imbalance = std::max(norm(sum.force), norm(sum.moment) / length) / size_;
   if (imbalance <= tolerance) return;
   row_ = row;
   imbalance_ = imbalance;

@@ -34,7 +34,7 @@ struct Reaction {
   Vector3 force{};
   Vector3 moment{};          ///< with the moments that hold rotations
   double force_size = 0.0;   ///< sum of the sizes of the forces
-  double moment_size = 0.0;  ///< sum of the sizes of their moments about the origin
+  double moment_size = 0.0;  ///< sum of the sizes of moments on rotations
 };
 Reaction reaction_on(const Model& model, std::span<const Index> particles,
                      std::span<const double> forces);
@@ -54,7 +54,7 @@ struct ReactionTable {
   /// A row for each place, one for all loads and one for the sum of all, with moments about the
   /// origin in the last two; as text of a CSV.
   std::string text;
-  Reaction sum;  ///< of loads and reactions, about the origin
+  Reaction sum;  ///< of loads and reactions, about the middle of all particles
 };
 ReactionTable reaction_table(const std::vector<HeldPlace>& places, const Model& model,
                              const ModelState& state);
@@ -63,15 +63,16 @@ ReactionTable reaction_table(const std::vector<HeldPlace>& places, const Model& 
 class ReactionBalance {
  public:
   /// \param sum        see ReactionTable
-  /// \param tolerance  on the sum over the largest sizes so far [-]
-  void add(Index row, const Reaction& sum, double tolerance);
+  /// \param length     longest side of the body [length]
+  /// \param tolerance  on the sum over the largest size of loads and reactions so far [-]
+  void add(Index row, const Reaction& sum, double length, double tolerance);
   /// A warning about the first row whose reactions do not balance its loads.
   std::optional<std::string> doubt() const;
 
  private:
-  double force_size_ = 0.0, moment_size_ = 0.0;  // largest so far
-  Index row_ = 0;                                // out of balance; 0: none
-  double imbalance_ = 0.0;                       // of this row [-]
+  double size_ = 0.0;       // of loads and reactions, the largest so far [force]
+  Index row_ = 0;           // out of balance; 0: none
+  double imbalance_ = 0.0;  // of this row [-]
 };
 
 }  // namespace perilink

@@ -6,6 +6,7 @@
 #include "app/process/progress.hpp"
 #include "app/results/calibration_text.hpp"
 #include "app/results/summary_file.hpp"
+#include "app/run/run_warnings.hpp"
 #include "base/build_info.hpp"
 
 namespace perilink {
@@ -30,7 +31,8 @@ void NetworkRun::write_reactions(const StepRecord& row, const std::vector<HeldPl
   files_->write_table("reactions", row.step, table.text);
   // Sums of n numbers are at most sqrt(n) times the root of the sum of their squares.
   const double numbers = static_cast<double>(model_.unknowns.number.size());
-  balance_.add(row.step, table.sum, std::max(1e-8, std::sqrt(numbers) * row.residual));
+  balance_.add(row.step, table.sum, longest_side(model_.network.particles),
+               std::max(1e-8, std::sqrt(numbers) * row.residual));
 }
 
 std::string rate_text(double count, double seconds, const std::string& unit) {

@@ -123,7 +123,8 @@ TEST(Gauges, StayOnTheirSideOfACrack) {
   const Model model = build_model(input);
   std::vector<double> displacement;
   for (Index i = 0; i < model.network.particles.size(); ++i) {
-    displacement.insert(displacement.end(), {0.0, model.network.particles.position(i)[1] > 45.0});
+    const bool above = model.network.particles.position(i)[1] > 45.0;
+    displacement.insert(displacement.end(), {0.0, above ? 1.0 : 0.0});
   }
   Csr families;
   EXPECT_NEAR(gauge_values(model, {{}, displacement}, families)[0], 1.0, 1e-14);

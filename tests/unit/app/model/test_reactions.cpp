@@ -118,7 +118,7 @@ TEST(Reactions, KnowWhatIsHeld) {
 /// The middle of the facet from x = 10 to 20 lies in the region, its corners do not all.
 TEST(Reactions, OfSpringsCountParticlesAroundTheirFacets) {
   CaseFile input = elastic_strip();
-  input.regions.push_back({.name = "part", .box = {{4.0, 80.0, 0.0}, {16.0, 80.0, 0.0}}});
+  input.regions.push_back({"part", {{4.0, 80.0, 0.0}, {16.0, 80.0, 0.0}}, {}, ""});
   SpringSection spring;
   spring.region = "part";
   spring.stiffness = Vector3{10.0, 100.0, 0.0};
@@ -137,23 +137,28 @@ TEST(Reactions, OfSpringsCountParticlesAroundTheirFacets) {
 TEST(Reactions, OutOfBalanceAreReportedOnce) {
   Reaction sum;
   sum.force_size = 100.0;
-  sum.moment_size = 1000.0;
   sum.force[0] = 0.9e-6;
   ReactionBalance balance;
-  balance.add(1, sum, 1e-8);
+  balance.add(1, sum, 10.0, 1e-8);
   EXPECT_FALSE(balance.doubt());
   sum.moment[2] = 20.0;
-  balance.add(7, sum, 1e-8);
+  balance.add(7, sum, 10.0, 1e-8);
   sum.moment[2] = 30.0;
-  balance.add(8, sum, 1e-8);
+  balance.add(8, sum, 10.0, 1e-8);
   ASSERT_TRUE(balance.doubt());
   EXPECT_NE(balance.doubt()->find("row 7 are out of balance by 0.02"), std::string::npos)
       << *balance.doubt();
   ReactionBalance loose;
-  loose.add(7, sum, 0.05);
+  loose.add(7, sum, 10.0, 0.05);
   EXPECT_FALSE(loose.doubt()) << "within what the iterations leave";
+  sum.force_size = 0.0;
+  sum.moment_size = 1000.0;
+  sum.moment = {};
+  ReactionBalance moments;
+  moments.add(1, sum, 10.0, 1e-7);
+  EXPECT_FALSE(moments.doubt()) << "round-off of forces beside moments";
   sum.force[0] = NAN;
-  loose.add(8, sum, 0.05);
+  loose.add(8, sum, 10.0, 0.05);
   EXPECT_TRUE(loose.doubt());
 }
 
