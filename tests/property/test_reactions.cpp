@@ -91,10 +91,8 @@ struct Reactions {
   /// Largest of the sums of forces, and of moments about the middle of the body over its size, in
   /// parts of the forces.
   double imbalance(const Strip& strip) const {
-    const double moment = sum.moment[2] - strip.x * sum.force[1] + strip.y * sum.force[0];
-    return std::max(
-               {std::abs(sum.force[0]), std::abs(sum.force[1]), std::abs(moment) / strip.size()}) /
-           size;
+    const double moment = std::abs(sum.moment[2]) / strip.size();
+    return std::max({std::abs(sum.force[0]), std::abs(sum.force[1]), moment}) / size;
   }
   std::vector<Reaction> at;
   Reaction sum;
