@@ -20,7 +20,7 @@ namespace perilink {
 namespace {
 
 /// Round-off of sums of bond forces, which are some 1e3 times the loads in a slender body.
-constexpr double balanced = 1e-9;
+constexpr double balanced = 1e-10;
 
 std::string region(const std::string& name, double x0, double x1, double y0, double y1) {
   return fmt::format("[[regions]]\nname = \"{}\"\nx = [{}, {}]\ny = [{}, {}]\n", name, x0, x1, y0,
@@ -239,7 +239,7 @@ TEST(Reactions, OfABodyThatBreaksAreItsLoad) {
   }
 }
 
-/// With the supports of a later stage, in space, and without a factor.
+/// With what a later stage drives, and by conjugate gradients.
 TEST(Reactions, BalanceInEveryKindOfRun) {
   const std::string stages =
       "[[stages]]\nname = \"weight\"\nto = 1\n[[stages]]\nname = \"pull\"\nto = 0.001\n"
@@ -248,12 +248,14 @@ TEST(Reactions, BalanceInEveryKindOfRun) {
   const RunReactions staged(tall_beam(support("left", "\"x\", \"y\""), stages));
   EXPECT_NEAR(staged.rows[0][3] + staged.rows[1][3], 50.0, 50.0 * balanced);
   EXPECT_TRUE(staged.run.summary.doubts.empty()) << staged.run.summary.text;
-  const std::string clamp = support("left", "\"x\", \"y\"");
-  const std::string end = "[[loads]]\nregion = \"right\"\nforce = [0, -1000]\n";
   for (const char* kind : {"elastic", "damage"}) {
-    const RunReactions iterative(tall_beam(
-        clamp, end + fmt::format("[analysis]\ntype = \"{}\"\nsolver = \"iterative\"\n{}", kind,
-                                 kind[0] == 'd' ? "[stop]\nbroken_bonds = 2\n" : "")));
+    std::string text =
+        tall_beam(support("left", "\"x\", \"y\""),
+                  fmt::format("[[loads]]\nregion = \"right\"\nforce = [0, -1000]\n"
+                              "[analysis]\ntype = \"{}\"\nsolver = \"iterative\"\n{}",
+                              kind, kind[0] == 'd' ? "[stop]\nbroken_bonds = 2\n" : ""));
+    text.erase(text.find("[elements]\n"), 24);  // only a factor serves them
+    const RunReactions iterative(text);
     EXPECT_NEAR(iterative.rows.back()[3] / iterative.rows[0][3], 0.0, 1e-8);
     EXPECT_TRUE(iterative.run.summary.doubts.empty()) << iterative.run.summary.text;
   }
