@@ -184,7 +184,10 @@ void fill_mean(const CaseFile& input, const Model& model, const std::string& key
     whole += particles.volumes[i];
   }
   for (Gauge::Term& term : gauge.terms) term.weight /= whole;
-  gauge.place = fmt::format("mean of {} particles", gauge.terms.size());
+  const Particles& in_space = model.network.particles;
+  gauge.place = gauge.terms.size() == 1
+                    ? "at " + point_text(place_of(in_space, gauge.terms), in_space.dim)
+                    : fmt::format("mean of {} particles", gauge.terms.size());
 }
 
 /// Number of a component among the six of a Stress.
