@@ -13,12 +13,6 @@
 #include "io/text/csv.hpp"
 
 namespace perilink {
-void pass_to_held(const Carriers& carriers, const Unknowns& free,
-                  std::span<const std::uint8_t> whole, std::span<const double> loads,
-                  std::span<double> forces);
-}  // namespace perilink
-
-namespace perilink {
 namespace {
 
 /// All loads as they are.

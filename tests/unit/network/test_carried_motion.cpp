@@ -6,12 +6,6 @@
 #include <cmath>
 
 namespace perilink {
-void pass_to_held(const Carriers& carriers, const Unknowns& free,
-                  std::span<const std::uint8_t> whole, std::span<const double> loads,
-                  std::span<double> forces);
-}  // namespace perilink
-
-namespace perilink {
 namespace {
 
 /// Nine by five particles one apart, in two bilinear elements of four; the left column is held
