@@ -54,7 +54,7 @@ struct ReactionTable {
   /// A row for each place, one for all loads and one for the sum of all, with moments about the
   /// origin in the last two; as text of a CSV.
   std::string text;
-  Reaction sum;  ///< of loads and reactions, about the middle of all particles
+  Reaction sum;  ///< sum of loads and reactions, about the middle of all particles
 };
 ReactionTable reaction_table(const std::vector<HeldPlace>& places, const Model& model,
                              const ModelState& state);
@@ -70,9 +70,9 @@ class ReactionBalance {
   std::optional<std::string> doubt() const;
 
  private:
-  double size_ = 0.0;       // of loads and reactions, the largest so far [force]
-  Index row_ = 0;           // out of balance; 0: none
-  double imbalance_ = 0.0;  // of this row [-]
+  double size_ = 0.0;       // largest sum of the sizes of loads and reactions so far [force]
+  Index row_ = 0;           // first row out of balance; 0: none
+  double imbalance_ = 0.0;  // imbalance of this row over size_ [-]
 };
 
 }  // namespace perilink
