@@ -70,7 +70,8 @@ std::vector<Index> neighbors_of(const Model& model, Index particle, const Vector
 }
 
 /// Weights with which a linear field's values at a particle and some of its neighbours make that at
-/// a point: barycentric coordinates in the line, triangle or tetrahedron of the nearest ones.
+/// a point: barycentric coordinates in the line, triangle or tetrahedron of the nearest ones around
+/// it. None is negative: a point outside the particles means the nearest place on their border.
 std::vector<Gauge::Term> linear_terms(const Model& model, Index nearest, const Vector3& point,
                                       bool same_material) {
   constexpr double flat = 0.25, little = 1e-9;
@@ -92,9 +93,13 @@ std::vector<Gauge::Term> linear_terms(const Model& model, Index nearest, const V
       const Eigen::VectorXd along = ways.colPivHouseholderQr().solve(way);
       if ((way - ways * along).norm() < flat * spacing) continue;
     }
-    ways.conservativeResize(Eigen::NoChange, ways.cols() + 1);
-    ways.rightCols(1) = way;
-    weights = ways.colPivHouseholderQr().solve(wanted);
+    Eigen::MatrixXd more = ways;
+    more.conservativeResize(Eigen::NoChange, ways.cols() + 1);
+    more.rightCols(1) = way;
+    const Eigen::VectorXd next = more.colPivHouseholderQr().solve(wanted);
+    if (next.minCoeff() < -little || next.sum() > 1.0 + little) continue;
+    ways = more;
+    weights = next;
     chosen.push_back(i);
   }
   std::vector<Gauge::Term> terms = {{nearest, 1.0 - weights.sum()}};
@@ -131,8 +136,8 @@ std::vector<Gauge::Term> terms_at(const CaseFile& input, const Model& model, con
     texts.push_back(point_text(place_of(particles, {&alone, 1}), particles.dim));
   }
   notes.push_back(fmt::format(
-      "no particle lies at the point {} of the gauge \"{}\": it measures at {}, by a linear field "
-      "through the particles at {}",
+      "no particle lies at the point {} of the gauge \"{}\": it measures at {}, linearly between "
+      "the particles at {}",
       point_text(point, particles.dim), gauge.name,
       point_text(place_of(particles, terms), particles.dim), fmt::join(texts, ", ")));
   return terms;
