@@ -18,26 +18,24 @@ std::size_t slot_of(const Unknowns& unknowns, Index particle, int component) {
   return static_cast<std::size_t>(particle) * unknowns.width + component;
 }
 
-/// Nodes of an element that its held particles hold along a component: the motion of one node alone
-/// is a combination of the motions of these particles.
-std::vector<std::uint8_t> nodes_held_by(const Carriers& carriers, Index element,
-                                        const std::vector<std::size_t>& held_places) {
+/// By which an element's held particles make the motion of each of its nodes along a component,
+/// shape (held particles, nodes): a column of zeros where they leave the node free.
+Eigen::MatrixXd shares_of_nodes(const Carriers& carriers, Index element,
+                                const std::vector<std::size_t>& held_places) {
   const auto count = static_cast<Index>(carriers.nodes_of.row(element).size());
   Eigen::MatrixXd rows(count, static_cast<Index>(held_places.size()));
   for (Index k = 0; k < rows.cols(); ++k) {
     const auto weights = carriers.weights_at(element, held_places[k]);
     for (Index c = 0; c < count; ++c) rows(c, k) = weights[c];
   }
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> space(rows);
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> space;
   space.setThreshold(negligible);
-  const Eigen::MatrixXd all = space.householderQ();
-  const auto basis = all.leftCols(space.rank());  // motions that would move held particles
-  std::vector<std::uint8_t> held(static_cast<std::size_t>(count));
+  Eigen::MatrixXd shares = space.compute(rows).solve(Eigen::MatrixXd::Identity(count, count));
   for (Index c = 0; c < count; ++c) {
     const Eigen::VectorXd alone = Eigen::VectorXd::Unit(count, c);
-    held[c] = (alone - basis * (basis.transpose() * alone)).norm() < negligible;
+    if (!((rows * shares.col(c) - alone).norm() < negligible)) shares.col(c).setZero();
   }
-  return held;
+  return shares;
 }
 
 /// Where a particle stands, from a node on.
@@ -104,8 +102,10 @@ void hold_nodes(const Carriers& carriers, const Unknowns& free, Index element, H
   for (int a = 0; a < free.width; ++a) {
     const std::vector<std::size_t> places = held_places(carriers, free, element, a);
     if (places.empty()) continue;
-    const std::vector<std::uint8_t> own = nodes_held_by(carriers, element, places);
-    for (std::size_t c = 0; c < nodes.size(); ++c) held[slot_of(free, nodes[c], a)] |= own[c];
+    const Eigen::MatrixXd shares = shares_of_nodes(carriers, element, places);
+    for (std::size_t c = 0; c < nodes.size(); ++c) {
+      if (!shares.col(static_cast<Index>(c)).isZero(0.0)) held[slot_of(free, nodes[c], a)] = 1;
+    }
   }
 }
 
@@ -255,6 +255,43 @@ Unknowns carried_motion(const Carriers& carriers, const Unknowns& free,
   }
   carry_followers(free, unknowns);
   return unknowns;
+}
+
+void pass_to_held(const Carriers& carriers, const Unknowns& free,
+                  std::span<const std::uint8_t> whole, std::span<const double> loads,
+                  std::span<double> forces) {
+  const std::vector<Index> carrier =
+      carrier_of_particles(carriers, whole, static_cast<Index>(free.number.size()) / free.width);
+  std::vector<double> at_nodes(none_held(carriers, free).size(), 0.0);
+  for (std::size_t slot = 0; slot < forces.size(); ++slot) {
+    const auto particle = static_cast<Index>(slot) / free.width;
+    const Index e = carrier[particle];
+    if (e == no_index || free.number[slot] < 0) continue;
+    const auto nodes = carriers.nodes_of.row(e), inside = carriers.inside.row(e);
+    const auto place = std::lower_bound(inside.begin(), inside.end(), particle) - inside.begin();
+    const auto weights = carriers.weights_at(e, static_cast<std::size_t>(place));
+    const int component = static_cast<int>(slot) % free.width;
+    for (std::size_t c = 0; c < nodes.size(); ++c) {
+      at_nodes[slot_of(free, nodes[c], component)] += weights[c] * (forces[slot] - loads[slot]);
+    }
+    forces[slot] = loads[slot];
+  }
+  for (Index e = 0; e < carriers.size(); ++e) {
+    for (int a = 0; a < free.width && whole[e] != 0; ++a) {
+      const std::vector<std::size_t> places = held_places(carriers, free, e, a);
+      if (places.empty()) continue;
+      const Eigen::MatrixXd shares = shares_of_nodes(carriers, e, places);
+      for (Index c = 0; c < shares.cols(); ++c) {
+        double& at_node = at_nodes[slot_of(free, carriers.nodes_of.row(e)[c], a)];
+        if (shares.col(c).isZero(0.0)) continue;
+        for (std::size_t k = 0; k < places.size(); ++k) {
+          const Index particle = carriers.inside.row(e)[places[k]];
+          forces[slot_of(free, particle, a)] += shares(static_cast<Index>(k), c) * at_node;
+        }
+        at_node = 0.0;
+      }
+    }
+  }
 }
 
 }  // namespace perilink

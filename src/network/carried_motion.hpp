@@ -41,4 +41,15 @@ std::vector<Index> carrier_of_particles(const Carriers& carriers,
 Unknowns carried_motion(const Carriers& carriers, const Unknowns& free,
                         std::span<const std::uint8_t> whole);
 
+/// Moves what is out of balance at particles that elements constrain to the held particles of these
+/// elements. Only the forces on nodes are in balance: those on free nodes are zero, those on held
+/// nodes become forces on the held particles that do the same work in every motion of the nodes.
+/// \param free    how particles move without elements
+/// \param whole   per element: whether it constrains its particles
+/// \param loads   shape (particles, width)
+/// \param forces  that hold the particles so, loads included; shape (particles, width)
+void pass_to_held(const Carriers& carriers, const Unknowns& free,
+                  std::span<const std::uint8_t> whole, std::span<const double> loads,
+                  std::span<double> forces);
+
 }  // namespace perilink

@@ -173,25 +173,6 @@ void print_places(const Model& model) {
   }
 }
 
-/// Where gauges measure: points are those of the nearest particles.
-void print_gauges(const Model& model) {
-  const Particles& particles = model.network.particles;
-  const auto place_of = [&](const Gauge::Term& term) {
-    Vector3 place{};
-    std::ranges::copy(particles.position(term.particle), place.begin());
-    return vector_text(place, particles.dim);
-  };
-  for (const Gauge& gauge : model.gauges) {
-    const std::vector<Gauge::Term>& terms = gauge.terms;
-    const std::string where =
-        terms.size() == 1 ? "at " + place_of(terms[0])
-        : terms.front().weight < 0.0
-            ? fmt::format("from {} to {}", place_of(terms[0]), place_of(terms[1]))
-            : fmt::format("mean of {} particles", terms.size());
-    fmt::print("#   gauge              {}: {}\n", gauge.name, where);
-  }
-}
-
 }  // namespace
 
 void print_sizes(const Model& model, bool damage) {
@@ -222,7 +203,9 @@ void print_sizes(const Model& model, bool damage) {
                group.particles.size(), group.facets.size());
   }
   print_places(model);
-  print_gauges(model);
+  for (const Gauge& gauge : model.gauges) {
+    fmt::print("#   gauge              {}: {}\n", gauge.name, gauge.place);
+  }
   for (const std::string& note : model.notes) fmt::print("#   note               {}\n", note);
 }
 

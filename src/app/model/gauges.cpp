@@ -1,9 +1,13 @@
 #include "app/model/gauges.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "app/model/model_regions.hpp"
 #include "app/results/history_file.hpp"
@@ -13,38 +17,156 @@
 namespace perilink {
 namespace {
 
-Index particle_at(const CaseFile& input, const Model& model, const std::string& key,
-                  const Vector3& point) {
+/// Weighted mean of the positions of some particles.
+Vector3 place_of(const Particles& particles, std::span<const Gauge::Term> terms) {
+  Vector3 place{};
+  for (const Gauge::Term& term : terms) {
+    for (int a = 0; a < particles.dim; ++a) {
+      place[a] += term.weight * particles.position(term.particle)[a];
+    }
+  }
+  return place;
+}
+
+std::string point_text(const Vector3& point, int dim) {
+  std::vector<double> components;
+  for (int a = 0; a < dim; ++a) components.push_back(point[a] + 0.0);  // no -0
+  return fmt::format("({:.6g})", fmt::join(components, ", "));
+}
+
+/// Particles with an intact bond to one, nearest to a point first; where bonds are not known, those
+/// around it. Bonds across cracks and gaps are gone. Stresses jump between materials.
+std::vector<Index> neighbors_of(const Model& model, Index particle, const Vector3& point,
+                                bool same_material) {
+  const Network& network = model.network;
+  const Particles& particles = network.places();
+  std::vector<Index> neighbors;
+  const auto add = [&](Index i) {
+    const bool fits = !same_material || particles.material[i] == particles.material[particle];
+    if (particles.kind[i] == ParticleKind::solid && fits) neighbors.push_back(i);
+  };
+  const std::vector<Index>& cut = network.cut_elements;
+  for (Index e = 0; e < network.first_tie; ++e) {
+    const Index i = network.bonds.first[e], j = network.bonds.second[e];
+    if (i != particle && j != particle) continue;
+    if (!std::binary_search(cut.begin(), cut.end(), e)) add(i == particle ? j : i);
+  }
+  const auto away = [&](Index i) {
+    double square = 0.0;
+    for (int a = 0; a < particles.dim; ++a) {
+      square += std::pow(particles.position(i)[a] - point[a], 2);
+    }
+    return square;
+  };
+  if (network.bonds.size() == 0) {
+    const double reach = 2.0 * model.lattice.spacing;
+    for (Index i = 0; i < particles.size(); ++i) {
+      if (i != particle && away(i) < reach * reach) add(i);
+    }
+  }
+  std::stable_sort(neighbors.begin(), neighbors.end(),
+                   [&](Index i, Index j) { return away(i) < away(j); });
+  return neighbors;
+}
+
+/// Weights with which a linear field's values at a particle and some of its neighbours make that at
+/// a point: barycentric coordinates in the line, triangle or tetrahedron of the nearest ones around
+/// it. None is negative: a point outside the particles means the nearest place on their border.
+std::vector<Gauge::Term> linear_terms(const Model& model, Index nearest, const Vector3& point,
+                                      bool same_material) {
+  constexpr double flat = 0.25, little = 1e-9;
   const Particles& particles = model.network.places();
+  const double spacing = model.lattice.spacing;
+  const auto from_nearest = [&](const auto& x) {
+    Eigen::VectorXd way(particles.dim);
+    for (int a = 0; a < particles.dim; ++a) way[a] = x[a] - particles.position(nearest)[a];
+    return way;
+  };
+  const Eigen::VectorXd wanted = from_nearest(point);
+  Eigen::MatrixXd ways(particles.dim, 0);
+  Eigen::VectorXd weights(0);
+  std::vector<Index> chosen;
+  for (const Index i : neighbors_of(model, nearest, point, same_material)) {
+    if (ways.cols() == particles.dim || (wanted - ways * weights).norm() <= little * spacing) break;
+    const Eigen::VectorXd way = from_nearest(particles.position(i));
+    if (ways.cols() > 0) {
+      const Eigen::VectorXd along = ways.colPivHouseholderQr().solve(way);
+      if ((way - ways * along).norm() < flat * spacing) continue;
+    }
+    Eigen::MatrixXd more = ways;
+    more.conservativeResize(Eigen::NoChange, ways.cols() + 1);
+    more.rightCols(1) = way;
+    const Eigen::VectorXd next = more.colPivHouseholderQr().solve(wanted);
+    if (next.minCoeff() < -little || next.sum() > 1.0 + little) continue;
+    ways = more;
+    weights = next;
+    chosen.push_back(i);
+  }
+  std::vector<Gauge::Term> terms = {{nearest, 1.0 - weights.sum()}};
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    terms.push_back({chosen[k], weights[static_cast<Index>(k)]});
+  }
+  std::erase_if(terms, [&](const Gauge::Term& term) { return std::abs(term.weight) < little; });
+  return terms;
+}
+
+/// \param notes  gets a sentence where no particle lies at the point
+std::vector<Gauge::Term> terms_at(const CaseFile& input, const Model& model, const std::string& key,
+                                  const Vector3& point, const Gauge& gauge,
+                                  std::vector<std::string>& notes) {
+  constexpr double moved = 1e-6;  // spacings; a particle this close lies at the point
+  const Particles& particles = model.network.places();
+  const double spacing = model.lattice.spacing;
   const std::span<const double> at(point.data(), static_cast<std::size_t>(particles.dim));
   const NearestParticle nearest = nearest_particle(particles, at);
-  if (nearest.distance <= model.lattice.spacing) return nearest.particle;
-  throw InputError(
-      input.where(key),
-      fmt::format("the point ({}) is {:.6g} from the nearest particle", fmt::join(at, ", "),
-                  nearest.distance),
-      fmt::format("particles are {:.6g} apart; a point of a gauge must lie within that of one",
-                  model.lattice.spacing));
+  if (!(nearest.distance <= spacing)) {
+    throw InputError(
+        input.where(key),
+        fmt::format("the point ({}) is {:.6g} from the nearest particle", fmt::join(at, ", "),
+                    nearest.distance),
+        fmt::format("particles are {:.6g} apart; a point of a gauge must lie within that of one",
+                    spacing));
+  }
+  if (nearest.distance <= moved * spacing) return {{nearest.particle, 1.0}};
+  std::vector<Gauge::Term> terms =
+      linear_terms(model, nearest.particle, point, gauge.stress.has_value());
+  std::vector<std::string> texts;
+  for (const Gauge::Term& term : terms) {
+    const Gauge::Term alone{term.particle, 1.0};
+    texts.push_back(point_text(place_of(particles, {&alone, 1}), particles.dim));
+  }
+  notes.push_back(fmt::format(
+      "no particle lies at the point {} of the gauge \"{}\": it measures at {}, linearly between "
+      "the particles at {}",
+      point_text(point, particles.dim), gauge.name,
+      point_text(place_of(particles, terms), particles.dim), fmt::join(texts, ", ")));
+  return terms;
 }
 
 /// Displacement of the second point relative to the first.
 void fill_difference(const CaseFile& input, const Model& model, const std::string& key,
-                     const GaugeSection& section, Gauge& gauge) {
-  const Index from = particle_at(input, model, key, section.between[0]);
-  const Index to = particle_at(input, model, key, section.between[1]);
-  if (from == to) {
+                     const GaugeSection& section, Gauge& gauge, std::vector<std::string>& notes) {
+  const Particles& particles = model.network.particles;
+  std::array<Vector3, 2> ends = {section.between[0], section.between[1]};
+  std::array<Index, 2> nearest{};
+  for (const std::size_t k : {0U, 1U}) {
+    std::vector<Gauge::Term> terms = terms_at(input, model, key, ends[k], gauge, notes);
+    nearest[k] = nearest_particle(model.network.places(),
+                                  {ends[k].data(), static_cast<std::size_t>(particles.dim)})
+                     .particle;
+    gauge.place +=
+        (k == 0 ? "from " : " to ") + point_text(place_of(particles, terms), particles.dim);
+    // The points of a shell are on the flat sheet, the particles in space.
+    if (model.network.shell) ends[k] = place_of(particles, terms);
+    for (Gauge::Term& term : terms) term.weight *= k == 0 ? -1.0 : 1.0;
+    gauge.terms.insert(gauge.terms.end(), terms.begin(), terms.end());
+  }
+  if (nearest[0] == nearest[1]) {
     throw InputError(input.where(key), "gives two points with the same nearest particle",
                      "move the points apart or refine the spacing");
   }
-  gauge.terms = {{from, -1.0}, {to, 1.0}};
   if (section.axis) return;
-  Vector3 a = section.between[0], b = section.between[1];
-  if (model.network.shell) {  // the points are on the flat sheet, the particles in space
-    for (int axis = 0; axis < 3; ++axis) {
-      a[axis] = model.network.particles.position(from)[axis];
-      b[axis] = model.network.particles.position(to)[axis];
-    }
-  }
+  const auto& [a, b] = ends;
   const double length = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
   for (int axis = 0; axis < 3; ++axis) gauge.direction[axis] = (b[axis] - a[axis]) / length;
 }
@@ -67,6 +189,10 @@ void fill_mean(const CaseFile& input, const Model& model, const std::string& key
     whole += particles.volumes[i];
   }
   for (Gauge::Term& term : gauge.terms) term.weight /= whole;
+  const Particles& in_space = model.network.particles;
+  gauge.place = gauge.terms.size() == 1
+                    ? "at " + point_text(place_of(in_space, gauge.terms), in_space.dim)
+                    : fmt::format("mean of {} particles", gauge.terms.size());
 }
 
 /// Number of a component among the six of a Stress.
@@ -77,7 +203,8 @@ std::size_t number_of(const std::array<int, 2>& axes) {
 
 }  // namespace
 
-std::vector<Gauge> build_gauges(const CaseFile& input, const Model& model) {
+std::vector<Gauge> build_gauges(const CaseFile& input, const Model& model,
+                                std::vector<std::string>& notes) {
   std::vector<Gauge> gauges;
   const std::vector<std::string> taken = history_columns(input);
   for (std::size_t k = 0; k < input.gauges.size(); ++k) {
@@ -92,11 +219,14 @@ std::vector<Gauge> build_gauges(const CaseFile& input, const Model& model) {
     gauge.stress = section.stress;
     if (section.axis) gauge.direction[*section.axis] = 1.0;
     if (section.at) {
-      gauge.terms = {{particle_at(input, model, item_key("gauges", k, "at"), *section.at), 1.0}};
+      const std::string key = item_key("gauges", k, "at");
+      gauge.terms = terms_at(input, model, key, *section.at, gauge, notes);
+      const Particles& particles = model.network.particles;
+      gauge.place = "at " + point_text(place_of(particles, gauge.terms), particles.dim);
     } else if (!section.region.empty()) {
       fill_mean(input, model, item_key("gauges", k, "region"), section, gauge);
     } else {
-      fill_difference(input, model, item_key("gauges", k, "between"), section, gauge);
+      fill_difference(input, model, item_key("gauges", k, "between"), section, gauge, notes);
     }
     gauges.push_back(std::move(gauge));
   }

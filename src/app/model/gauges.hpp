@@ -11,11 +11,13 @@
 
 namespace perilink {
 
-/// Gauges of a case on the particles of its body: those nearest to points, or all of a region with
-/// weights in proportion to their volumes.
+/// Gauges of a case on the particles of its body: those at points, or by a linear field through
+/// those around a point, or all of a region with weights in proportion to their volumes.
+/// \param notes  gets a sentence for each point at which no particle lies
 /// \throws InputError  for points outside the body, two points with one particle, empty regions and
 ///                     names of columns that every history has
-std::vector<Gauge> build_gauges(const CaseFile& input, const Model& model);
+std::vector<Gauge> build_gauges(const CaseFile& input, const Model& model,
+                                std::vector<std::string>& notes);
 
 /// What a gauge of displacements measures.
 /// \param displacement  takes a particle and an axis [length]

@@ -6,7 +6,7 @@
 namespace perilink {
 namespace {
 
-double norm(const Vector3& vector) { return std::hypot(vector[0], vector[1], vector[2]); }
+double length_of(const Vector3& vector) { return std::hypot(vector[0], vector[1], vector[2]); }
 
 void add(const Vector3& more, Vector3& sum) {
   for (int a = 0; a < 3; ++a) sum[a] += more[a];
@@ -45,13 +45,13 @@ double total_load(std::span<const LoadedPlace> places) {
   Vector3 force{}, moment{};
   double forces = 0.0, moments = 0.0;
   for (const LoadedPlace& place : places) {
-    const double own = norm(place.force);
+    const double own = length_of(place.force);
     forces += std::max(own, place.sizes - own);
     add(place.force, force);
-    moments += norm(place.moment);
+    moments += length_of(place.moment);
     add(place.moment, moment);
   }
-  return forces > 0.0 ? 0.5 * (forces + norm(force)) : 0.5 * (moments + norm(moment));
+  return forces > 0.0 ? 0.5 * (forces + length_of(force)) : 0.5 * (moments + length_of(moment));
 }
 
 double relative_motion(std::span<const DrivenPlace> places, const std::array<bool, 6>& held,

@@ -27,6 +27,7 @@ struct Gauge {
     double weight = 0.0;
   };
   std::string name;
+  std::string place;  ///< "at (50, 20)", of the particles' positions in space
   std::vector<Term> terms;
   Vector3 direction{};                       ///< direction of the displacement that is measured
   std::optional<std::array<int, 2>> stress;  ///< axes of the component instead of a displacement

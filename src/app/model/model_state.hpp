@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "network/secants.hpp"
@@ -18,6 +19,8 @@ struct ModelState {
   std::span<const double> internal = {};
   /// Stresses at the particles, where they are known, shape (particles, 6); else empty.
   std::span<const double> stresses = {};
+  /// Per finite element, whether it constrains its particles; empty: as in LoadedNetwork::carried.
+  std::span<const std::uint8_t> whole = {};
 };
 
 }  // namespace perilink

@@ -8,6 +8,7 @@
 
 #include "app/model/model_regions.hpp"
 #include "assembly/internal_force.hpp"
+#include "discretization/facet_geometry.hpp"
 #include "io/case/case_words.hpp"
 #include "io/text/csv.hpp"
 
@@ -40,6 +41,21 @@ std::vector<Index> particles_in(const CaseFile& input, const Model& model, std::
   return inside;
 }
 
+/// Corners of the facets that share a stiffness per area, which may lie outside the region, or the
+/// particles that share a total; ascending.
+std::vector<Index> sprung_particles(const CaseFile& input, const Model& model, std::size_t k) {
+  const SpringSection& section = input.springs[k];
+  const std::string key = item_key("springs", k, "region");
+  if (!section.stiffness) return particles_of_region(input, model, section.region, key);
+  std::vector<Index> corners;
+  for (const Index facet : facets_of_region(input, model, section.region, key)) {
+    const std::span<const Index> row = model.facets.corners.row(facet);
+    corners.insert(corners.end(), row.begin(), row.end());
+  }
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
 /// Moment of a force about the origin.
 Vector3 moment_of(const Vector3& arm, const Vector3& force) {
   return {arm[1] * force[2] - arm[2] * force[1], arm[2] * force[0] - arm[0] * force[2],
@@ -52,11 +68,11 @@ Vector3 position_of(const Particles& particles, Index i) {
   return x;
 }
 
-/// The same resultant with its moment about the origin.
-Reaction about_origin(Reaction reaction) {
-  const Vector3 more = moment_of(reaction.middle, reaction.force);
+/// A resultant with its moment about another point.
+Reaction about(const Vector3& point, Reaction reaction) {
+  const Vector3 more = moment_of(minus(reaction.middle, point), reaction.force);
   for (int a = 0; a < 3; ++a) reaction.moment[a] += more[a];
-  reaction.middle = {};
+  reaction.middle = point;
   return reaction;
 }
 
@@ -86,6 +102,13 @@ std::vector<std::uint8_t> held_slots(const Model& model) {
   return held;
 }
 
+void pass_to_held(const Model& model, std::span<const std::uint8_t> whole,
+                  std::span<const double> loads, std::span<double> forces) {
+  if (!model.carried) return;
+  const CarriedBody& body = *model.carried;
+  pass_to_held(body.carriers, body.free, whole.empty() ? body.whole : whole, loads, forces);
+}
+
 std::vector<double> holding_forces(const Model& model, const ModelState& state) {
   const Network& network = model.network;
   std::vector<double> motion(state.motion.begin(), state.motion.end());
@@ -97,6 +120,7 @@ std::vector<double> holding_forces(const Model& model, const ModelState& state) 
   }
   load_particles(network, forces);
   const std::vector<double> loads = present_loads(model, state);
+  pass_to_held(model, state.whole, loads, forces);
   const std::vector<std::uint8_t> held = held_slots(model);
   const std::vector<double>& springs = network.support_stiffness;
   for (std::size_t slot = 0; slot < forces.size(); ++slot) {
@@ -119,13 +143,17 @@ Reaction reaction_on(const Model& model, std::span<const Index> particles,
     Vector3 arm = position_of(model.network.particles, i), force{};
     const double* own = forces.data() + static_cast<std::size_t>(i) * width;
     std::copy_n(own, dim, force.begin());
+    sum.force_size += norm(force);
     for (int a = 0; a < 3; ++a) arm[a] -= sum.middle[a];
     const Vector3 moment = moment_of(arm, force);
     for (int a = 0; a < 3; ++a) {
       sum.force[a] += force[a];
       sum.moment[a] += moment[a];
     }
-    for (int a = dim; a < width; ++a) sum.moment[dim == 2 ? 2 : a - dim] += own[a];
+    for (int a = dim; a < width; ++a) {
+      sum.moment[dim == 2 ? 2 : a - dim] += own[a];
+      sum.moment_size += std::abs(own[a]);
+    }
   }
   return sum;
 }
@@ -161,31 +189,55 @@ std::vector<HeldPlace> held_places(const CaseFile& input, const Model& model) {
                  : "symmetry: " + plane.region,
         particles_in(input, model, k));
   }
-  add_all("springs", input.springs);
+  for (std::size_t k = 0; k < input.springs.size(); ++k) {
+    add("springs: " + input.springs[k].region, sprung_particles(input, model, k));
+  }
   std::erase_if(places, [](const HeldPlace& place) { return place.particles.empty(); });
   return places;
 }
 
-std::string reaction_table(const std::vector<HeldPlace>& places, const Model& model,
-                           const ModelState& state) {
+ReactionTable reaction_table(const std::vector<HeldPlace>& places, const Model& model,
+                             const ModelState& state) {
   const int dim = model.network.dim();
   std::string text = dim == 2 ? "place,x,y,force_x,force_y,moment\n"
                               : "place,x,y,z,force_x,force_y,force_z,moment_x,moment_y,moment_z\n";
   const std::vector<double> forces = holding_forces(model, state);
   std::vector<Index> everything(static_cast<std::size_t>(model.network.particles.size()));
   std::iota(everything.begin(), everything.end(), 0);
-  Reaction sum = about_origin(reaction_on(model, everything, present_loads(model, state)));
+  const Reaction all = reaction_on(model, everything, present_loads(model, state));
+  Reaction sum = about({}, all);
   std::string loads = row_of("loads", sum, dim);
   for (const HeldPlace& place : places) {
     const Reaction reaction = reaction_on(model, place.particles, forces);
     text += row_of(place.name, reaction, dim);
-    const Reaction moved = about_origin(reaction);
+    const Reaction moved = about({}, reaction);
     for (int a = 0; a < 3; ++a) {
       sum.force[a] += moved.force[a];
       sum.moment[a] += moved.moment[a];
     }
+    sum.force_size += moved.force_size;
+    sum.moment_size += moved.moment_size;
   }
-  return text + loads + row_of("sum", sum, dim);
+  return {text + loads + row_of("sum", sum, dim), about(all.middle, sum)};
+}
+
+void ReactionBalance::add(Index row, const Reaction& sum, double length, double tolerance) {
+  size_ = std::max(size_, sum.force_size + sum.moment_size / length);
+  if (row_ > 0 || size_ == 0.0) return;
+  const double imbalance = std::max(norm(sum.force), norm(sum.moment) / length) / size_;
+  if (imbalance <= tolerance) return;
+  row_ = row;
+  imbalance_ = imbalance;
+}
+
+std::optional<std::string> ReactionBalance::doubt() const {
+  if (row_ == 0) return std::nullopt;
+  return fmt::format(
+      "reactions and loads of row {} are out of balance by {:.2g} of their sizes: forces or "
+      "moments "
+      "in the files of reactions from this row on are wrong by as much; curve and energies come "
+      "from displacements and do not depend on them",
+      row_, imbalance_);
 }
 
 }  // namespace perilink

@@ -106,8 +106,8 @@ void MovingBondsRun::add_forces_and_cracks(VtuGrid& grid, const ExplicitRecord& 
   add_stresses(grid, particle_stresses(stress_input(model_, families_, secants), motion),
                model_.network.dim());
   if (const auto places = held_places(input, model_); !places.empty()) {
-    files_->write_table("reactions", record.step,
-                        reaction_table(places, model_, {secants, motion, 1.0, record.load_factor}));
+    const ModelState now{secants, motion, 1.0, record.load_factor};
+    files_->write_table("reactions", record.step, reaction_table(places, model_, now).text);
   }
   if (model_.network.bars.bar.empty()) return;
   const BarState bars = bar_state(model_.network, secants, motion);

@@ -59,6 +59,7 @@ void DamageRun::begin_again(const LateConversion& late) {
   std::fill(is_broken_.begin(), is_broken_.end(), 0);
   for (const Index element : model_.network.cut_elements) is_broken_[element] = 1;
   places_.clear();
+  balance_ = {};
   std::fill(set_factors_.begin(), set_factors_.end(), 0.0);
   last_element_ = no_index;
   broken_at_fields_ = last_stage_ = 0;
@@ -77,6 +78,7 @@ void DamageRun::tell(Summary& summary) const {
   } else if (auto end = doubt_about_end(result_.last.displacement, length)) {
     found.doubts.push_back(std::move(*end));
   }
+  if (auto doubt = balance_.doubt()) found.doubts.push_back(std::move(*doubt));
   if (late_conversions_ > 0) {
     summary.add_note(fmt::format(
         "{} conversions of elements came late: a bond was past its limit before its element let go "
@@ -138,7 +140,8 @@ void DamageRun::note_places(const StepRecord& record, StateSource& source) {
     return;
   }
   const StepState state = source.state();
-  places_ = place_forces(model_, record.load_factor, state.secants, state.displacement);
+  places_ =
+      place_forces(model_, record.load_factor, state.secants, state.displacement, {}, state.whole);
 }
 
 /// The first row, the first of each stage, and what the case asks for: a load step may pass a
@@ -158,7 +161,10 @@ bool DamageRun::wants_fields(const StepRecord& record) const {
 }
 
 ModelState DamageRun::model_state(const StepRecord& record, const StepState& state) const {
-  return {state.secants, state.displacement, scale_of(record), record.load_factor, set_factors_};
+  ModelState now{state.secants, state.displacement, scale_of(record), record.load_factor,
+                 set_factors_};
+  now.whole = state.whole;
+  return now;
 }
 
 void DamageRun::write_state(const StepRecord& record, StateSource& source) {
@@ -182,10 +188,7 @@ void DamageRun::write_state(const StepRecord& record, StateSource& source) {
       add_openings(grid, network, openings, broken_);
       cracks_ = widest_cracks(network, openings);
     }
-    if (!places_held_.empty()) {
-      files_->write_table("reactions", record.step,
-                          reaction_table(places_held_, model_, model_state(record, state)));
-    }
+    write_reactions(record, places_held_, model_state(record, state));
     if (!network.bars.bar.empty()) {
       const BarState bars = bar_state(network, state.secants, motion);
       add_bars(grid, bars);

@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "app/model/reactions.hpp"
 #include "app/run/quasistatic.hpp"
 #include "app/run/run_kind.hpp"
 #include "base/csr.hpp"

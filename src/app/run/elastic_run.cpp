@@ -2,7 +2,6 @@
 #include <optional>
 
 #include "app/model/gauges.hpp"
-#include "app/model/reactions.hpp"
 #include "app/process/ranks.hpp"
 #include "app/results/bar_file.hpp"
 #include "app/results/field_pieces.hpp"
@@ -103,9 +102,7 @@ class ElasticRun final : public NetworkRun {
     }
     Csr families;
     files_->add_row(row, gauge_values(model_, state, families));
-    if (const auto places = held_places(input, model_); !places.empty()) {
-      files_->write_table("reactions", row.step, reaction_table(places, model_, state));
-    }
+    write_reactions(row, held_places(input, model_), state);
     std::optional<BarState> bars;
     if (!model_.network.bars.bar.empty()) {
       bars = bar_state(model_.network, {}, displacement);
@@ -136,6 +133,7 @@ class ElasticRun final : public NetworkRun {
       const double share = share_of_large_motion(model_, answer_.solution.displacement);
       if (auto doubt = doubt_about_motion(share)) found.doubts.push_back(std::move(*doubt));
     }
+    if (auto doubt = balance_.doubt()) found.doubts.push_back(std::move(*doubt));
     tell_quasistatic(summary, input, model_, found, seconds.analysis);
     const ElasticResult& solution = answer_.solution;
     if (solution.boxes == 0) return;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/model/reactions.hpp"
 #include "app/run/run_warnings.hpp"
 #include "assembly/internal_force.hpp"
 
@@ -37,7 +38,8 @@ ElasticAnswer solve_elastic(const Model& model, const ElasticOptions& options) {
 }
 
 std::vector<PlaceForce> place_forces(const Model& model, double load_factor, Secants secants,
-                                     std::span<const double> motion, std::vector<double> forces) {
+                                     std::span<const double> motion, std::vector<double> forces,
+                                     std::span<const std::uint8_t> whole) {
   const std::size_t dim = model.network.dim(), width = model.network.width();
   std::vector<PlaceForce> places;
   for (const LoadedPlace& place : model.loaded_places) {
@@ -50,6 +52,7 @@ std::vector<PlaceForce> place_forces(const Model& model, double load_factor, Sec
                             : internal_force(model.network, secants, motion).forces;
   }
   load_particles(model.network, forces);
+  pass_to_held(model, whole, model.loads.forces, forces);
   for (const DrivenPlace& place : model.driven_places) {
     PlaceForce& at = places.emplace_back(PlaceForce{place.name, std::vector<double>(dim, 0.0)});
     double sum = 0.0;

@@ -42,9 +42,11 @@ inline bool has_several_places(const Model& model) {
 /// \param secants  one per element; this and the next only looked at where places are driven
 /// \param motion   at load factor 1, shape (particles, width) [length]
 /// \param forces   that hold the particles so, where they are known (InternalForce::forces)
+/// \param whole    see ModelState::whole
 std::vector<PlaceForce> place_forces(const Model& model, double load_factor, Secants secants,
                                      std::span<const double> motion,
-                                     std::vector<double> forces = {});
+                                     std::vector<double> forces = {},
+                                     std::span<const std::uint8_t> whole = {});
 
 /// What equilibria tell.
 struct Equilibria {

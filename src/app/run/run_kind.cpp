@@ -1,8 +1,12 @@
 #include "app/run/run_kind.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "app/process/progress.hpp"
 #include "app/results/calibration_text.hpp"
 #include "app/results/summary_file.hpp"
+#include "app/run/run_warnings.hpp"
 #include "base/build_info.hpp"
 
 namespace perilink {
@@ -18,6 +22,17 @@ NetworkRun::NetworkRun(const CaseFile& of_case, int on_threads, bool quiet, int 
 
 std::string NetworkRun::bond_rate(Index steps) const {
   return rate_text(1.0 * model_.network.num_elements() * steps, seconds.analysis, "bond-steps");
+}
+
+void NetworkRun::write_reactions(const StepRecord& row, const std::vector<HeldPlace>& places,
+                                 const ModelState& state) {
+  if (places.empty()) return;
+  const ReactionTable table = reaction_table(places, model_, state);
+  files_->write_table("reactions", row.step, table.text);
+  // Sums of n numbers are at most sqrt(n) times the root of the sum of their squares.
+  const double numbers = static_cast<double>(model_.unknowns.number.size());
+  balance_.add(row.step, table.sum, longest_side(model_.network.particles),
+               std::max(1e-8, std::sqrt(numbers) * row.residual));
 }
 
 std::string rate_text(double count, double seconds, const std::string& unit) {

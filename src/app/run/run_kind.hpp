@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/model/from_case/configure.hpp"
+#include "app/model/reactions.hpp"
 #include "app/run/run_files.hpp"
 #include "app/run/summary.hpp"
 
@@ -66,8 +67,13 @@ class NetworkRun : public RunKind {
  protected:
   /// "3.2 M bond-steps/s".
   std::string bond_rate(Index steps) const;
+  /// Writes reactions_STEP.csv of an equilibrium and compares its sum with zero: to 1e-8, or what
+  /// the residual of the equilibrium can leave.
+  void write_reactions(const StepRecord& row, const std::vector<HeldPlace>& places,
+                       const ModelState& state);
 
   Model model_;
+  ReactionBalance balance_;
 };
 
 /// Builds the model of a case for the kind of run that it asks for.

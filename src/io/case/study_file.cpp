@@ -172,6 +172,9 @@ ErrorSection read_error(const CaseTable& table, std::size_t members, SourceLocat
   table.need_one_of({"displacement", "gauge", "quantity"});
   if (table.has("displacement")) error.displacement = read_field(table);
   assign(error.gauge, table.text("gauge"));
+  if (table.has("gauge") && error.gauge.empty()) {
+    table.refuse("gauge", "is empty", "name one of the case's [[gauges]]");
+  }
   error.quantity = table.choice<Quantity>("quantity");
   if (table.has("displacement")) {
     if (table.has("reference")) {

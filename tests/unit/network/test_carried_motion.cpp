@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace perilink {
 namespace {
@@ -108,6 +109,57 @@ TEST(CarriedMotion, ParticlesBetweenElementsGoWithTheWholeOne) {
   const Unknowns motion = carried_motion(two.body.carriers, two.body.free, second);
   EXPECT_EQ(motion.count, 2 * 20 - 5 + 2 * 4);
   EXPECT_EQ(motion.at(1, 0), 1) << "free particles keep their order";
+}
+
+/// Any forces on all particles: their sum and moment stay, less what is out of balance at nodes that
+/// move, and free particles of elements keep their loads alone.
+TEST(CarriedMotion, ForcesOutOfBalancePassToHeldParticles) {
+  TwoElements two(6, 0.0, 6);
+  for (std::size_t slot = 0; slot < two.body.free.number.size(); slot += 18) {
+    two.body.free.number[slot + 1] = no_index;  // the left column along y, too
+  }
+  for (const int order : {1, 2}) {
+    two.body.carriers = carriers_on_grid(two.particles, {}, {{{0, 4, 8}, {0, 5}, {}}}, order, 1e-6);
+    two.body.whole = fit_supports(two.body.carriers, two.body.free);
+    ASSERT_EQ(two.body.whole, (std::vector<std::uint8_t>{1, 1}));
+    const Unknowns motion = carried_motion(two.body.carriers, two.body.free, two.body.whole);
+    std::vector<double> loads(two.body.free.number.size()), forces = loads;
+    for (std::size_t slot = 0; slot < loads.size(); ++slot) {
+      loads[slot] = std::sin(2.0 * static_cast<double>(slot));
+      forces[slot] = std::cos(3.0 * static_cast<double>(slot));
+    }
+    const auto resultant = [&](const std::vector<double>& all) {
+      Vector3 sum{};
+      for (Index i = 0; i < two.particles.size(); ++i) {
+        const auto x = two.particles.position(i);
+        const std::size_t slot = static_cast<std::size_t>(i) * 2;
+        const double fx = all[slot] - loads[slot], fy = all[slot + 1] - loads[slot + 1];
+        sum = {sum[0] + fx, sum[1] + fy, sum[2] + x[0] * fy - x[1] * fx};
+      }
+      return sum;
+    };
+    // What is out of balance at moving nodes stays there: forces and moments about the left column.
+    std::vector<double> missing = forces;
+    for (std::size_t slot = 0; slot < missing.size(); ++slot) missing[slot] -= loads[slot];
+    const std::vector<double> at_nodes = motion.restrict(missing);
+    Vector3 lost{};
+    const std::vector<Index> owners = motion.owners();
+    for (std::size_t k = 0; k < owners.size(); ++k) {
+      const std::size_t node = static_cast<std::size_t>(owners[k] - two.particles.size()) * 2;
+      const bool along_y = k % 2 == 1;  // moving nodes move along both axes
+      lost[along_y ? 1 : 0] += at_nodes[k];
+      lost[2] += along_y ? two.body.carriers.nodes[node] * at_nodes[k]
+                         : -two.body.carriers.nodes[node + 1] * at_nodes[k];
+    }
+    const Vector3 before = resultant(forces);
+    pass_to_held(two.body.carriers, two.body.free, two.body.whole, loads, forces);
+    const Vector3 after = resultant(forces);
+    for (int a = 0; a < 3; ++a) EXPECT_NEAR(after[a] + lost[a], before[a], 1e-11) << order;
+    for (std::size_t slot = 0; slot < forces.size(); ++slot) {
+      const bool moves = two.body.free.number[slot] >= 0;
+      EXPECT_TRUE(!moves || forces[slot] == loads[slot]) << slot;
+    }
+  }
 }
 
 }  // namespace

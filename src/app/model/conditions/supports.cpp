@@ -230,6 +230,7 @@ std::vector<double> collect_springs(const CaseFile& input, const Model& model) {
   for (std::size_t k = 0; k < input.springs.size(); ++k) {
     const SpringSection& section = input.springs[k];
     const std::string key = item_key("springs", k, "region");
+    const std::vector<Index> inside = particles_of_region(input, model, section.region, key);
     std::vector<double> shares(static_cast<std::size_t>(particles.size()), 0.0);
     double whole = 1.0;
     if (section.stiffness) {
@@ -245,7 +246,7 @@ std::vector<double> collect_springs(const CaseFile& input, const Model& model) {
       }
     } else {
       whole = 0.0;
-      for (const Index i : particles_of_region(input, model, section.region, key)) {
+      for (const Index i : inside) {
         if (particles.kind[i] != ParticleKind::solid) continue;
         whole += shares[i] = particles.volumes[i];
       }

@@ -171,7 +171,7 @@ void refuse_before_calibration(const CaseFile& input, const Body& body, NetworkI
   refuse_cracks_without_bonds(input, draft.network);
   refuse_unbreakable_bodies(input, draft.network);
   apply_boundary_conditions(input, draft);
-  build_gauges(input, draft);
+  build_gauges(input, draft, draft.notes);
 }
 
 /// The bonds of a box, calibrated in a smaller one; none where a part of it is not like another.

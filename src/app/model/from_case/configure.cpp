@@ -190,7 +190,7 @@ Model build_model_with(const CaseFile& input, const BondOptions& options) {
       is_lattice(input.body) ? build_lattice_model(input) : build_bodies_model(input, options);
   if (const auto note = note_of_unused(input)) model.notes.push_back(*note);
   apply_boundary_conditions(input, model);
-  model.gauges = build_gauges(input, model);
+  model.gauges = build_gauges(input, model, model.notes);
   for (const MaterialSection& material : input.materials) {
     model.hooke.push_back(
         hooke_constants(model.problem, material.youngs_modulus,

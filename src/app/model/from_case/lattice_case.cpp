@@ -66,7 +66,7 @@ void load_body(const CaseFile& input, const LatticeShape& shape, ExplicitCase& b
                      "small to compute with",
                      "change a formula, or the region that it is for");
   }
-  built.gauges = build_gauges(input, places);
+  built.gauges = build_gauges(input, places, built.notes);
 }
 
 /// External damping of a material that does not say what the fundamental period is.

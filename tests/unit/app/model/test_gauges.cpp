@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/model/from_case/configure.hpp"
@@ -74,6 +75,61 @@ void expect_values_of_linear_displacement(const CaseFile& input) {
 
 TEST(Gauges, MeasureLinearDisplacementsExactly) {
   expect_values_of_linear_displacement(strip_with_gauges());
+}
+
+/// Between particles, on a line of them, and outside the body, where its nearest place counts.
+TEST(Gauges, AreLinearBetweenParticles) {
+  for (const BodyMethod method : {BodyMethod::bonds, BodyMethod::linear_elements}) {
+    CaseFile input = strip_with_gauges();
+    input.body.method = method;
+    input.gauges.clear();
+    const std::vector<Vector3> points = {
+        {13.0, 47.0, 0.0}, {15.0, 45.0, 0.0}, {20.0, 33.0, 0.0}, {41.0, 53.0, 0.0}};
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      GaugeSection gauge = gauge_of(std::string(1, "abcd"[k]), 1);
+      gauge.at = points[k];
+      input.gauges.push_back(gauge);
+    }
+    GaugeSection between = gauge_of("between", std::nullopt);
+    between.between = {{3.0, 21.0, 0.0}, {27.0, 53.0, 0.0}};
+    input.gauges.push_back(between);
+    const Model model = build_model(input);
+    Csr families;
+    const std::vector<double> values =
+        gauge_values(model, {{}, linear_displacement(model), 2.0}, families);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const double x = std::min(points[k][0], 40.0), y = std::min(points[k][1], 80.0);
+      EXPECT_NEAR(values[k], 2.0 * (0.002 * x - 0.004 * y), 1e-14);
+    }
+    const double du = 0.003 * 24.0 + 0.001 * 32.0, dv = 0.002 * 24.0 - 0.004 * 32.0;
+    EXPECT_NEAR(values[4], 2.0 * (du * 0.6 + dv * 0.8), 1e-14);
+    EXPECT_EQ(model.gauges[0].place, "at (13, 47)");
+    EXPECT_EQ(model.gauges[3].place, "at (40, 53)");
+    EXPECT_EQ(model.gauges[2].terms.size(), 2u) << "on a line between two";
+    const auto notes = std::count_if(model.notes.begin(), model.notes.end(), [](const auto& note) {
+      return note.find("no particle lies at the point") != std::string::npos;
+    });
+    EXPECT_EQ(notes, 6);
+  }
+}
+
+/// Flanks of a pre-crack along y = 45 move apart: points beside it follow their own flank.
+TEST(Gauges, StayOnTheirSideOfACrack) {
+  CaseFile input = strip_with_gauges();
+  CrackSection crack;
+  crack.points = {{-1.0, 45.0, 0.0}, {22.0, 45.0, 0.0}};
+  input.cracks.push_back(crack);
+  GaugeSection mouth = gauge_of("mouth", 1);
+  mouth.between = {{1.0, 43.0, 0.0}, {1.0, 47.0, 0.0}};
+  input.gauges = {mouth};
+  const Model model = build_model(input);
+  std::vector<double> displacement;
+  for (Index i = 0; i < model.network.particles.size(); ++i) {
+    const bool above = model.network.particles.position(i)[1] > 45.0;
+    displacement.insert(displacement.end(), {0.0, above ? 1.0 : 0.0});
+  }
+  Csr families;
+  EXPECT_NEAR(gauge_values(model, {{}, displacement}, families)[0], 1.0, 1e-14);
 }
 
 TEST(Gauges, LookPastTheRotationsOfMicropolarParticles) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "analysis/quasistatic/elastic_analysis.hpp"
 #include "support/strip_case.hpp"
 
@@ -86,7 +88,7 @@ TEST(Reactions, OfAllPlacesBalanceTheLoads) {
   ASSERT_EQ(places.size(), 2u);
   EXPECT_EQ(places[0].name, "symmetry: x = 0");
   EXPECT_EQ(places[1].name, "springs: lower end");
-  const std::string text = reaction_table(places, solved.model, solved.state());
+  const std::string text = reaction_table(places, solved.model, solved.state()).text;
   const std::string last = text.substr(text.find("\nsum,") + 5);
   double x, y, fx, fy, moment;
   ASSERT_EQ(std::sscanf(last.c_str(), "%lf,%lf,%lf,%lf,%lf", &x, &y, &fx, &fy, &moment), 5) << text;
@@ -111,6 +113,53 @@ TEST(Reactions, KnowWhatIsHeld) {
   const Model model = build_model(elastic_strip());
   const std::vector<std::uint8_t> held = held_slots(model);
   EXPECT_EQ(std::count(held.begin(), held.end(), 1), 30);
+}
+
+/// The middle of the facet from x = 10 to 20 lies in the region, its corners do not all.
+TEST(Reactions, OfSpringsCountParticlesAroundTheirFacets) {
+  CaseFile input = elastic_strip();
+  input.regions.push_back({"part", {{4.0, 80.0, 0.0}, {16.0, 80.0, 0.0}}, {}, ""});
+  SpringSection spring;
+  spring.region = "part";
+  spring.stiffness = Vector3{10.0, 100.0, 0.0};
+  input.springs.push_back(spring);
+  const Solved solved(input);
+  const std::vector<HeldPlace> places = held_places(input, solved.model);
+  ASSERT_EQ(places.size(), 2u);
+  EXPECT_EQ(places[1].particles.size(), 3u);
+  const Reaction sum = reaction_table(places, solved.model, solved.state()).sum;
+  EXPECT_NEAR(sum.force[1], 0.0, 1e-10);
+  EXPECT_NEAR(sum.moment[2], 0.0, 1e-9);
+  input.regions.back().box = {{14.0, 80.0, 0.0}, {16.0, 80.0, 0.0}};
+  test::expect_refused(input, "springs[1].region", "no particle lies in the region \"part\"");
+}
+
+TEST(Reactions, OutOfBalanceAreReportedOnce) {
+  Reaction sum;
+  sum.force_size = 100.0;
+  sum.force[0] = 0.9e-6;
+  ReactionBalance balance;
+  balance.add(1, sum, 10.0, 1e-8);
+  EXPECT_FALSE(balance.doubt());
+  sum.moment[2] = 20.0;
+  balance.add(7, sum, 10.0, 1e-8);
+  sum.moment[2] = 30.0;
+  balance.add(8, sum, 10.0, 1e-8);
+  ASSERT_TRUE(balance.doubt());
+  EXPECT_NE(balance.doubt()->find("row 7 are out of balance by 0.02"), std::string::npos)
+      << *balance.doubt();
+  ReactionBalance loose;
+  loose.add(7, sum, 10.0, 0.05);
+  EXPECT_FALSE(loose.doubt()) << "within what the iterations leave";
+  sum.force_size = 0.0;
+  sum.moment_size = 1000.0;
+  sum.moment = {};
+  ReactionBalance moments;
+  moments.add(1, sum, 10.0, 1e-7);
+  EXPECT_FALSE(moments.doubt()) << "round-off of forces beside moments";
+  sum.force[0] = NAN;
+  loose.add(8, sum, 10.0, 0.05);
+  EXPECT_TRUE(loose.doubt());
 }
 
 }  // namespace

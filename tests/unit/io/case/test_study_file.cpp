@@ -68,6 +68,8 @@ INSTANTIATE_TEST_SUITE_P(
         StudyRefusal{"noMeasure", head + vary + "[error]\nreference = 1\n", "error", "has none of"},
         StudyRefusal{"twoMeasures", head + vary + energy_error + "gauge = \"mouth\"\n",
                      "error.quantity", "beside `gauge`"},
+        StudyRefusal{"emptyGauge", head + vary + "[error]\ngauge = \"\"\nreference = \"finest\"\n",
+                     "error.gauge", "is empty"},
         StudyRefusal{"noReference", head + vary + "[error]\nquantity = \"peak_load\"\n",
                      "error.reference", "is missing"},
         StudyRefusal{"zeroReference",
