@@ -78,9 +78,7 @@ DamageResult EventRun::go() {
   }
   result_.last = row_;
   result_.broken_bonds = broken_bonds_;
-  const std::vector<CurvePoint> path = event_path(rows_);
-  result_.smoothed_peak_load = smoothed_peak(path);
-  result_.dip = find_dip(path);
+  find_peaks();
   result_.factor = engine_->factor_statistics();
   return result_;
 }
@@ -221,8 +219,30 @@ void EventRun::note_peaks() {
   peaks.add({row_.displacement, row_.load});
   if (held) result_.broken_as_gave_way = broken_bonds_;
   result_.peak_load = peaks.highest().load;
-  result_.peak_displacement = peaks.highest().displacement;
-  if (options_.load_factors.empty() && staged_ == nullptr) rows_.push_back(row_);
+  const bool counts = staged_ == nullptr || row_.load != 0.0;
+  if (options_.load_factors.empty() && counts) rows_.push_back(row_);
+}
+
+/// Of the rows of the present loads: the first peak, behind which all is residual strength.
+void EventRun::find_peaks() {
+  const auto larger = [](const StepRecord& a, const StepRecord& b) {
+    return std::abs(a.load) < std::abs(b.load);
+  };
+  const bool bars = network_.first_tie < network_.num_elements();
+  PeakWatch& peaks = result_.peaks;
+  const std::vector<CurvePoint> path = staged_ != nullptr ? stage_path(rows_) : event_path(rows_);
+  const std::size_t rows = rows_before_residual(path, bars);
+  result_.smoothed_peak_load = smoothed_peak(std::span(path).first(rows));
+  if (rows < path.size()) {
+    const auto first = std::max_element(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(rows), larger);
+    if (std::abs(first->load) < std::abs(peaks.first().load)) {
+      peaks.end_with({first->displacement, first->load});
+      result_.broken_as_gave_way = rows_[rows - 1].broken_bonds;
+    }
+  }
+  const CurvePoint peak = bars ? peaks.highest() : peaks.first();
+  result_.peak_load = peak.load;
+  result_.peak_displacement = peak.displacement;
 }
 
 /// Lets the element fail. \return false when that separates the body
@@ -366,9 +386,7 @@ DamageResult EventRun::finish() {
   observer_.on_end(row_, state_);
   result_.last = row_;
   result_.broken_bonds += broken_bonds_;
-  const std::vector<CurvePoint> path = event_path(rows_);
-  result_.smoothed_peak_load = smoothed_peak(path);
-  result_.dip = find_dip(path);
+  find_peaks();
   result_.factor = engine_->factor_statistics();
   return result_;
 }

@@ -62,6 +62,7 @@ class EventRun {
   void measure_beside(const LoadWork& work);
   void record(double load_factor, const LoadWork& work, Index element);
   void note_peaks();
+  void find_peaks();
   void take_note_of(const Balance& balance);
   void check() { take_note_of(engine_->check_equilibrium()); }
   void look_after(const EventOutcome& outcome);
@@ -115,7 +116,7 @@ class EventRun {
   Index broken_bonds_ = 0;
   Index yield_events_ = 0;
   StepRecord row_;
-  std::vector<StepRecord> rows_;  ///< history under control by events
+  std::vector<StepRecord> rows_;  ///< of the present loads, under control by events
   DamageResult result_;
 };
 

@@ -68,7 +68,7 @@ void read_rows(const fs::path& directory, RunResult& result) {
     result.last_row.emplace_back(name, table.rows.back()[c]);
     if (is_history_column(name)) continue;
     result.gauges.push_back(result.last_row.back());
-    result.gauges_at_peak.emplace_back(name, table.rows[peak_row(result.records)][c]);
+    result.gauges_at_peak.emplace_back(name, table.rows[result.peak_number()][c]);
   }
 }
 
@@ -123,14 +123,24 @@ double number_of(const NamedNumbers& numbers, const std::string& name) {
   return found == numbers.end() ? std::numeric_limits<double>::quiet_NaN() : found->second;
 }
 
+std::size_t RunResult::peak_number() const {
+  const double load = number_of(summary, "peak_load");
+  const double displacement = number_of(summary, "peak_displacement");
+  const auto row = std::ranges::find_if(records, [&](const StepRecord& record) {
+    return record.load == load && record.displacement == displacement;
+  });
+  return row == records.end() ? peak_row(records)
+                              : static_cast<std::size_t>(row - records.begin());
+}
+
 RunResult read_run_result(const std::string& directory) {
   require_result(directory);
   RunResult result;
   result.directory = directory;
   result.name = directory_name(directory);
   result.labels = read_labels(directory);
-  read_rows(directory, result);
   read_summary(directory, result);
+  read_rows(directory, result);
   read_last_fields(directory, result);
   return result;
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/model/body/strength_notes.hpp"
+
 namespace perilink {
 
 namespace {
@@ -122,13 +124,70 @@ std::optional<std::string> doubt_about_motion(double share) {
       100.0 * share);
 }
 
-std::string doubt_about_crushing(const CurvePoint& peak) {
+std::string doubt_about_crushing(const CurvePoint& largest) {
   return fmt::format(
-      "bonds are shorter than small strains allow, or were about to be: the peak, {:.6g} at "
-      "displacement {:.6g}, may be borne by what is crushed and is no strength of the body; look "
-      "at "
-      "the curve before, and end the run there by [stop]",
-      peak.load, peak.displacement);
+      "bonds are shorter than small strains allow, or were about to be: the largest load, {:.6g} "
+      "at displacement {:.6g}, may be borne by what is crushed and is no strength of the body; "
+      "look at the curve before, and end the run there by [stop]",
+      largest.load, largest.displacement);
+}
+
+Compression largest_compression(const Network& network, std::span<const double> principal) {
+  Compression worst;
+  if (network.has_crushing()) return worst;
+  for (std::size_t i = 0; 3 * i < principal.size(); ++i) {
+    const Index material = network.particles.material[i];
+    if (material == no_index || network.strengths.empty()) continue;
+    const double strength = network.strengths[material].tensile_strength;
+    if (!(strength > 0.0)) continue;
+    const double stress = -*std::min_element(&principal[3 * i], &principal[3 * i] + 3);
+    if (stress > worst.times * strength) worst = {stress, stress / strength};
+  }
+  return worst;
+}
+
+std::optional<std::string> doubt_about_compression(const Compression& at_peak) {
+  constexpr double most = 10.0;  // compressive over tensile strength of concrete and rock
+  if (at_peak.times <= most) return std::nullopt;
+  return fmt::format(
+      "no crushing law: at the peak the largest compressive principal stress is {:.4g}, {:.3g} "
+      "times the tensile strength, beyond the compressive strength of most brittle materials "
+      "(about ten times): the peak may be too large; compare that stress with the material's "
+      "compressive strength, or give it softening = \"concrete\"",
+      at_peak.stress, at_peak.times);
+}
+
+SoftenedEnergy softened_energy(const Network& network, Secants secants) {
+  constexpr double of_crack = 0.1;  // bonds at the strength of a sound body have lost 3 to 5 %
+  SoftenedEnergy energy;
+  for (Index e = 0; e < network.first_tie; ++e) {
+    const double left = secants.least(e);
+    const BondLaw& law = network.law(e);
+    if (left == 1.0 || !network.can_break(e) || law.is_brittle() || law.crushes()) continue;
+    if (std::ranges::binary_search(network.cut_elements, e)) continue;
+    double whole = 0.0, lost = 0.0;
+    for (int k = 0; law.tooth(k).secant > 0.0; ++k) {
+      const Tooth tooth = law.tooth(k);
+      const double part = tooth.limit * tooth.limit * (tooth.secant - law.tooth(k + 1).secant);
+      whole += part;
+      if (tooth.secant > left) lost += part;
+    }
+    const double extension = network.critical_stretch[e] * network.bonds.length(e);
+    (lost < of_crack * whole ? energy.diffuse : energy.cracks) +=
+        0.5 * network.stiffness[e] * extension * extension * lost;
+  }
+  return energy;
+}
+
+std::optional<std::string> doubt_about_diffuse_softening(const SoftenedEnergy& energy) {
+  constexpr double most = 0.1;
+  if (!(energy.cracks > 0.0) || energy.diffuse <= most * energy.cracks) return std::nullopt;
+  return fmt::format(
+      "diffuse softening: bonds that softened outside the cracks dissipated {:.4g}, {:.0f} % of "
+      "the energy of the cracks: the body takes more energy than fracture_energy times the area of "
+      "its cracks, and loads may be too large; {}, or let bonds break only where cracks may run "
+      "(fracture_energy = \"infinite\" elsewhere)",
+      energy.diffuse, 100.0 * energy.diffuse / energy.cracks, horizon_advice);
 }
 
 std::vector<std::string> doubts_of_balance(double energy_error, double largest_residual,
