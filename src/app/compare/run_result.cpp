@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/plot/plot_body.hpp"
+#include "app/plot/plot_curve.hpp"
 #include "app/results/history_file.hpp"
 #include "app/results/result_directory.hpp"
 #include "app/results/summary_file.hpp"
