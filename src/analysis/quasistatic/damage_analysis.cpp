@@ -234,7 +234,8 @@ void EventRun::find_peaks() {
   const std::size_t rows = rows_before_residual(path, bars);
   result_.smoothed_peak_load = smoothed_peak(std::span(path).first(rows));
   if (rows < path.size()) {
-    const auto first = std::max_element(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(rows), larger);
+    const auto first =
+        std::max_element(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(rows), larger);
     if (std::abs(first->load) < std::abs(peaks.first().load)) {
       peaks.end_with({first->displacement, first->load});
       result_.broken_as_gave_way = rows_[rows - 1].broken_bonds;

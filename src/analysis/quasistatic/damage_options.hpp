@@ -39,7 +39,7 @@ struct StageRules {
 struct StageResult {
   Ending ending = Ending::completed;
   std::string reason;
-  StepRecord last;  ///< row at its end
+  StepRecord last;     ///< row at its end
   CurvePoint peak;     ///< of its loads so far (DamageResult::peak_load)
   CurvePoint largest;  ///< |load| of them
   std::optional<double> smoothed_peak_load;
@@ -73,9 +73,9 @@ struct DamageResult {
   Index broken_bonds = 0;  ///< with the one that separated the body, if it did
   /// Largest |load| before the body had failed, with its sign; with bars that of all rows.
   double peak_load = 0.0;
-  double peak_displacement = 0.0;  ///< displacement at the peak load
-  PeakWatch peaks;                 ///< first and largest peak
-  Index broken_as_gave_way = 0;    ///< bonds broken when the body first gave way
+  double peak_displacement = 0.0;            ///< displacement at the peak load
+  PeakWatch peaks;                           ///< first and largest peak
+  Index broken_as_gave_way = 0;              ///< bonds broken when the body first gave way
   std::optional<double> smoothed_peak_load;  ///< where the path of events is long enough
   double initial_stiffness = 0.0;            ///< load / displacement of the intact body
   double largest_residual = 0.0;

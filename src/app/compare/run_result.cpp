@@ -130,8 +130,7 @@ std::size_t RunResult::peak_number() const {
   const auto row = std::ranges::find_if(records, [&](const StepRecord& record) {
     return record.load == load && record.displacement == displacement;
   });
-  return row == records.end() ? peak_row(records)
-                              : static_cast<std::size_t>(row - records.begin());
+  return row == records.end() ? peak_row(records) : static_cast<std::size_t>(row - records.begin());
 }
 
 RunResult read_run_result(const std::string& directory) {

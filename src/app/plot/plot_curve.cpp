@@ -73,8 +73,8 @@ std::vector<PeakLabel> labels_of(const CurveFrame& frame, const StepRecord& peak
                                  const std::optional<CurvePoint>& first_peak,
                                  const PlotLabels& labels) {
   const bool two = first_peak && std::abs(first_peak->load) < std::abs(peak.load);
-  std::vector<PeakLabel> all = {label_of(frame, two ? "largest load" : "peak",
-                                         {peak.displacement, peak.load}, labels)};
+  std::vector<PeakLabel> all = {
+      label_of(frame, two ? "largest load" : "peak", {peak.displacement, peak.load}, labels)};
   if (two) {
     all.push_back(label_of(frame, "first peak", *first_peak, labels));
   }

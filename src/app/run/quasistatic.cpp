@@ -169,7 +169,8 @@ void tell_stages(Summary& summary, const CaseFile& input, const std::vector<Stag
     if (stage.smoothed_peak_load) {
       summary.json["stages"].back()["smoothed_peak_load"] = *stage.smoothed_peak_load;
     }
-    const bool goes_on = k + 1 < stages.size() && input.stages[k + 1].loads == input.stages[k].loads;
+    const bool goes_on =
+        k + 1 < stages.size() && input.stages[k + 1].loads == input.stages[k].loads;
     if (stage.largest.load != stage.peak.load && !goes_on && k + 1 < stages.size()) {
       summary.doubts.push_back(fmt::format(
           "stage \"{}\": residual strength: its load reached {:.6g}, fell, and climbed again, to "

@@ -108,7 +108,8 @@ std::optional<std::string> lattice_note(const CaseFile& input, const Model& mode
   bool breaks = false;
   for (Index b = 0; b < network.first_tie && !breaks; ++b) breaks = network.can_break(b);
   if (!breaks || !input.interfaces.empty()) return std::nullopt;
-  return "cracks on a lattice tend to follow its rows, and loads change with their paths: where the "
+  return "cracks on a lattice tend to follow its rows, and loads change with their paths: where "
+         "the "
          "path is not known, repeat the run on an unstructured mesh ([body] mesh) or with another "
          "pattern or a turned body, with bonds that soften (tensile_strength), and compare";
 }
