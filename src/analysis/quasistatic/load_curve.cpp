@@ -8,9 +8,8 @@ namespace {
 /// Relative; histories hold all digits, but solutions only those that their residual leaves.
 constexpr double factor_round_off = 1e-9;
 
-/// By which the envelope has to fall behind a first peak, and to climb above it again, before the
-/// later load is residual strength [-].
-constexpr double fallen = 0.02, climbed = 0.02;
+/// By which the envelope has to fall behind a first peak [-]: single events fall by more.
+constexpr double fallen = 0.02;
 
 Index events_before(const StepRecord& record) { return record.broken_bonds + record.yield_events; }
 
@@ -69,7 +68,7 @@ std::size_t rows_before_climb(Window path) {
       now.lowest = load;
       now.rows = rows;
     }
-    if (first.rows > 0 && load > (1.0 + climbed) * first.peak) return first.rows;
+    if (first.rows > 0 && load > (1.0 + residual_climb) * first.peak) return first.rows;
   }
   return path.size();
 }

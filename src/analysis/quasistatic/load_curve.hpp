@@ -45,6 +45,9 @@ std::vector<CurvePoint> stage_path(std::span<const StepRecord> records);
 /// round-off of theirs).
 std::optional<double> smoothed_peak(std::span<const CurvePoint> path);
 
+/// By which a load exceeds a first peak where it is residual strength [-].
+inline constexpr double residual_climb = 0.2;
+
 /// Number of rows before the residual strength of a body that has failed: up to the lowest point of
 /// the envelope between its first peak and a larger one, or to the row with which the body gave way
 /// (PeakWatch) where the load climbed again after it; all rows where neither is the case.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/quasistatic/crack_span.hpp"
 #include "app/model/body/strength_notes.hpp"
 
 namespace perilink {
@@ -165,15 +166,10 @@ SoftenedEnergy softened_energy(const Network& network, Secants secants) {
     const BondLaw& law = network.law(e);
     if (left == 1.0 || !network.can_break(e) || law.is_brittle() || law.crushes()) continue;
     if (std::ranges::binary_search(network.cut_elements, e)) continue;
-    double whole = 0.0, lost = 0.0;
-    for (int k = 0; law.tooth(k).secant > 0.0; ++k) {
-      const Tooth tooth = law.tooth(k);
-      const double part = tooth.limit * tooth.limit * (tooth.secant - law.tooth(k + 1).secant);
-      whole += part;
-      if (tooth.secant > left) lost += part;
-    }
+    const double lost = energy_until(law, left);
+    const bool cracked = lost >= of_crack * energy_until(law, 0.0);
     const double extension = network.critical_stretch[e] * network.bonds.length(e);
-    (lost < of_crack * whole ? energy.diffuse : energy.cracks) +=
+    (cracked ? energy.cracks : energy.diffuse) +=
         0.5 * network.stiffness[e] * extension * extension * lost;
   }
   return energy;

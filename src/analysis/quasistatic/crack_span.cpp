@@ -1,0 +1,95 @@
+#include "analysis/quasistatic/crack_span.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <unordered_map>
+#include <vector>
+
+namespace perilink {
+namespace {
+
+/// Events in tension after which a bond has lost half of its fracture energy.
+int events_to_crack(const BondLaw& law) {
+  int events = 1;
+  while (energy_until(law, law.tooth(events).secant) < 0.5 * energy_until(law, 0.0)) ++events;
+  return events;
+}
+
+/// Sets of particles that cracked bonds join, each with the box around it.
+class Cracks {
+ public:
+  explicit Cracks(const Particles& particles)
+      : dim_(static_cast<std::size_t>(particles.dim)),
+        lower_(particles.positions),
+        upper_(particles.positions),
+        parent_(static_cast<std::size_t>(particles.size())) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+    for (std::size_t a = 0; a < dim_; ++a) {
+      double least = infinity, most = -infinity;
+      for (Index i = 0; i < particles.size(); ++i) {
+        if (particles.material[i] == no_index) continue;
+        least = std::min(least, particles.position(i)[a]);
+        most = std::max(most, particles.position(i)[a]);
+      }
+      extents_.push_back(most - least);
+    }
+  }
+
+  /// \return whether the crack of the bond between two particles goes through the body
+  bool add(Index first, Index second) {
+    constexpr double through = 0.9;
+    const std::size_t root = root_of(first), other = root_of(second);
+    parent_[other] = static_cast<Index>(root);
+    std::size_t spans = 0;
+    for (std::size_t a = 0; a < dim_; ++a) {
+      double &lower = lower_[root * dim_ + a], &upper = upper_[root * dim_ + a];
+      lower = std::min(lower, lower_[other * dim_ + a]);
+      upper = std::max(upper, upper_[other * dim_ + a]);
+      spans += upper - lower >= through * extents_[a] ? 1 : 0;
+    }
+    return spans + 1 >= dim_;
+  }
+
+ private:
+  std::size_t root_of(Index particle) {
+    while (parent_[particle] != particle) {
+      particle = parent_[particle] = parent_[parent_[particle]];
+    }
+    return static_cast<std::size_t>(particle);
+  }
+
+  std::size_t dim_;
+  std::vector<double> lower_, upper_, extents_;
+  std::vector<Index> parent_;
+};
+
+}  // namespace
+
+double energy_until(const BondLaw& law, double secant) {
+  double energy = 0.0;
+  for (int k = 0; law.tooth(k).secant > secant; ++k) {
+    const Tooth tooth = law.tooth(k);
+    energy += tooth.limit * tooth.limit * (tooth.secant - law.tooth(k + 1).secant);
+  }
+  return energy;
+}
+
+std::size_t rows_before_through_crack(const Network& network, std::span<const StepRecord> rows) {
+  if (network.has_sections()) return rows.size();
+  std::vector<int> events_of_law;
+  for (const BondLaw& law : network.laws) {
+    events_of_law.push_back(law.endless() || law.crushes() ? 0 : events_to_crack(law));
+  }
+  Cracks cracks(network.particles);
+  std::unordered_map<Index, int> events;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const Index element = rows[k].element;
+    if (element == no_index || element >= network.first_tie || rows[k].side_change != 0) continue;
+    const Index law = network.law_of.empty() ? 0 : network.law_of[element];
+    if (++events[element] != events_of_law[law]) continue;
+    if (cracks.add(network.bonds.first[element], network.bonds.second[element])) return k + 1;
+  }
+  return rows.size();
+}
+
+}  // namespace perilink
