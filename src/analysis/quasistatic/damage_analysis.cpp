@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/quasistatic/crack_span.hpp"
 #include "analysis/quasistatic/event_run.hpp"
+#include "analysis/quasistatic/residual_strength.hpp"
 #include "base/error.hpp"
 #include "base/memory.hpp"
 
@@ -79,7 +79,7 @@ DamageResult EventRun::go() {
   }
   result_.last = row_;
   result_.broken_bonds = broken_bonds_;
-  find_peaks();
+  find_peaks(network_, rows_, result_);
   result_.factor = engine_->factor_statistics();
   return result_;
 }
@@ -224,39 +224,6 @@ void EventRun::note_peaks() {
   if (options_.load_factors.empty() && counts) rows_.push_back(row_);
 }
 
-/// Finds the peak among the rows of the present loads: what comes behind it may be residual strength.
-void EventRun::find_peaks() {
-  const auto highest = [&](std::size_t rows) {
-    const auto row = std::max_element(
-        rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(rows),
-        [](const auto& a, const auto& b) { return std::abs(a.load) < std::abs(b.load); });
-    return CurvePoint{row->displacement, row->load};
-  };
-  const bool bars = network_.first_tie < network_.num_elements();
-  const std::vector<CurvePoint> path = staged_ != nullptr ? stage_path(rows_) : event_path(rows_);
-  PeakWatch& peaks = result_.peaks;
-  std::size_t rows = rows_before_residual(path, bars);
-  if (rows == path.size()) rows = rows_.size();
-  if (!bars && !rows_.empty()) {
-    const std::size_t through = rows_before_through_crack(network_, rows_);
-    const double before = std::abs(highest(through).load);
-    if (std::abs(peaks.highest().load) > (1.0 + residual_climb) * before) {
-      rows = std::min(rows, through);
-    }
-  }
-  result_.smoothed_peak_load = smoothed_peak(std::span(path).first(std::min(rows, path.size())));
-  if (rows < rows_.size()) {
-    const CurvePoint first = highest(rows);
-    if (std::abs(first.load) < std::abs(peaks.first().load)) {
-      peaks.end_with(first);
-      result_.broken_as_gave_way = rows_[rows - 1].broken_bonds;
-    }
-  }
-  const CurvePoint peak = bars ? peaks.highest() : peaks.first();
-  result_.peak_load = peak.load;
-  result_.peak_displacement = peak.displacement;
-}
-
 /// Lets the element fail. \return false when that separates the body
 bool EventRun::pass(const Event& event) {
   const EventOutcome outcome = engine_->apply(event);
@@ -398,7 +365,7 @@ DamageResult EventRun::finish() {
   observer_.on_end(row_, state_);
   result_.last = row_;
   result_.broken_bonds += broken_bonds_;
-  find_peaks();
+  find_peaks(network_, rows_, result_);
   result_.factor = engine_->factor_statistics();
   return result_;
 }

@@ -62,7 +62,6 @@ class EventRun {
   void measure_beside(const LoadWork& work);
   void record(double load_factor, const LoadWork& work, Index element);
   void note_peaks();
-  void find_peaks();
   void take_note_of(const Balance& balance);
   void check() { take_note_of(engine_->check_equilibrium()); }
   void look_after(const EventOutcome& outcome);

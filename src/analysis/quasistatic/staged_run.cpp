@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "analysis/quasistatic/event_run.hpp"
+#include "analysis/quasistatic/residual_strength.hpp"
 #include "base/error.hpp"
 
 namespace perilink {
@@ -49,7 +50,7 @@ void EventRun::end_stage() {
   stage.ending = result_.ending;
   stage.reason = result_.reason;
   stage.last = row_;
-  find_peaks();
+  find_peaks(network_, rows_, result_);
   stage.peak = {result_.peak_displacement, result_.peak_load};
   stage.largest = result_.peaks.highest();
   stage.smoothed_peak_load = result_.smoothed_peak_load;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/quasistatic/crack_span.hpp"
+#include "analysis/quasistatic/residual_strength.hpp"
 #include "app/model/body/strength_notes.hpp"
 
 namespace perilink {

@@ -3,10 +3,10 @@
 #include <cstddef>
 #include <span>
 
-#include "analysis/quasistatic/observer.hpp"
+#include "analysis/quasistatic/damage_options.hpp"
 
 /// \file
-/// When a crack has gone through a body whose parts hold on: pads that cannot break carry both.
+/// Peaks of a run by events, and where residual strength begins.
 
 namespace perilink {
 
@@ -19,5 +19,12 @@ double energy_until(const BondLaw& law, double secant);
 /// half of their fracture energy or more. Bonds with a law in compression do not count.
 /// \param rows  of single events
 std::size_t rows_before_through_crack(const Network& network, std::span<const StepRecord> rows);
+
+/// Sets the peaks of a run, or of the loads of a stage. Residual strength begins where
+/// rows_before_residual() says or where a crack has gone through the body, if the load climbs again
+/// by residual_climb or more; with bars only where the body gave way.
+/// \param rows    of single events; none: the peaks are known
+/// \param result  with the peaks of all rows
+void find_peaks(const Network& network, std::span<const StepRecord> rows, DamageResult& result);
 
 }  // namespace perilink

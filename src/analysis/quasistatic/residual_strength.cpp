@@ -1,6 +1,7 @@
-#include "analysis/quasistatic/crack_span.hpp"
+#include "analysis/quasistatic/residual_strength.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <unordered_map>
 #include <vector>
@@ -63,6 +64,13 @@ class Cracks {
   std::vector<Index> parent_;
 };
 
+CurvePoint highest(std::span<const StepRecord> rows) {
+  const auto row = std::max_element(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
+    return std::abs(a.load) < std::abs(b.load);
+  });
+  return {row->displacement, row->load};
+}
+
 }  // namespace
 
 double energy_until(const BondLaw& law, double secant) {
@@ -90,6 +98,33 @@ std::size_t rows_before_through_crack(const Network& network, std::span<const St
     if (cracks.add(network.bonds.first[element], network.bonds.second[element])) return k + 1;
   }
   return rows.size();
+}
+
+void find_peaks(const Network& network, std::span<const StepRecord> rows, DamageResult& result) {
+  const bool bars = network.first_tie < network.num_elements();
+  const bool stages = !rows.empty() && rows.front().stage > 0;
+  const std::vector<CurvePoint> path = stages ? stage_path(rows) : event_path(rows);
+  PeakWatch& peaks = result.peaks;
+  std::size_t before = rows_before_residual(path, bars);
+  if (before == path.size()) before = rows.size();
+  if (!bars && !rows.empty()) {
+    const std::size_t through = rows_before_through_crack(network, rows);
+    const double first = std::abs(highest(rows.first(through)).load);
+    if (std::abs(peaks.highest().load) > (1.0 + residual_climb) * first) {
+      before = std::min(before, through);
+    }
+  }
+  result.smoothed_peak_load = smoothed_peak(std::span(path).first(std::min(before, path.size())));
+  if (before < rows.size()) {
+    const CurvePoint first = highest(rows.first(before));
+    if (std::abs(first.load) < std::abs(peaks.first().load)) {
+      peaks.end_with(first);
+      result.broken_as_gave_way = rows[before - 1].broken_bonds;
+    }
+  }
+  const CurvePoint peak = bars ? peaks.highest() : peaks.first();
+  result.peak_load = peak.load;
+  result.peak_displacement = peak.displacement;
 }
 
 }  // namespace perilink
