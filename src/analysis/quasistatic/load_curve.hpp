@@ -46,7 +46,7 @@ std::vector<CurvePoint> stage_path(std::span<const StepRecord> records);
 std::optional<double> smoothed_peak(std::span<const CurvePoint> path);
 
 /// By which a load exceeds a first peak where it is residual strength [-].
-inline constexpr double residual_climb = 0.2;
+inline constexpr double residual_climb = 0.1;
 
 /// Number of rows before the residual strength of a body that has failed: up to the lowest point of
 /// the envelope between its first peak and a larger one, or to the row with which the body gave way

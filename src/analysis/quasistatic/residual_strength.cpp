@@ -9,10 +9,13 @@
 namespace perilink {
 namespace {
 
-/// Events in tension after which a bond has lost half of its fracture energy.
+/// Events in tension after which the force of a bond stays below half of its largest.
 int events_to_crack(const BondLaw& law) {
+  const double half = 0.5 * law.tooth(0).limit;
   int events = 1;
-  while (energy_until(law, law.tooth(events).secant) < 0.5 * energy_until(law, 0.0)) ++events;
+  for (Tooth now = law.tooth(1); now.secant > 0.0 && now.secant * now.limit > half; ++events) {
+    now = law.tooth(events + 1);
+  }
   return events;
 }
 
@@ -38,7 +41,7 @@ class Cracks {
 
   /// \return whether the crack of the bond between two particles goes through the body
   bool add(Index first, Index second) {
-    constexpr double through = 0.9;
+    constexpr double through = 0.8;
     const std::size_t root = root_of(first), other = root_of(second);
     parent_[other] = static_cast<Index>(root);
     std::size_t spans = 0;
@@ -72,15 +75,6 @@ CurvePoint highest(std::span<const StepRecord> rows) {
 }
 
 }  // namespace
-
-double energy_until(const BondLaw& law, double secant) {
-  double energy = 0.0;
-  for (int k = 0; law.tooth(k).secant > secant; ++k) {
-    const Tooth tooth = law.tooth(k);
-    energy += tooth.limit * tooth.limit * (tooth.secant - law.tooth(k + 1).secant);
-  }
-  return energy;
-}
 
 std::size_t rows_before_through_crack(const Network& network, std::span<const StepRecord> rows) {
   if (network.has_sections()) return rows.size();

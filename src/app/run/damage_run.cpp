@@ -98,13 +98,17 @@ void DamageRun::tell(Summary& summary) const {
 
 /// Quantities of the bonds at the peak and at the end, and what is doubtful about them.
 void DamageRun::tell_stresses(Summary& summary, Equilibria& found) const {
-  const double load = input.stages.empty() ? std::abs(result_.peak_load) : 1.0;
-  const Compression at_peak{load * compression_.stress, load * compression_.times};
-  if (at_peak.stress > 0.0) summary.add("largest_compression", at_peak.stress);
+  const auto at = [&](double load) {
+    const double scale = input.stages.empty() ? std::abs(load) : 1.0;
+    return Compression{scale * compression_.stress, scale * compression_.times};
+  };
+  const double at_peak = at(result_.peak_load).stress;
+  if (at_peak > 0.0) summary.add("largest_compression", at_peak);
   if (softened_.cracks + softened_.diffuse > 0.0) {
     summary.add("diffuse_energy", softened_.diffuse);
   }
-  for (auto& doubt : {doubt_about_compression(at_peak), doubt_about_diffuse_softening(softened_)}) {
+  for (auto& doubt : {doubt_about_compression(at(result_.peaks.highest().load)),
+                      doubt_about_diffuse_softening(softened_)}) {
     if (doubt) found.doubts.push_back(*doubt);
   }
 }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/quasistatic/residual_strength.hpp"
 #include "app/model/body/strength_notes.hpp"
 
 namespace perilink {
@@ -147,16 +146,31 @@ Compression largest_compression(const Network& network, std::span<const double> 
   return worst;
 }
 
-std::optional<std::string> doubt_about_compression(const Compression& at_peak) {
+std::optional<std::string> doubt_about_compression(const Compression& at_largest_load) {
   constexpr double most = 10.0;  // compressive over tensile strength of concrete and rock
-  if (at_peak.times <= most) return std::nullopt;
+  if (at_largest_load.times <= most) return std::nullopt;
   return fmt::format(
-      "no crushing law: at the peak the largest compressive principal stress is {:.4g}, {:.3g} "
-      "times the tensile strength, beyond the compressive strength of most brittle materials "
-      "(about ten times): the peak may be too large; compare that stress with the material's "
-      "compressive strength, or give it softening = \"concrete\"",
-      at_peak.stress, at_peak.times);
+      "no crushing law: at the largest load the largest compressive principal stress is {:.4g}, "
+      "{:.3g} times the tensile strength, and has passed the compressive strength of most brittle "
+      "materials, about ten times: the body may crush before; compare it with the compressive "
+      "strength, or give the material softening = \"concrete\"",
+      at_largest_load.stress, at_largest_load.times);
 }
+
+namespace {
+
+/// Energy that events in tension take from a bond until its secant is this, over half of its
+/// stiffness times the square of its extension at the critical stretch [-].
+double energy_until(const BondLaw& law, double secant) {
+  double energy = 0.0;
+  for (int k = 0; law.tooth(k).secant > secant; ++k) {
+    const Tooth tooth = law.tooth(k);
+    energy += tooth.limit * tooth.limit * (tooth.secant - law.tooth(k + 1).secant);
+  }
+  return energy;
+}
+
+}  // namespace
 
 SoftenedEnergy softened_energy(const Network& network, Secants secants) {
   constexpr double of_crack = 0.1;  // bonds at the strength of a sound body have lost 3 to 5 %

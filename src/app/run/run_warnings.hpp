@@ -79,8 +79,8 @@ struct Compression {
 /// \param principal  stresses, shape (particles, 3)
 Compression largest_compression(const Network& network, std::span<const double> principal);
 
-/// A peak at which the body is compressed by more than ten times its tensile strength.
-std::optional<std::string> doubt_about_compression(const Compression& at_peak);
+/// A body that is compressed by more than ten times its tensile strength.
+std::optional<std::string> doubt_about_compression(const Compression& at_largest_load);
 
 /// Energy that bonds have dissipated by softening in tension [force length].
 struct SoftenedEnergy {
