@@ -110,8 +110,9 @@ std::optional<std::string> lattice_note(const CaseFile& input, const Model& mode
   if (!breaks || !input.interfaces.empty()) return std::nullopt;
   return "cracks on a lattice tend to follow its rows, and loads change with their paths: where "
          "the "
-         "path is not known, repeat the run on an unstructured mesh ([body] mesh) or with another "
-         "pattern or a turned body, with bonds that soften (tensile_strength), and compare";
+         "path is not known, compare with a run on an unstructured mesh ([body] mesh), with "
+         "another "
+         "pattern or with the body turned, and give brittle materials a tensile_strength";
 }
 
 std::vector<std::string> bar_notes(const CaseFile& input) {
