@@ -56,7 +56,7 @@ void read_summary(const fs::path& directory, RunResult& result) {
   }
 }
 
-void read_rows(const fs::path& directory, RunResult& result) {
+CsvTable read_rows(const fs::path& directory, RunResult& result) {
   const std::string path = (directory / "history.csv").string();
   const CsvTable table = read_csv(path);
   result.records = history_records(table, path);
@@ -69,8 +69,8 @@ void read_rows(const fs::path& directory, RunResult& result) {
     result.last_row.emplace_back(name, table.rows.back()[c]);
     if (is_history_column(name)) continue;
     result.gauges.push_back(result.last_row.back());
-    result.gauges_at_peak.emplace_back(name, table.rows[result.peak_number()][c]);
   }
+  return table;
 }
 
 double least_horizon(const PlotBody& body) {
@@ -139,8 +139,12 @@ RunResult read_run_result(const std::string& directory) {
   result.directory = directory;
   result.name = directory_name(directory);
   result.labels = read_labels(directory);
+  const CsvTable table = read_rows(directory, result);
   read_summary(directory, result);
-  read_rows(directory, result);
+  for (const auto& [name, value] : result.gauges) {
+    const auto column = static_cast<std::size_t>(table.column(name));
+    result.gauges_at_peak.emplace_back(name, table.rows[result.peak_number()][column]);
+  }
   read_last_fields(directory, result);
   return result;
 }
