@@ -35,11 +35,11 @@ y = [0, 120]
 [[regions]]
 name = "lower grip"
 x = [0, {2}]
-y = [0, 35]
+y = [0, 30]
 [[regions]]
 name = "upper grip"
 x = [0, {2}]
-y = [85, 120]
+y = [90, 120]
 [[regions]]
 name = "lower end"
 x = [0, {2}]

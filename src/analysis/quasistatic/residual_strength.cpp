@@ -19,36 +19,40 @@ int events_to_crack(const BondLaw& law) {
   return events;
 }
 
-/// Sets of particles that cracked bonds join, each with the box around it.
+/// Sets of particles that cracked bonds join, each with the box around the middles of its bonds.
 class Cracks {
  public:
-  explicit Cracks(const Particles& particles)
-      : dim_(static_cast<std::size_t>(particles.dim)),
-        lower_(particles.positions),
-        upper_(particles.positions),
-        parent_(static_cast<std::size_t>(particles.size())) {
+  explicit Cracks(const Network& network)
+      : network_(network),
+        dim_(static_cast<std::size_t>(network.dim())),
+        lower_(network.particles.positions.size(), infinity),
+        upper_(network.particles.positions.size(), -infinity),
+        parent_(static_cast<std::size_t>(network.particles.size())) {
     std::iota(parent_.begin(), parent_.end(), 0);
     for (std::size_t a = 0; a < dim_; ++a) {
       double least = infinity, most = -infinity;
-      for (Index i = 0; i < particles.size(); ++i) {
-        if (particles.material[i] == no_index) continue;
-        least = std::min(least, particles.position(i)[a]);
-        most = std::max(most, particles.position(i)[a]);
+      for (Index i = 0; i < network.particles.size(); ++i) {
+        if (network.particles.material[i] == no_index) continue;
+        least = std::min(least, network.particles.position(i)[a]);
+        most = std::max(most, network.particles.position(i)[a]);
       }
       extents_.push_back(most - least);
     }
   }
 
-  /// \return whether the crack of the bond between two particles goes through the body
-  bool add(Index first, Index second) {
+  /// \return whether the crack of the bond goes through the body
+  bool add(Index bond) {
     constexpr double through = 0.8;
+    const Index first = network_.bonds.first[bond], second = network_.bonds.second[bond];
     const std::size_t root = root_of(first), other = root_of(second);
     parent_[other] = static_cast<Index>(root);
     std::size_t spans = 0;
     for (std::size_t a = 0; a < dim_; ++a) {
+      const double middle =
+          0.5 * (network_.particles.position(first)[a] + network_.particles.position(second)[a]);
       double &lower = lower_[root * dim_ + a], &upper = upper_[root * dim_ + a];
-      lower = std::min(lower, lower_[other * dim_ + a]);
-      upper = std::max(upper, upper_[other * dim_ + a]);
+      lower = std::min({lower, lower_[other * dim_ + a], middle});
+      upper = std::max({upper, upper_[other * dim_ + a], middle});
       spans += upper - lower >= through * extents_[a] ? 1 : 0;
     }
     return spans + 1 >= dim_;
@@ -62,6 +66,7 @@ class Cracks {
     return static_cast<std::size_t>(particle);
   }
 
+  const Network& network_;
   std::size_t dim_;
   std::vector<double> lower_, upper_, extents_;
   std::vector<Index> parent_;
@@ -82,14 +87,14 @@ std::size_t rows_before_through_crack(const Network& network, std::span<const St
   for (const BondLaw& law : network.laws) {
     events_of_law.push_back(law.endless() || law.crushes() ? 0 : events_to_crack(law));
   }
-  Cracks cracks(network.particles);
+  Cracks cracks(network);
   std::unordered_map<Index, int> events;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const Index element = rows[k].element;
     if (element == no_index || element >= network.first_tie || rows[k].side_change != 0) continue;
     const Index law = network.law_of.empty() ? 0 : network.law_of[element];
     if (++events[element] != events_of_law[law]) continue;
-    if (cracks.add(network.bonds.first[element], network.bonds.second[element])) return k + 1;
+    if (cracks.add(element)) return k + 1;
   }
   return rows.size();
 }

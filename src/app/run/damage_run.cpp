@@ -280,7 +280,7 @@ void DamageRun::on_step(const StepRecord& record, StateSource& source) {
 }
 
 void DamageRun::on_end(const StepRecord& last, StateSource& source) {
-  softened_ = softened_energy(model_.network, source.secants());
+  if (last.yield_events > 0) softened_ = softened_energy(model_.network, source.secants());
   if (last.step > 0) write_state(last, source);
 }
 
