@@ -64,12 +64,10 @@ youngs_modulus = 30000
 fracture_energy = "infinite"
 [[supports]]
 region = "lower end"
-fix = ["y"]
+fix = ["x", "y"]
 [[displacements]]
 region = "upper end"
 y = 1
-[analysis]
-rigid_body_modes = "pin"
 {3})",
                      weak, left, right, more);
 }

@@ -102,8 +102,9 @@ void DamageRun::tell_stresses(Summary& summary, Equilibria& found) const {
     const double scale = input.stages.empty() ? std::abs(load) : 1.0;
     return Compression{scale * compression_.stress, scale * compression_.times};
   };
-  const double at_peak = at(result_.peak_load).stress;
-  if (at_peak > 0.0) summary.add("largest_compression", at_peak);
+  constexpr double round_off = 1e-6;
+  const Compression at_peak = at(result_.peak_load);
+  if (at_peak.times > round_off) summary.add("largest_compression", at_peak.stress);
   if (softened_.cracks + softened_.diffuse > 0.0) {
     summary.add("diffuse_energy", softened_.diffuse);
   }

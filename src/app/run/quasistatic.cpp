@@ -173,7 +173,7 @@ void tell_stages(Summary& summary, const CaseFile& input, const std::vector<Stag
         k + 1 < stages.size() && input.stages[k + 1].loads == input.stages[k].loads;
     if (stage.largest.load != stage.peak.load && !goes_on && k + 1 < stages.size()) {
       summary.doubts.push_back(fmt::format(
-          "stage \"{}\": residual strength: its load reached {:.6g}, fell, and climbed again, to "
+          "stage \"{}\": residual strength: its load reached {:.6g}, and climbed again, to "
           "{:.6g}, which is carried by what is left of a body that has failed",
           name, stage.peak.load, stage.largest.load));
     }

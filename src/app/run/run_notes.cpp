@@ -31,8 +31,8 @@ std::optional<std::string> note_of_grips(const Model& model, std::span<const Ind
 std::optional<std::string> text_of_peaks(const PeakWatch& peaks, bool bars) {
   if (!peaks.climbed_again()) return std::nullopt;
   return fmt::format(
-      "{}the load reached {:.6g} at displacement {:.6g} ({}), fell, and climbed again, to {:.6g} "
-      "at {:.6g} ({}){}",
+      "{}the load reached {:.6g} at displacement {:.6g} ({}), it fell or a crack went through the "
+      "body, and the load climbed again, to {:.6g} at {:.6g} ({}){}",
       bars ? "" : "residual strength: ", peaks.first().load, peaks.first().displacement,
       bars ? "first_peak_load" : "peak_load", peaks.highest().load, peaks.highest().displacement,
       bars ? "peak_load" : "largest_load",

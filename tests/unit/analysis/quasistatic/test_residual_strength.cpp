@@ -71,7 +71,7 @@ TEST(Peaks, EndWithTheCrackThroughTheBody) {
     DamageResult result;
     for (std::size_t k = 0; k < rows.size(); ++k) {
       rows[k].displacement = 1.0 + static_cast<double>(k);
-      rows[k].load = k < through ? 10.0 + 0.01 * static_cast<double>(k) : later;
+      rows[k].load = k < through ? 10.0 + 0.001 * static_cast<double>(k) : later;
       result.peaks.add({rows[k].displacement, rows[k].load});
     }
     find_peaks(network, rows, result);

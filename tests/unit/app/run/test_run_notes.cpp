@@ -25,11 +25,11 @@ TEST(PeakDoubt, SaysBothPeaksOfALoadThatClimbedAgain) {
   const auto doubt = text_of_peaks(peaks, false);
   ASSERT_TRUE(doubt);
   EXPECT_THAT(*doubt, HasSubstr("residual strength: the load reached 3320 at displacement 0.1 "
-                                "(peak_load), fell, and climbed again, to 11314 at 5 "
-                                "(largest_load)"));
+                                "(peak_load), it fell or a crack went through the body, and the "
+                                "load climbed again, to 11314 at 5 (largest_load)"));
   EXPECT_THAT(text_of_peaks(peaks, true).value(),
-              HasSubstr("reached 3320 at displacement 0.1 (first_peak_load), fell, and climbed "
-                        "again, to 11314 at 5 (peak_load)"));
+              testing::AllOf(HasSubstr("reached 3320 at displacement 0.1 (first_peak_load)"),
+                             HasSubstr("climbed again, to 11314 at 5 (peak_load)")));
 }
 
 TEST(PeakDoubt, IsSilentWhereTheFirstPeakIsTheHighest) {
