@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "analysis/quasistatic/event_run.hpp"
+#include "analysis/quasistatic/residual_strength.hpp"
 #include "base/error.hpp"
 #include "base/memory.hpp"
 
@@ -78,9 +79,7 @@ DamageResult EventRun::go() {
   }
   result_.last = row_;
   result_.broken_bonds = broken_bonds_;
-  const std::vector<CurvePoint> path = event_path(rows_);
-  result_.smoothed_peak_load = smoothed_peak(path);
-  result_.dip = find_dip(path);
+  find_peaks(network_, rows_, result_);
   result_.factor = engine_->factor_statistics();
   return result_;
 }
@@ -221,8 +220,8 @@ void EventRun::note_peaks() {
   peaks.add({row_.displacement, row_.load});
   if (held) result_.broken_as_gave_way = broken_bonds_;
   result_.peak_load = peaks.highest().load;
-  result_.peak_displacement = peaks.highest().displacement;
-  if (options_.load_factors.empty() && staged_ == nullptr) rows_.push_back(row_);
+  const bool counts = staged_ == nullptr || row_.load != 0.0;
+  if (options_.load_factors.empty() && counts) rows_.push_back(row_);
 }
 
 /// Lets the element fail. \return false when that separates the body
@@ -366,9 +365,7 @@ DamageResult EventRun::finish() {
   observer_.on_end(row_, state_);
   result_.last = row_;
   result_.broken_bonds += broken_bonds_;
-  const std::vector<CurvePoint> path = event_path(rows_);
-  result_.smoothed_peak_load = smoothed_peak(path);
-  result_.dip = find_dip(path);
+  find_peaks(network_, rows_, result_);
   result_.factor = engine_->factor_statistics();
   return result_;
 }

@@ -39,8 +39,10 @@ struct StageRules {
 struct StageResult {
   Ending ending = Ending::completed;
   std::string reason;
-  StepRecord last;  ///< row at its end
-  CurvePoint peak;  ///< largest |load| of its loads so far
+  StepRecord last;     ///< row at its end
+  CurvePoint peak;     ///< of its loads so far (DamageResult::peak_load)
+  CurvePoint largest;  ///< |load| of them
+  std::optional<double> smoothed_peak_load;
 };
 
 struct DamageOptions {
@@ -69,12 +71,12 @@ struct DamageResult {
   std::vector<StageResult> stages;  ///< those that began, where the run has any
   StepRecord last;
   Index broken_bonds = 0;  ///< with the one that separated the body, if it did
+  /// Largest |load| before the body had failed, with its sign; with bars that of all rows.
   double peak_load = 0.0;
-  double peak_displacement = 0.0;  ///< displacement at the peak load
-  PeakWatch peaks;                 ///< the same, and what the load did after its first peak
-  Index broken_as_gave_way = 0;    ///< bonds broken when the body first gave way
+  double peak_displacement = 0.0;            ///< displacement at the peak load
+  PeakWatch peaks;                           ///< first and largest peak
+  Index broken_as_gave_way = 0;              ///< bonds broken when the body first gave way
   std::optional<double> smoothed_peak_load;  ///< where the path of events is long enough
-  std::optional<Dip> dip;                    ///< where the path of events climbed again
   double initial_stiffness = 0.0;            ///< load / displacement of the intact body
   double largest_residual = 0.0;
   Index conversions = 0;  ///< times that finite elements let go of particles

@@ -8,6 +8,9 @@ namespace {
 /// Relative; histories hold all digits, but solutions only those that their residual leaves.
 constexpr double factor_round_off = 1e-9;
 
+/// By which the envelope has to fall behind a first peak [-]: single events fall by more.
+constexpr double fallen = 0.02;
+
 Index events_before(const StepRecord& record) { return record.broken_bonds + record.yield_events; }
 
 /// Whether load and displacement take up all energy, as under forces or driven displacements alone.
@@ -47,6 +50,29 @@ std::optional<CurvePoint> smooth_point(Window rows) {
   return CurvePoint{load * std::sqrt(before * after), load};
 }
 
+/// Rows up to the lowest window behind the first peak of the envelope that a later one exceeds.
+std::size_t rows_before_climb(Window path) {
+  struct Fall {
+    double peak = 0.0, lowest = 0.0;  // |load|
+    std::size_t rows = 0;             // up to the lowest window
+  } now, first;
+  for (const Window events : windows_of(path, envelope_window(path.size()))) {
+    const auto point = smooth_point(events);
+    if (!point) continue;
+    const double load = std::abs(point->load);
+    const auto rows = static_cast<std::size_t>(events.data() - path.data()) + events.size() - 1;
+    if (load >= now.peak) {
+      if (first.rows == 0 && now.lowest < (1.0 - fallen) * now.peak) first = now;
+      now = {load, load, rows};
+    } else if (load < now.lowest) {
+      now.lowest = load;
+      now.rows = rows;
+    }
+    if (first.rows > 0 && load > (1.0 + residual_climb) * first.peak) return first.rows;
+  }
+  return path.size();
+}
+
 }  // namespace
 
 std::vector<CurvePoint> event_path(std::span<const StepRecord> records) {
@@ -80,14 +106,25 @@ std::vector<CurvePoint> smooth_envelope(std::span<const CurvePoint> path, std::s
 
 std::size_t envelope_window(std::size_t events) { return std::max<std::size_t>(10, events / 120); }
 
-std::optional<double> smoothed_peak(std::span<const CurvePoint> path) {
-  PeakWatch rows;
-  std::size_t held = 0;  // rows before the body gave way
-  for (const CurvePoint& row : path) {
-    rows.add(row);
-    if (!rows.gave_way()) ++held;
+std::vector<CurvePoint> stage_path(std::span<const StepRecord> records) {
+  std::vector<CurvePoint> path;
+  double compliance = 0.0, dissipated = 0.0;
+  for (const StepRecord& record : records) {
+    if (path.empty()) {
+      compliance = std::abs(record.displacement / record.load);
+    } else {
+      const double work = path.back().load * record.load;
+      if (work > 0.0) {
+        compliance += 2.0 * std::max(0.0, record.dissipated_energy - dissipated) / work;
+      }
+    }
+    dissipated = record.dissipated_energy;
+    path.push_back({compliance * record.load, record.load});
   }
-  if (rows.climbed_again()) path = path.first(held);
+  return path;
+}
+
+std::optional<double> smoothed_peak(std::span<const CurvePoint> path) {
   const std::size_t window = envelope_window(path.size());
   if (path.size() <= 2 * window) return std::nullopt;
   PeakWatch peaks;
@@ -103,20 +140,15 @@ std::optional<double> smoothed_peak(std::span<const CurvePoint> path) {
   return hidden > std::abs(highest) ? std::nullopt : std::optional(highest);
 }
 
-std::optional<Dip> find_dip(std::span<const CurvePoint> path) {
-  constexpr double fallen = 0.15, climbed = 0.2;
-  std::optional<Dip> found;
-  Dip now{0.0, 0.0};
-  for (const CurvePoint& point : smooth_envelope(path, envelope_window(path.size()))) {
-    const double load = std::abs(point.load);
-    if (load >= now.peak) {
-      if (!found && now.lowest < (1.0 - fallen) * now.peak) found = now;
-      now = {load, load};
-    }
-    now.lowest = std::min(now.lowest, load);
-    if (found && load > (1.0 + climbed) * found->peak) return found;
+std::size_t rows_before_residual(std::span<const CurvePoint> path, bool bars) {
+  PeakWatch watch;
+  std::size_t held = 0;  // rows before the body gave way
+  for (const CurvePoint& row : path) {
+    watch.add(row);
+    if (!watch.gave_way()) ++held;
   }
-  return std::nullopt;
+  const std::size_t whole = watch.climbed_again() ? held : path.size();
+  return bars ? whole : std::min(whole, rows_before_climb(path));
 }
 
 void PeakWatch::add(const CurvePoint& row, bool intact) {

@@ -34,21 +34,26 @@ std::vector<CurvePoint> smooth_envelope(std::span<const CurvePoint> path, std::s
 /// Number of events per window that leaves about 120 points, at least 10.
 std::size_t envelope_window(std::size_t events);
 
+/// The rows of one stage, whose growing loads have constant ones beside them, as a path of events:
+/// each event that dissipates D between loads P and P', which are not zero, adds the compliance
+/// 2 D / (P P'). Loads are those of the rows; displacements are equivalent ones, for
+/// smooth_envelope() alone.
+std::vector<CurvePoint> stage_path(std::span<const StepRecord> records);
+
 /// Largest load of the envelope, with its sign [force]; none of fewer than two windows, and none
 /// where a window without a point holds a larger load (on weak springs the body's own compliance is
-/// round-off of theirs). Where the load climbed again after the body gave way only the events
-/// before count.
+/// round-off of theirs).
 std::optional<double> smoothed_peak(std::span<const CurvePoint> path);
 
-/// A load that fell and climbed beyond its peak again.
-struct Dip {
-  double peak;    ///< |load| before [force]
-  double lowest;  ///< |load| after it [force]
-};
+/// By which a load exceeds a first peak where it is residual strength [-].
+inline constexpr double residual_climb = 0.1;
 
-/// The first peak of the smooth envelope behind which the load fell by 15 % or more and then
-/// climbed beyond it by 20 % or more: what cannot break may have stopped the crack there.
-std::optional<Dip> find_dip(std::span<const CurvePoint> path);
+/// Number of rows before the residual strength of a body that has failed: up to the lowest point of
+/// the envelope between its first peak and a larger one, or to the row with which the body gave way
+/// (PeakWatch) where the load climbed again after it; all rows where neither is the case.
+/// \param bars  reinforcing bars carry the load on where the solid cracks: falls of the envelope do
+///              not count
+std::size_t rows_before_residual(std::span<const CurvePoint> path, bool bars);
 
 /// Below this part of an earlier peak a body has given way.
 inline constexpr double collapsed_part = 0.5;
@@ -67,6 +72,12 @@ class PeakWatch {
 
   /// \param intact  nothing is damaged yet: whatever the load does the body has not given way
   void add(const CurvePoint& row, bool intact = false);
+
+  /// What comes after this first peak is residual strength.
+  void end_with(const CurvePoint& first) {
+    gave_way_ = true;
+    first_ = first;
+  }
 
   /// Largest |load|, with its sign.
   const CurvePoint& highest() const { return highest_; }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "analysis/quasistatic/event_run.hpp"
+#include "analysis/quasistatic/residual_strength.hpp"
 #include "base/error.hpp"
 
 namespace perilink {
@@ -31,7 +32,10 @@ void EventRun::begin_stage(std::size_t number) {
   strains_.restart();
   const bool flowed = number > 0 && staged_->leave_flow();
   if (!others && !flowed) return;
-  if (others) result_.peaks = {};
+  if (others) {
+    result_.peaks = {};
+    rows_.clear();
+  }
   reference_ = &problem_.sets[stage.set].reference;
   const Unknowns& held = problem_.sets[stage.set].unknowns;
   const bool is_carried = conversion_ && staged_->is_new(stage.set);
@@ -46,7 +50,10 @@ void EventRun::end_stage() {
   stage.ending = result_.ending;
   stage.reason = result_.reason;
   stage.last = row_;
-  stage.peak = result_.peaks.highest();
+  find_peaks(network_, rows_, result_);
+  stage.peak = {result_.peak_displacement, result_.peak_load};
+  stage.largest = result_.peaks.highest();
+  stage.smoothed_peak_load = result_.smoothed_peak_load;
 }
 
 /// The load factor at which a stage ends, as long as nothing fails; none: by events.

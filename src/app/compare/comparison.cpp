@@ -57,7 +57,7 @@ struct Pair {
 double initial_stiffness(const RunResult& result) {
   const double known = number_of(result.summary, "initial_stiffness");
   if (!std::isnan(known)) return known;
-  const std::size_t peak = peak_row(result.records);
+  const std::size_t peak = result.peak_number();
   const double limit = std::abs(result.records[peak].load) / 3.0;
   double products = 0.0, squares = 0.0;
   for (std::size_t k = 0; k < peak; ++k) {
@@ -72,8 +72,7 @@ double initial_stiffness(const RunResult& result) {
 }
 
 void compare_curves(Pair& pair) {
-  const StepRecord& peak_a = pair.a.records[peak_row(pair.a.records)];
-  const StepRecord& peak_b = pair.b.records[peak_row(pair.b.records)];
+  const StepRecord &peak_a = pair.a.peak(), &peak_b = pair.b.peak();
   pair.add("peak_load", pair.units.force, peak_a.load, peak_b.load);
   pair.add("peak_displacement", pair.units.length, peak_a.displacement, peak_b.displacement);
   pair.add("initial_stiffness", pair.units.stiffness, initial_stiffness(pair.a),

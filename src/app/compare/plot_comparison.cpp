@@ -53,7 +53,7 @@ std::string heading_of(const RunResult& a, const RunResult& b) {
 /// "coarse: Beam in bending, peak 12 kN at 0.3 mm"; without a title that says nothing new or does
 /// not fit.
 std::string legend_text(const RunResult& result, const std::string& heading) {
-  const StepRecord& peak = result.records[peak_row(result.records)];
+  const StepRecord& peak = result.peak();
   const std::string end =
       fmt::format(", peak {} at {}", in_unit(short_number(peak.load), result.labels.force),
                   in_unit(short_number(peak.displacement), result.labels.length));
@@ -97,7 +97,7 @@ Svg draw_comparison(const RunResult& a, const RunResult& b) {
     svg.path(curve_path(frame, smooth[k].empty() ? points[k] : smooth[k]), strong(looks[k]));
   }
   for (std::size_t k = 0; k < 2; ++k) {
-    svg.circle(frame.at(points[k][peak_row(results[k]->records)]), 4.5,
+    svg.circle(frame.at(points[k][results[k]->peak_number()]), 4.5,
                fmt::format("fill=\"#fff\" stroke=\"{}\" stroke-width=\"2\"", looks[k].color));
     draw_legend(svg, frame.x.pixel_low, legend_text(*results[k], heading), k);
   }

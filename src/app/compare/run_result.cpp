@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/plot/plot_body.hpp"
+#include "app/plot/plot_curve.hpp"
 #include "app/results/history_file.hpp"
 #include "app/results/result_directory.hpp"
 #include "app/results/summary_file.hpp"
@@ -55,7 +56,7 @@ void read_summary(const fs::path& directory, RunResult& result) {
   }
 }
 
-void read_rows(const fs::path& directory, RunResult& result) {
+CsvTable read_rows(const fs::path& directory, RunResult& result) {
   const std::string path = (directory / "history.csv").string();
   const CsvTable table = read_csv(path);
   result.records = history_records(table, path);
@@ -68,8 +69,8 @@ void read_rows(const fs::path& directory, RunResult& result) {
     result.last_row.emplace_back(name, table.rows.back()[c]);
     if (is_history_column(name)) continue;
     result.gauges.push_back(result.last_row.back());
-    result.gauges_at_peak.emplace_back(name, table.rows[peak_row(result.records)][c]);
   }
+  return table;
 }
 
 double least_horizon(const PlotBody& body) {
@@ -123,14 +124,27 @@ double number_of(const NamedNumbers& numbers, const std::string& name) {
   return found == numbers.end() ? std::numeric_limits<double>::quiet_NaN() : found->second;
 }
 
+std::size_t RunResult::peak_number() const {
+  const double load = number_of(summary, "peak_load");
+  const double displacement = number_of(summary, "peak_displacement");
+  const auto row = std::ranges::find_if(records, [&](const StepRecord& record) {
+    return record.load == load && record.displacement == displacement;
+  });
+  return row == records.end() ? peak_row(records) : static_cast<std::size_t>(row - records.begin());
+}
+
 RunResult read_run_result(const std::string& directory) {
   require_result(directory);
   RunResult result;
   result.directory = directory;
   result.name = directory_name(directory);
   result.labels = read_labels(directory);
-  read_rows(directory, result);
+  const CsvTable table = read_rows(directory, result);
   read_summary(directory, result);
+  for (const auto& [name, value] : result.gauges) {
+    const auto column = static_cast<std::size_t>(table.column(name));
+    result.gauges_at_peak.emplace_back(name, table.rows[result.peak_number()][column]);
+  }
   read_last_fields(directory, result);
   return result;
 }

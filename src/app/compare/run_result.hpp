@@ -27,12 +27,16 @@ struct RunResult {
   NamedNumbers summary;             ///< numbers of summary.json, those of `seconds` as seconds.KEY
   std::vector<StepRecord> records;  ///< rows of history.csv
   NamedNumbers last_row;            ///< all columns of history.csv
-  NamedNumbers gauges, gauges_at_peak;  ///< at the last row, and at that of peak_row()
+  NamedNumbers gauges, gauges_at_peak;  ///< at the last row, and at the peak
   std::optional<CrackPattern> body;     ///< from the last field file
   /// From summary.json, else the longest broken bond, or two spacings where that is more: the reach
   /// of a lattice whose bonds see the neighbours of either end; 0 without fields [length].
   double horizon = 0.0;
   std::vector<std::string> notes;  ///< what is missing
+
+  /// The row of the peak that summary.json names; without one that of the largest |load|.
+  const StepRecord& peak() const { return records[peak_number()]; }
+  std::size_t peak_number() const;
 };
 
 /// \throws FileError when the directory does not hold at least one row of a history, or a file

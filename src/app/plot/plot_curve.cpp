@@ -67,12 +67,15 @@ PeakLabel label_of(const CurveFrame& frame, const char* name, const CurvePoint& 
   return label;
 }
 
-/// The peak, and where the load climbed again after the body had given way the first one too.
+/// The peak; where the load climbed again after the body had failed the first one and the largest
+/// load.
 std::vector<PeakLabel> labels_of(const CurveFrame& frame, const StepRecord& peak,
                                  const std::optional<CurvePoint>& first_peak,
                                  const PlotLabels& labels) {
-  std::vector<PeakLabel> all = {label_of(frame, "peak", {peak.displacement, peak.load}, labels)};
-  if (first_peak && std::abs(first_peak->load) < std::abs(peak.load)) {
+  const bool two = first_peak && std::abs(first_peak->load) < std::abs(peak.load);
+  std::vector<PeakLabel> all = {
+      label_of(frame, two ? "largest load" : "peak", {peak.displacement, peak.load}, labels)};
+  if (two) {
     all.push_back(label_of(frame, "first peak", *first_peak, labels));
   }
   return all;

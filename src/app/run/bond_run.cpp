@@ -171,7 +171,7 @@ class BondRun final : public MovingBondsRun {
     const double length = longest_side(model_.network.particles);
     RunFacts facts = run_facts(input, length, files().peaks().highest().load);
     facts.loose_pieces = loose_pieces_;
-    summary.doubts = doubts_about(result_, facts);
+    summary.add_doubts(doubts_about(result_, facts));
   }
 
  private:

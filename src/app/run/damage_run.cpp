@@ -58,8 +58,9 @@ void DamageRun::begin_again(const LateConversion& late) {
   broken_.clear();
   std::fill(is_broken_.begin(), is_broken_.end(), 0);
   for (const Index element : model_.network.cut_elements) is_broken_[element] = 1;
-  places_.clear();
   balance_ = {};
+  high_rows_.clear();
+  compression_ = {};
   std::fill(set_factors_.begin(), set_factors_.end(), 0.0);
   last_element_ = no_index;
   broken_at_fields_ = last_stage_ = 0;
@@ -68,11 +69,11 @@ void DamageRun::begin_again(const LateConversion& late) {
 
 void DamageRun::tell(Summary& summary) const {
   Equilibria found(result_);
-  found.places = places_;
-  const CurvePoint peak = result_.peaks.highest();
+  found.places = places_at_peak();
+  const CurvePoint peak{result_.peak_displacement, result_.peak_load};
   const double length = longest_side(model_.network.particles);
   if (result_.beyond_small_strains) {
-    found.doubts.push_back(doubt_about_crushing(peak));
+    found.doubts.push_back(doubt_about_crushing(result_.peaks.highest()));
   } else if (auto doubt = doubt_about_size(peak, length)) {
     found.doubts.push_back(std::move(*doubt));
   } else if (auto end = doubt_about_end(result_.last.displacement, length)) {
@@ -87,11 +88,32 @@ void DamageRun::tell(Summary& summary) const {
         late_conversions_));
   }
   summary.add_note(note_of_grips(model_, broken_));
-  summary.add_note(note_of_peaks(result_, model_, broken_));
+  if (const auto text = text_of_peaks(result_, model_, broken_)) {
+    (input.rebar.empty() ? found.doubts : summary.notes).push_back(*text);
+  }
+  tell_stresses(summary, found);
   tell_quasistatic(summary, input, model_, found, seconds.analysis);
   tell_stages(summary, input, result_.stages);
   tell_cracks(summary, cracks_);
   if (model_.carried) tell_elements(summary);
+}
+
+/// Quantities of the bonds at the peak and at the end, and what is doubtful about them.
+void DamageRun::tell_stresses(Summary& summary, Equilibria& found) const {
+  const auto at = [&](double load) {
+    const double scale = input.stages.empty() ? std::abs(load) : 1.0;
+    return Compression{scale * compression_.stress, scale * compression_.times};
+  };
+  constexpr double round_off = 1e-6;
+  const Compression at_peak = at(result_.peak_load);
+  if (at_peak.times > round_off) summary.add("largest_compression", at_peak.stress);
+  if (softened_.cracks + softened_.diffuse > 0.0) {
+    summary.add("diffuse_energy", softened_.diffuse);
+  }
+  for (auto& doubt : {doubt_about_compression(at(result_.peaks.highest().load)),
+                      doubt_about_diffuse_softening(softened_)}) {
+    if (doubt) found.doubts.push_back(*doubt);
+  }
 }
 
 void DamageRun::tell_elements(Summary& summary) const {
@@ -135,13 +157,32 @@ void DamageRun::note_places(const StepRecord& record, StateSource& source) {
   if (!input.stages.empty() || !has_several_places(model_) || !(std::abs(record.load) > highest_))
     return;
   highest_ = std::abs(record.load);
-  if (model_.driven_places.empty()) {  // a look at the state may cost a solve
-    places_ = place_forces(model_, record.load_factor, {}, {});
-    return;
-  }
+  high_rows_.push_back({highest_, record.load_factor, {}});
+  if (model_.driven_places.empty()) return;  // a look at the state may cost a solve
   const StepState state = source.state();
-  places_ =
+  high_rows_.back().places =
       place_forces(model_, record.load_factor, state.secants, state.displacement, {}, state.whole);
+}
+
+std::vector<PlaceForce> DamageRun::places_at_peak() const {
+  for (const HighRow& row : high_rows_) {
+    if (row.load != std::abs(result_.peak_load)) continue;
+    return model_.driven_places.empty() ? place_forces(model_, row.load_factor, {}, {})
+                                        : row.places;
+  }
+  return {};
+}
+
+/// Before anything breaks stresses are in proportion to the load.
+void DamageRun::note_compression(const StepRecord& record, const VtuGrid& grid) {
+  const bool by_stages = !input.stages.empty();
+  const double load = by_stages ? 1.0 : std::abs(record.load);
+  if (!(load > 0.0) || (!by_stages && files_->has_fields())) return;
+  const Compression here =
+      largest_compression(model_.network, grid.find_point_data("principal_stress")->values);
+  if (here.times / load > compression_.times) {
+    compression_ = {here.stress / load, here.times / load};
+  }
 }
 
 /// The first row, the first of each stage, and what the case asks for: a load step may pass a
@@ -184,6 +225,7 @@ void DamageRun::write_state(const StepRecord& record, StateSource& source) {
     if (!network.has_sections()) {
       add_stresses(grid, particle_stresses(stress_input(model_, families_, state.secants), motion),
                    network.dim());
+      note_compression(record, grid);
       const CrackOpenings openings = crack_openings(network, families_, state.secants, motion);
       add_openings(grid, network, openings, broken_);
       cracks_ = widest_cracks(network, openings);
@@ -241,6 +283,7 @@ void DamageRun::on_step(const StepRecord& record, StateSource& source) {
 }
 
 void DamageRun::on_end(const StepRecord& last, StateSource& source) {
+  if (last.yield_events > 0) softened_ = softened_energy(model_.network, source.secants());
   if (last.step > 0) write_state(last, source);
 }
 

@@ -4,6 +4,7 @@
 
 #include "app/run/quasistatic.hpp"
 #include "app/run/run_kind.hpp"
+#include "app/run/run_warnings.hpp"
 #include "base/csr.hpp"
 
 namespace perilink {
@@ -26,6 +27,9 @@ class DamageRun final : public NetworkRun, public StepObserver {
   double scale_of(const StepRecord& record) const;
   ModelState model_state(const StepRecord& record, const StepState& state) const;
   void note_places(const StepRecord& record, StateSource& source);
+  void note_compression(const StepRecord& record, const VtuGrid& grid);
+  std::vector<PlaceForce> places_at_peak() const;
+  void tell_stresses(Summary& summary, Equilibria& found) const;
   void tell_elements(Summary& summary) const;
   void begin_again(const LateConversion& late);
   void note_broken(const StepRecord& record, StateSource& source);
@@ -46,7 +50,14 @@ class DamageRun final : public NetworkRun, public StepObserver {
   std::vector<std::size_t> set_of_stage_;  ///< in Model::sets
   std::vector<double> set_factors_;        ///< per set, in the last row
   std::vector<ToldCrack> cracks_;          ///< in the last field file
-  std::vector<PlaceForce> places_;  ///< in the row of the largest |load|, where there are several
+  /// A row with the largest |load| so far, where there are several places.
+  struct HighRow {
+    double load, load_factor;
+    std::vector<PlaceForce> places;  ///< driven ones; others follow from the load factor
+  };
+  std::vector<HighRow> high_rows_;
+  Compression compression_;  ///< at a load of one; of stages the largest of all field files
+  SoftenedEnergy softened_;  ///< at the end
 };
 
 }  // namespace perilink

@@ -42,8 +42,8 @@ class LatticeRun final : public RunKind, private ExplicitObserver {
     const double length = longest_side(lattice.dim, lattice.particles(), [&](Index i, int axis) {
       return lattice.positions[lattice.at(axis, lattice.particle_slot[i])];
     });
-    summary.doubts =
-        doubts_about(result_, run_facts(input, length, files().peaks().highest().load));
+    summary.add_doubts(
+        doubts_about(result_, run_facts(input, length, files().peaks().highest().load)));
   }
 
  private:

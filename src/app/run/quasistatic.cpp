@@ -166,8 +166,20 @@ void tell_stages(Summary& summary, const CaseFile& input, const std::vector<Stag
                                       {"displacement", stage.last.displacement},
                                       {"peak_load", stage.peak.load},
                                       {"peak_displacement", stage.peak.displacement},
+                                      {"largest_load", stage.largest.load},
                                       {"broken_bonds", stage.last.broken_bonds},
                                       {"steps", stage.last.step}});
+    if (stage.smoothed_peak_load) {
+      summary.json["stages"].back()["smoothed_peak_load"] = *stage.smoothed_peak_load;
+    }
+    const bool goes_on =
+        k + 1 < stages.size() && input.stages[k + 1].loads == input.stages[k].loads;
+    if (stage.largest.load != stage.peak.load && !goes_on && k + 1 < stages.size()) {
+      summary.doubts.push_back(fmt::format(
+          "stage \"{}\": residual strength: its load reached {:.6g}, and climbed again, to "
+          "{:.6g}, which is carried by what is left of a body that has failed",
+          name, stage.peak.load, stage.largest.load));
+    }
     summary.line(k == 0 ? "stages" : "", "{}: {}, load factor {:.6g}, load {:.6g}, {} broken bonds",
                  name, stage.reason, stage.last.load_factor, stage.last.load,
                  stage.last.broken_bonds);
@@ -178,8 +190,8 @@ void tell_quasistatic(Summary& summary, const CaseFile& input, const Model& mode
                       const Equilibria& found, double seconds) {
   const Index rows = found.last.step;
   tell_equilibria(summary, input, found);
-  summary.doubts = doubts_of_balance(found.energy_error, found.largest_residual, found.unsolved);
-  summary.doubts.insert(summary.doubts.end(), found.doubts.begin(), found.doubts.end());
+  summary.add_doubts(doubts_of_balance(found.energy_error, found.largest_residual, found.unsolved));
+  summary.add_doubts(found.doubts);
   summary.add("doubts", summary.doubts);
   tell_body(summary, model, fmt::format(", {} unknowns", model.unknowns.count));
   if (model.carried) {

@@ -52,7 +52,7 @@ class RelaxationRun final : public MovingBondsRun {
     const Index broken = result_.last.broken_bonds;
     const EnergyBalance& energy = result_.last.energy;
     tell_peaks(summary, input, files().peaks(), result_.peak_load);
-    summary.add_note(note_of_peaks(files().peaks()));
+    tell_residual_strength(summary, input, files().peaks());
     summary.add("iterations", result_.iterations);
     summary.add("residual", result_.residual);
     summary.add("displacement_error", result_.error);
@@ -67,7 +67,7 @@ class RelaxationRun final : public MovingBondsRun {
                  energy.external_work, energy.fractured, broken, energy.external_damping);
     tell_cracks(summary, cracks_);
     tell_body(summary, model_);
-    summary.doubts = doubts_at_rest(energy);
+    summary.add_doubts(doubts_at_rest(energy));
     summary.rate = bond_rate(result_.iterations);
     summary.outcome = fmt::format("{} iterations, {} broken bonds, residual {:.2e}",
                                   result_.iterations, broken, result_.residual);

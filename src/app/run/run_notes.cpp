@@ -28,46 +28,32 @@ std::optional<std::string> note_of_grips(const Model& model, std::span<const Ind
       at_grip, broken.size());
 }
 
-std::optional<std::string> note_of_peaks(const PeakWatch& peaks) {
+std::optional<std::string> text_of_peaks(const PeakWatch& peaks, bool bars) {
   if (!peaks.climbed_again()) return std::nullopt;
   return fmt::format(
-      "the load reached {:.6g} at displacement {:.6g} (first_peak_load), fell below half of that, "
-      "and climbed again, to {:.6g} at {:.6g} (peak_load): this is borne by what was left of the "
-      "body",
-      peaks.first().load, peaks.first().displacement, peaks.highest().load,
-      peaks.highest().displacement);
+      "{}the load reached {:.6g} at displacement {:.6g} ({}), it fell or a crack went through the "
+      "body, and the load climbed again, to {:.6g} at {:.6g} ({}){}",
+      bars ? "" : "residual strength: ", peaks.first().load, peaks.first().displacement,
+      bars ? "first_peak_load" : "peak_load", peaks.highest().load, peaks.highest().displacement,
+      bars ? "peak_load" : "largest_load",
+      bars ? ""
+           : ": the later load is carried by what is left of a body that has failed, or by what "
+             "cannot break, and is not the body's strength");
 }
 
-namespace {
-
-/// Whether some bonds of the solid stay whole and others break, and no bar takes the load.
-bool has_unbreakable_bonds(const Network& network) {
-  if (network.first_tie < network.num_elements()) return false;
-  Index whole = 0;
-  for (Index b = 0; b < network.num_elements(); ++b) whole += network.can_break(b) ? 0 : 1;
-  return whole > 0 && whole < network.num_elements();
-}
-
-}  // namespace
-
-std::optional<std::string> note_of_peaks(const DamageResult& result, const Model& model,
+std::optional<std::string> text_of_peaks(const DamageResult& result, const Model& model,
                                          std::span<const Index> broken) {
-  std::optional<std::string> note = note_of_peaks(result.peaks);
-  if (!note && result.dip && has_unbreakable_bonds(model.network)) {
-    return fmt::format(
-        "the load fell from {:.6g} to {:.6g} and climbed again, to {:.6g} (peak_load): bonds that "
-        "cannot break may have stopped the crack",
-        result.dip->peak, result.dip->lowest, std::abs(result.peaks.highest().load));
-  }
+  const bool bars = model.network.first_tie < model.network.num_elements();
+  std::optional<std::string> text = text_of_peaks(result.peaks, bars);
   const std::size_t before = static_cast<std::size_t>(result.broken_as_gave_way);
-  if (!note || broken.size() <= before) return note;
+  if (!text || broken.size() <= before) return text;
   const std::span<const Index> later = broken.subspan(before);
   const auto at_grips = count_at_grips(model, later);
-  if (at_grips == 0) return note;
+  if (at_grips == 0) return text;
   return fmt::format(
       "{}; {} of the {} bonds that broke since then end at particles of "
       "[[supports]] or [[displacements]]",
-      *note, at_grips, later.size());
+      *text, at_grips, later.size());
 }
 
 }  // namespace perilink

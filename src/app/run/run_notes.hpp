@@ -14,12 +14,14 @@ namespace perilink {
 /// \param broken  elements that broke
 std::optional<std::string> note_of_grips(const Model& model, std::span<const Index> broken);
 
-/// Where the load climbed above its first peak after the body had given way: which peak is which.
-std::optional<std::string> note_of_peaks(const PeakWatch& peaks);
+/// Where the load climbed above its first peak after the body had failed: which peak is which. A
+/// doubt, with bars a note.
+/// \param bars  reinforce the body: the larger load is its peak
+std::optional<std::string> text_of_peaks(const PeakWatch& peaks, bool bars);
 
-/// The same, and how many of the bonds that broke afterwards end at grips.
+/// The peaks of a damage run, and how many of the bonds that broke after the first one end at grips.
 /// \param broken  elements in the order in which they broke
-std::optional<std::string> note_of_peaks(const DamageResult& result, const Model& model,
+std::optional<std::string> text_of_peaks(const DamageResult& result, const Model& model,
                                          std::span<const Index> broken);
 
 }  // namespace perilink

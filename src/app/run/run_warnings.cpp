@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/model/body/strength_notes.hpp"
+
 namespace perilink {
 
 namespace {
@@ -122,13 +124,80 @@ std::optional<std::string> doubt_about_motion(double share) {
       100.0 * share);
 }
 
-std::string doubt_about_crushing(const CurvePoint& peak) {
+std::string doubt_about_crushing(const CurvePoint& largest) {
   return fmt::format(
-      "bonds are shorter than small strains allow, or were about to be: the peak, {:.6g} at "
-      "displacement {:.6g}, may be borne by what is crushed and is no strength of the body; look "
-      "at "
-      "the curve before, and end the run there by [stop]",
-      peak.load, peak.displacement);
+      "bonds are shorter than small strains allow, or were about to be: the largest load, {:.6g} "
+      "at displacement {:.6g}, may be borne by what is crushed and is no strength of the body; "
+      "look at the curve before, and end the run there by [stop]",
+      largest.load, largest.displacement);
+}
+
+Compression largest_compression(const Network& network, std::span<const double> principal) {
+  Compression worst;
+  if (network.has_crushing()) return worst;
+  for (std::size_t i = 0; 3 * i < principal.size(); ++i) {
+    const Index material = network.particles.material[i];
+    if (material == no_index || network.strengths.empty()) continue;
+    const double strength = network.strengths[material].tensile_strength;
+    if (!(strength > 0.0)) continue;
+    const double stress = -*std::min_element(&principal[3 * i], &principal[3 * i] + 3);
+    if (stress > worst.times * strength) worst = {stress, stress / strength};
+  }
+  return worst;
+}
+
+std::optional<std::string> doubt_about_compression(const Compression& at_largest_load) {
+  constexpr double most = 10.0;  // compressive over tensile strength of concrete and rock
+  if (at_largest_load.times <= most) return std::nullopt;
+  return fmt::format(
+      "no crushing law: at the largest load the largest compressive principal stress is {:.4g}, "
+      "{:.3g} times the tensile strength, and has passed the compressive strength of most brittle "
+      "materials, about ten times: the body may crush before; compare it with the compressive "
+      "strength, or give the material softening = \"concrete\"",
+      at_largest_load.stress, at_largest_load.times);
+}
+
+namespace {
+
+/// Energy that events in tension take from a bond until its secant is this, over half of its
+/// stiffness times the square of its extension at the critical stretch [-].
+double energy_until(const BondLaw& law, double secant) {
+  double energy = 0.0;
+  for (int k = 0; law.tooth(k).secant > secant; ++k) {
+    const Tooth tooth = law.tooth(k);
+    energy += tooth.limit * tooth.limit * (tooth.secant - law.tooth(k + 1).secant);
+  }
+  return energy;
+}
+
+}  // namespace
+
+SoftenedEnergy softened_energy(const Network& network, Secants secants) {
+  constexpr double of_crack = 0.1;  // bonds at the strength of a sound body have lost 3 to 5 %
+  SoftenedEnergy energy;
+  for (Index e = 0; e < network.first_tie; ++e) {
+    const double left = secants.least(e);
+    const BondLaw& law = network.law(e);
+    if (left == 1.0 || !network.can_break(e) || law.is_brittle() || law.crushes()) continue;
+    if (std::ranges::binary_search(network.cut_elements, e)) continue;
+    const double lost = energy_until(law, left);
+    const bool cracked = lost >= of_crack * energy_until(law, 0.0);
+    const double extension = network.critical_stretch[e] * network.bonds.length(e);
+    (cracked ? energy.cracks : energy.diffuse) +=
+        0.5 * network.stiffness[e] * extension * extension * lost;
+  }
+  return energy;
+}
+
+std::optional<std::string> doubt_about_diffuse_softening(const SoftenedEnergy& energy) {
+  constexpr double most = 0.1;
+  if (!(energy.cracks > 0.0) || energy.diffuse <= most * energy.cracks) return std::nullopt;
+  return fmt::format(
+      "diffuse softening: bonds that softened outside the cracks dissipated {:.4g}, {:.0f} % of "
+      "the energy of the cracks: the body takes more energy than fracture_energy times the area of "
+      "its cracks, and loads may be too large; {}, or let bonds break only where cracks may run "
+      "(fracture_energy = \"infinite\" elsewhere)",
+      energy.diffuse, 100.0 * energy.diffuse / energy.cracks, horizon_advice);
 }
 
 std::vector<std::string> doubts_of_balance(double energy_error, double largest_residual,

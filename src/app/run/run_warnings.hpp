@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "analysis/quasistatic/load_curve.hpp"
 #include "discretization/particles.hpp"
 #include "io/case/case_file.hpp"
+#include "network/network.hpp"
 
 namespace perilink {
 
@@ -67,8 +69,31 @@ std::optional<std::string> doubt_about_end(double displacement, double length);
 /// \param share  how many do, over all bonds or edges of linear elements [-]
 std::optional<std::string> doubt_about_motion(double share);
 
+/// Compression of the particle where it is most times the tensile strength of its material.
+struct Compression {
+  double stress = 0.0;  ///< largest compressive principal one [force/length^2]
+  double times = 0.0;   ///< that over the tensile strength [-]
+};
+
+/// Of particles whose material can break in tension only.
+/// \param principal  stresses, shape (particles, 3)
+Compression largest_compression(const Network& network, std::span<const double> principal);
+
+/// A body that is compressed by more than ten times its tensile strength.
+std::optional<std::string> doubt_about_compression(const Compression& at_largest_load);
+
+/// Energy that bonds have dissipated by softening in tension [force length].
+struct SoftenedEnergy {
+  double cracks = 0.0;   ///< by those that have lost a tenth of their fracture energy or more
+  double diffuse = 0.0;  ///< by others: the body softens there without a crack
+};
+SoftenedEnergy softened_energy(const Network& network, Secants secants);
+
+/// Diffuse softening of more than a tenth of the energy of the cracks.
+std::optional<std::string> doubt_about_diffuse_softening(const SoftenedEnergy& energy);
+
 /// The largest load of a run that went on, or ended, where bonds are too short for small strains.
-std::string doubt_about_crushing(const CurvePoint& peak);
+std::string doubt_about_crushing(const CurvePoint& largest);
 
 /// The same of a quasistatic run: energies that balance, or forces, to no more than six digits.
 /// \param energy_error      largest of all rows, over the work [-]

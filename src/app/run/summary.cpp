@@ -18,16 +18,30 @@ constexpr std::size_t most_cracks = 10;
 
 void tell_peaks(Summary& summary, const CaseFile& input, const PeakWatch& peaks,
                 std::optional<double> reaction) {
-  const CurvePoint &highest = peaks.highest(), &first = peaks.first();
-  summary.add("peak_load", highest.load);
-  summary.add("peak_displacement", highest.displacement);
+  const CurvePoint &largest = peaks.highest(), &first = peaks.first();
+  const CurvePoint& peak = input.rebar.empty() ? first : largest;
+  summary.add("peak_load", peak.load);
+  summary.add("peak_displacement", peak.displacement);
   summary.add("first_peak_load", first.load);
   summary.add("first_peak_displacement", first.displacement);
+  summary.add("largest_load", largest.load);
+  summary.add("largest_load_displacement", largest.displacement);
   if (reaction) summary.add("peak_reaction", *reaction);
   const bool bears = reaction.value_or(0.0) != 0.0;
-  summary.line("peak load", "{:.6g} at displacement {:.6g}{}{}", highest.load, highest.displacement,
+  summary.line("peak load", "{:.6g} at displacement {:.6g}{}{}", peak.load, peak.displacement,
                bears ? fmt::format(", reaction of supports {:.6g}", *reaction) : "",
                input.units.empty() ? "" : "  [" + input.units + "]");
+  if (largest.load != peak.load) {
+    summary.line("", "{:.6g} at {:.6g} is the largest load, of the failed body", largest.load,
+                 largest.displacement);
+  }
+}
+
+void tell_residual_strength(Summary& summary, const CaseFile& input, const PeakWatch& peaks) {
+  const bool bars = !input.rebar.empty();
+  if (const auto text = text_of_peaks(peaks, bars)) {
+    (bars ? summary.notes : summary.doubts).push_back(*text);
+  }
 }
 
 void tell_energies(Summary& summary, const EnergyBalance& energy) {
@@ -43,7 +57,7 @@ void tell_motion(Summary& summary, const CaseFile& input, const RunFiles& files,
   const ExplicitRecord& last = result.last;
   const std::string cracks = cracks_text(input, last);
   tell_peaks(summary, input, files.peaks(), result.peak_load);
-  summary.add_note(note_of_peaks(files.peaks()));
+  tell_residual_strength(summary, input, files.peaks());
   summary.add("steps", result.steps);
   summary.add("rows", files.rows());
   summary.add("time_step", result.time_step);

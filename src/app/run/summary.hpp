@@ -30,6 +30,9 @@ struct Summary {
   void add_note(const std::optional<std::string>& note) {
     if (note) notes.push_back(*note);
   }
+  void add_doubts(const std::vector<std::string>& more) {
+    doubts.insert(doubts.end(), more.begin(), more.end());
+  }
   /// \param label  what the line is about; empty: the same as the line above
   template <class... Args>
   void line(const std::string& label, fmt::format_string<Args...> format, Args&&... args) {
@@ -37,10 +40,13 @@ struct Summary {
   }
 };
 
-/// Largest load and that before the body first gave way.
+/// The peak, and the largest load of all rows.
 /// \param reaction  largest of the supports, of runs over time [force]
 void tell_peaks(Summary& summary, const CaseFile& input, const PeakWatch& peaks,
                 std::optional<double> reaction = {});
+
+/// The text of the peaks of a run over time, among doubts or notes.
+void tell_residual_strength(Summary& summary, const CaseFile& input, const PeakWatch& peaks);
 
 /// Where the energy of a run over time is at its end.
 void tell_energies(Summary& summary, const EnergyBalance& energy);

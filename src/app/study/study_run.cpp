@@ -114,7 +114,7 @@ void analyse_damage(Repeat& repeat, int threads) {
   repeat.ending = result.ending;
   repeat.reason = result.reason;
   tell_equilibria(repeat.found, repeat.input, Equilibria(result));
-  repeat.note = note_of_peaks(result.peaks);
+  repeat.note = text_of_peaks(result.peaks, !repeat.input.rebar.empty());
   repeat.gauges = std::move(observer.gauges);
 }
 

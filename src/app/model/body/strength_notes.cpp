@@ -19,6 +19,10 @@ constexpr double largest_strength = 1e-2, largest_brittle_strength = 2e-3, least
 /// one tests of concrete in a laboratory has up to five.
 constexpr double longest_zone = 10.0;
 
+/// Process zones in a horizon below which bonds soften all over a stressed body; round-off counts
+/// as a thirtieth.
+constexpr double least_horizon = (1.0 - 1e-6) / 30.0;
+
 /// Brittle bonds have a process zone of about half a horizon. Where that is more of the body than
 /// this, a crack has no room beside it.
 constexpr double longest_brittle_zone = 0.25;
@@ -61,10 +65,17 @@ std::optional<std::string> note_of_zone(double zone, double horizon, double body
   if (zone < horizon) {
     return fmt::format(
         "the process zone {:.4g} is shorter than the horizon {:.4g}: bonds hardly soften, and the "
-        "crack's tip is coarser than that of the material; a horizon of a tenth of it resolves it",
-        zone, horizon);
+        "crack's tip is coarser than that of the material; {}",
+        zone, horizon, horizon_advice);
   }
-  if (zone <= longest_zone * body) return std::nullopt;
+  if (zone <= longest_zone * body) {
+    if (horizon >= least_horizon * zone) return std::nullopt;
+    return fmt::format(
+        "the horizon {:.4g} is below a thirtieth of E G_F / f_t^2, {:.4g}: stressed parts of the "
+        "body soften before a crack forms, which takes more energy than fracture_energy times the "
+        "area of the crack and raises the load of bodies without a notch; {}",
+        horizon, zone, horizon_advice);
+  }
   return fmt::format(
       "the process zone {:.4g} is more than {:.0f} times the body's longest side {:.4g}: the body "
       "breaks by its tensile_strength, and fracture_energy hardly matters before it is in two; are "
@@ -90,6 +101,19 @@ std::optional<std::string> note_of_bar(const RebarSection& bar, double softest, 
 }
 
 }  // namespace
+
+std::optional<std::string> lattice_note(const CaseFile& input, const Model& model) {
+  const Network& network = model.network;
+  if (model.lattice.pattern == Pattern::irregular || network.is_beam()) return std::nullopt;
+  bool breaks = false;
+  for (Index b = 0; b < network.first_tie && !breaks; ++b) breaks = network.can_break(b);
+  if (!breaks || !input.interfaces.empty()) return std::nullopt;
+  return "cracks on a lattice tend to follow its rows, and loads change with their paths: where "
+         "the "
+         "path is not known, compare with a run on an unstructured mesh ([body] mesh), with "
+         "another "
+         "pattern or with the body turned, and give brittle materials a tensile_strength";
+}
 
 std::vector<std::string> bar_notes(const CaseFile& input) {
   double softest = std::numeric_limits<double>::infinity(), stiffest = 0.0;

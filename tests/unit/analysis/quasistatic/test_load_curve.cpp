@@ -147,16 +147,37 @@ std::vector<CurvePoint> path_at(const std::vector<double>& loads) {
   return path;
 }
 
-TEST(Dip, IsALoadThatFellAndClimbedBeyondItsPeak) {
-  const std::optional<Dip> dip = find_dip(path_at({3.0, 6.0, 4.0, 5.0, 12.0}));
-  ASSERT_TRUE(dip);
-  EXPECT_NEAR(dip->peak, 6.0, 1e-12);
-  EXPECT_NEAR(dip->lowest, 4.0, 1e-12);
-  EXPECT_NEAR(find_dip(path_at({-6.0, -4.0, -12.0})).value().peak, 6.0, 1e-12) << "compression";
-  EXPECT_FALSE(find_dip(path_at({6.0, 4.0, 7.0}))) << "climbed by less";
-  EXPECT_FALSE(find_dip(path_at({6.0, 5.2, 12.0}))) << "fell by less";
-  EXPECT_FALSE(find_dip(path_at({6.0, 4.0, 3.0})));
-  EXPECT_FALSE(find_dip({}));
+TEST(ResidualStrength, BeginsBehindALoadThatFellAndClimbedBeyondItsPeak) {
+  const auto rows = [](const std::vector<double>& loads, bool bars = false) {
+    return rows_before_residual(path_at(loads), bars);
+  };
+  EXPECT_NEAR(static_cast<double>(rows({3.0, 6.0, 5.7, 5.8, 12.0})), 250.0, 50.0);
+  EXPECT_NEAR(static_cast<double>(rows({-6.0, -5.7, -12.0})), 150.0, 50.0) << "compression";
+  EXPECT_EQ(rows({6.0, 5.7, 12.0}, true), 300u) << "bars carry it";
+  EXPECT_EQ(rows({6.0, 5.7, 6.5}), 300u) << "climbed by less";
+  EXPECT_EQ(rows({6.0, 5.9, 12.0}), 300u) << "fell by less";
+  EXPECT_EQ(rows({6.0, 4.0, 3.0}), 300u);
+  EXPECT_EQ(rows({}), 0u);
+}
+
+/// Single rows fall by a third and come again, as within the growth of one crack.
+TEST(ResidualStrength, IsNoneOfTeeth) {
+  std::vector<CurvePoint> path;
+  for (int k = 0; k <= 400; ++k) {
+    const double load = (3.0 + 0.01 * k) * (k % 5 == 0 ? 1.0 : 0.66);
+    path.push_back({load * (1.0 + 0.01 * k), load});
+  }
+  EXPECT_EQ(rows_before_residual(path, false), path.size());
+}
+
+/// The event path of one load, told as rows of a stage.
+TEST(ResidualStrength, StagesHaveTheEnvelopeOfTheirEvents) {
+  std::vector<StepRecord> rows = make_path(1001, true);
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    rows[k].dissipated_energy = rows[k - 1].dissipated_energy + dissipated(rows, k - 1, k);
+  }
+  const double expected = smoothed_peak(event_path(rows)).value();
+  EXPECT_NEAR(smoothed_peak(stage_path(rows)).value(), expected, 1e-9 * expected);
 }
 
 TEST(Envelope, PassesOverSingleTeeth) {
@@ -181,16 +202,13 @@ TEST(Envelope, HasNoPeakWhereWindowsWithoutAPointBearMore) {
 }
 
 /// What is left of a body bears more, in as many events again.
-TEST(Envelope, ItsPeakIsThatBeforeTheBodyGaveWay) {
+TEST(ResidualStrength, BeginsWhereTheBodyGaveWay) {
   std::vector<CurvePoint> path;
-  for (int k = 0; k <= 40; ++k) path.push_back({1.0 + k, 3.0});
-  for (int k = 0; k <= 40; ++k) path.push_back({1000.0 + 10.0 * k, k == 0 ? 1.0 : 8.0});
-  EXPECT_NEAR(smoothed_peak(path).value(), 3.0, 1e-14);
-  path.resize(42);
-  EXPECT_NEAR(smoothed_peak(path).value(), 3.0, 1e-14) << "it stays weak";
-  path.erase(path.begin(), path.begin() + 30);
-  for (int k = 0; k <= 40; ++k) path.push_back({2000.0 + 10.0 * k, 8.0});
-  EXPECT_FALSE(smoothed_peak(path)) << "too few events before";
+  for (int k = 0; k <= 4; ++k) path.push_back({1.0 + k, 3.0});
+  for (int k = 0; k <= 4; ++k) path.push_back({1000.0 + 10.0 * k, k == 0 ? 1.0 : 8.0});
+  EXPECT_EQ(rows_before_residual(path, true), 5u) << "too few events for an envelope";
+  path.resize(6);
+  EXPECT_EQ(rows_before_residual(path, true), 6u) << "it stays weak";
 }
 
 PeakWatch watch(const std::vector<CurvePoint>& rows, int successive = 1) {

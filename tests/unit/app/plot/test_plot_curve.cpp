@@ -53,7 +53,7 @@ TEST(LoadDisplacement, MarksTheFirstPeakWhereTheLoadClimbedAgain) {
   const auto svg = [&](const std::optional<CurvePoint>& first) {
     return draw_load_displacement(records, {"Beam", "kip", "in"}, first).str();
   };
-  EXPECT_NE(svg(CurvePoint{2.0, 20.0}).find(">peak 40 kip at 15 in"), std::string::npos);
+  EXPECT_NE(svg(CurvePoint{2.0, 20.0}).find(">largest load 40 kip at 15 in"), std::string::npos);
   EXPECT_NE(svg(CurvePoint{2.0, 20.0}).find(">first peak 20 kip at 2 in"), std::string::npos);
   EXPECT_EQ(svg(CurvePoint{15.0, 40.0}).find("first peak"), std::string::npos) << "the same";
   EXPECT_EQ(svg({}).find("first peak"), std::string::npos) << "unknown";

@@ -48,10 +48,12 @@ TEST(Equilibria, TellEveryFigureUnderItsKey) {
   tell_quasistatic(summary, input, model, with_places(result), 0.5);
   const nlohmann::ordered_json& json = summary.json;
   const nlohmann::ordered_json expected = {
-      {"peak_load", 1.0 / 3.0},
-      {"peak_displacement", 0.125},
+      {"peak_load", 0.25},
+      {"peak_displacement", 0.0625},
       {"first_peak_load", 0.25},
       {"first_peak_displacement", 0.0625},
+      {"largest_load", 1.0 / 3.0},
+      {"largest_load_displacement", 0.125},
       {"smoothed_peak_load", 0.1875},
       {"places",
        {{{"name", "upper platen"}, {"force", {0.0, -0.25}}},
@@ -88,7 +90,7 @@ TEST(Equilibria, AreToldToPeople) {
   result.energy_error = 0.5;
   Summary summary;
   tell_quasistatic(summary, input, build_model(input), with_places(result), 0.5);
-  for (const char* part : {"0.333333 at displacement 0.125", "[kip, in]",
+  for (const char* part : {"0.333333 at 0.125 is the largest load", "[kip, in]",
                            "8 broken bonds, 2 yield or softening events, 9 rows", "45 particles",
                            "0.1875 of the smooth curve", "(0, -0.25) by upper platen"}) {
     EXPECT_THAT(summary.text, testing::HasSubstr(part));

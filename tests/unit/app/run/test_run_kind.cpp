@@ -110,6 +110,7 @@ TEST(RunKind, QuantitiesOfTheFrameAreThoseOfAllKinds) {
                             "peak_displacement",
                             "first_peak_load",
                             "first_peak_displacement",
+                            "largest_load",
                             "external_work",
                             "strain_energy",
                             "dissipated_energy",

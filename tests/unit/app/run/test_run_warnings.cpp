@@ -55,6 +55,46 @@ TEST(RunDoubts, NameWorkThatIsStillMotion) {
   EXPECT_THAT(doubts_about(result, {100.0}), IsEmpty());
 }
 
+TEST(RunDoubts, NameCompressionBeyondTenTimesTheTensileStrength) {
+  Network network;
+  network.particles.material = {0, 1, no_index, 0};
+  network.strengths = {{4.0}, {}};  // the second material cannot break
+  const std::vector<double> principal = {1.0, -41.0, 0.0, 0.0, -90.0, 0.0,
+                                         0.0, -80.0, 0.0, 2.0, 0.0,   -8.0};
+  const Compression at_peak = largest_compression(network, principal);
+  EXPECT_EQ(at_peak.stress, 41.0);
+  EXPECT_EQ(at_peak.times, 10.25);
+  EXPECT_THAT(doubt_about_compression(at_peak).value(),
+              AllOf(HasSubstr("no crushing law"), HasSubstr("is 41, 10.2 times the tensile")));
+  EXPECT_FALSE(doubt_about_compression({39.0, 9.75}));
+  network.laws = {BondLaw::brittle().crushing({{1.0, 1.0}}, 1.0, false)};
+  EXPECT_EQ(largest_compression(network, principal).stress, 0.0) << "it can crush";
+}
+
+/// Two bonds of length 2 and stiffness 3 with teeth that take 0.05 and 0.95 of 10 (their areas over
+/// the square of the critical stretch).
+TEST(RunDoubts, NameEnergyThatSofteningTakesBesideTheCracks) {
+  const BondLaw law = BondLaw::saw_tooth({{1.0, 1.0}, {0.5, std::sqrt(19.0)}});
+  Network network;
+  network.laws = {law};
+  network.stiffness = {3.0, 3.0, 3.0};
+  network.critical_stretch = {0.1, 0.1, 0.1};
+  network.bonds.first = network.bonds.second = {0, 0, 0};
+  network.bonds.lengths = {2.0, 2.0, 2.0};
+  network.first_tie = 3;
+  const std::vector<double> secants = {0.5, 0.0, 1.0};
+  const SoftenedEnergy energy = softened_energy(network, secants);
+  const double scale = 0.5 * 3.0 * 0.2 * 0.2;
+  EXPECT_NEAR(energy.diffuse, scale * 0.5, 1e-14);
+  EXPECT_NEAR(energy.cracks, scale * 10.0, 1e-14);
+  EXPECT_FALSE(doubt_about_diffuse_softening(energy));
+  EXPECT_THAT(doubt_about_diffuse_softening({10.0, 1.5}).value(),
+              AllOf(HasSubstr("dissipated 1.5, 15 % of"), HasSubstr("a twentieth to a thirtieth")));
+  EXPECT_FALSE(doubt_about_diffuse_softening({0.0, 1.5})) << "nothing has cracked";
+  network.cut_elements = {1};
+  EXPECT_EQ(softened_energy(network, secants).cracks, 0.0) << "a pre-crack";
+}
+
 TEST(RunDoubts, LeaveImpactsAndRunsThatWereCutShortAlone) {
   ExplicitResult result = moving();
   EXPECT_THAT(doubts_about(result, {100.0, true, 1.0}), IsEmpty());

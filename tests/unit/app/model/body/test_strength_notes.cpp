@@ -67,7 +67,31 @@ TEST(StrengthNotes, TellWhereAProcessZoneIsOutOfProportion) {
               ElementsAre(HasSubstr("13.33 is shorter than the horizon 15")));
   EXPECT_THAT(strength_notes(softening(3.0), modulus, 3.0, 33.0),
               ElementsAre(HasSubstr("more than 10 times the body's longest side 33")));
-  EXPECT_THAT(strength_notes(softening(3.0), modulus, 3.0, 34.0), IsEmpty());
+  EXPECT_THAT(strength_notes(softening(3.0), modulus, 12.0, 34.0), IsEmpty());
+}
+
+/// E G_F / f_t^2 = 333.3: a thirtieth is 11.11.
+TEST(StrengthNotes, TellWhereTheHorizonIsTooShortForTheProcessZone) {
+  EXPECT_THAT(strength_notes(softening(3.0), modulus, 11.2, 100.0), IsEmpty());
+  EXPECT_THAT(strength_notes(softening(3.0), modulus, 11.0, 100.0),
+              ElementsAre(testing::AllOf(HasSubstr("the horizon 11 is below a thirtieth"),
+                                         HasSubstr(horizon_advice))));
+}
+
+TEST(LatticeNote, IsAboutBondsOfLatticesThatCanBreakAnywhere) {
+  CaseFile input = strip_case();
+  Model model = build_model(input);
+  EXPECT_THAT(lattice_note(input, model).value(),
+              HasSubstr("compare with a run on an unstructured mesh"));
+  EXPECT_THAT(model.notes, testing::Contains(HasSubstr("cracks on a lattice")));
+  input.interfaces.emplace_back();
+  EXPECT_FALSE(lattice_note(input, model)) << "it prescribes the path";
+  input.interfaces.clear();
+  model.lattice.pattern = Pattern::irregular;
+  EXPECT_FALSE(lattice_note(input, model));
+  model.lattice.pattern = Pattern::rectangular;
+  std::ranges::fill(model.network.critical_stretch, infinity);
+  EXPECT_FALSE(lattice_note(input, model)) << "nothing breaks";
 }
 
 /// A fracture energy a hundred million times too large makes bonds ten thousand times too strong.

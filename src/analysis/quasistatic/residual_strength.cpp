@@ -1,0 +1,129 @@
+#include "analysis/quasistatic/residual_strength.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <unordered_map>
+#include <vector>
+
+namespace perilink {
+namespace {
+
+/// Events in tension after which the force of a bond stays below half of its largest.
+int events_to_crack(const BondLaw& law) {
+  const double half = 0.5 * law.tooth(0).limit;
+  int events = 1;
+  for (Tooth now = law.tooth(1); now.secant > 0.0 && now.secant * now.limit > half; ++events) {
+    now = law.tooth(events + 1);
+  }
+  return events;
+}
+
+/// Sets of particles that cracked bonds join, each with the box around the middles of its bonds.
+class Cracks {
+ public:
+  explicit Cracks(const Network& network)
+      : network_(network),
+        dim_(static_cast<std::size_t>(network.dim())),
+        lower_(network.particles.positions.size(), infinity),
+        upper_(network.particles.positions.size(), -infinity),
+        parent_(static_cast<std::size_t>(network.particles.size())) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+    for (std::size_t a = 0; a < dim_; ++a) {
+      double least = infinity, most = -infinity;
+      for (Index i = 0; i < network.particles.size(); ++i) {
+        if (network.particles.material[i] == no_index) continue;
+        least = std::min(least, network.particles.position(i)[a]);
+        most = std::max(most, network.particles.position(i)[a]);
+      }
+      extents_.push_back(most - least);
+    }
+  }
+
+  /// \return whether the crack of the bond goes through the body
+  bool add(Index bond) {
+    constexpr double through = 0.8;
+    const Index first = network_.bonds.first[bond], second = network_.bonds.second[bond];
+    const std::size_t root = root_of(first), other = root_of(second);
+    parent_[other] = static_cast<Index>(root);
+    std::size_t spans = 0;
+    for (std::size_t a = 0; a < dim_; ++a) {
+      const double middle =
+          0.5 * (network_.particles.position(first)[a] + network_.particles.position(second)[a]);
+      double &lower = lower_[root * dim_ + a], &upper = upper_[root * dim_ + a];
+      lower = std::min({lower, lower_[other * dim_ + a], middle});
+      upper = std::max({upper, upper_[other * dim_ + a], middle});
+      spans += upper - lower >= through * extents_[a] ? 1 : 0;
+    }
+    return spans + 1 >= dim_;
+  }
+
+ private:
+  std::size_t root_of(Index particle) {
+    while (parent_[particle] != particle) {
+      particle = parent_[particle] = parent_[parent_[particle]];
+    }
+    return static_cast<std::size_t>(particle);
+  }
+
+  const Network& network_;
+  std::size_t dim_;
+  std::vector<double> lower_, upper_, extents_;
+  std::vector<Index> parent_;
+};
+
+CurvePoint highest(std::span<const StepRecord> rows) {
+  const auto row = std::max_element(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
+    return std::abs(a.load) < std::abs(b.load);
+  });
+  return {row->displacement, row->load};
+}
+
+}  // namespace
+
+std::size_t rows_before_through_crack(const Network& network, std::span<const StepRecord> rows) {
+  if (network.has_sections()) return rows.size();
+  std::vector<int> events_of_law;
+  for (const BondLaw& law : network.laws) {
+    events_of_law.push_back(law.endless() || law.crushes() ? 0 : events_to_crack(law));
+  }
+  Cracks cracks(network);
+  std::unordered_map<Index, int> events;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const Index element = rows[k].element;
+    if (element == no_index || element >= network.first_tie || rows[k].side_change != 0) continue;
+    const Index law = network.law_of.empty() ? 0 : network.law_of[element];
+    if (++events[element] != events_of_law[law]) continue;
+    if (cracks.add(element)) return k + 1;
+  }
+  return rows.size();
+}
+
+void find_peaks(const Network& network, std::span<const StepRecord> rows, DamageResult& result) {
+  const bool bars = network.first_tie < network.num_elements();
+  const bool stages = !rows.empty() && rows.front().stage > 0;
+  const std::vector<CurvePoint> path = stages ? stage_path(rows) : event_path(rows);
+  PeakWatch& peaks = result.peaks;
+  std::size_t before = rows_before_residual(path, bars);
+  if (before == path.size()) before = rows.size();
+  if (!bars && !rows.empty()) {
+    const std::size_t through = rows_before_through_crack(network, rows);
+    const double first = std::abs(highest(rows.first(through)).load);
+    if (std::abs(peaks.highest().load) > (1.0 + residual_climb) * first) {
+      before = std::min(before, through);
+    }
+  }
+  result.smoothed_peak_load = smoothed_peak(std::span(path).first(std::min(before, path.size())));
+  if (before < rows.size()) {
+    const CurvePoint first = highest(rows.first(before));
+    if (std::abs(first.load) < std::abs(peaks.first().load)) {
+      peaks.end_with(first);
+      result.broken_as_gave_way = rows[before - 1].broken_bonds;
+    }
+  }
+  const CurvePoint peak = bars ? peaks.highest() : peaks.first();
+  result.peak_load = peak.load;
+  result.peak_displacement = peak.displacement;
+}
+
+}  // namespace perilink

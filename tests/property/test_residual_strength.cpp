@@ -1,0 +1,108 @@
+// Loads that climb above a first peak once a part of the body has failed: summaries tell the first
+// peak from the residual strength, by events and by stages.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+
+#include "support/whole_run.hpp"
+
+namespace perilink {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+/// Two strips between the same grips, `weak` and `strong` wide, of strengths 3 and 6 and modulus
+/// 30 000, pulled by their ends.
+std::string two_strips(double weak, double strong, const std::string& more) {
+  const double left = weak + 40.0, right = left + strong;
+  return fmt::format(R"([body]
+spacing = 10
+horizon = 31
+[[regions]]
+name = "weak"
+x = [0, {0}]
+y = [0, 120]
+[[regions]]
+name = "strong"
+x = [{1}, {2}]
+y = [0, 120]
+[[regions]]
+name = "lower grip"
+x = [0, {2}]
+y = [0, 30]
+[[regions]]
+name = "upper grip"
+x = [0, {2}]
+y = [90, 120]
+[[regions]]
+name = "lower end"
+x = [0, {2}]
+y = [0, 0]
+[[regions]]
+name = "upper end"
+x = [0, {2}]
+y = [120, 120]
+[[materials]]
+region = "weak"
+youngs_modulus = 30000
+fracture_energy = 0.1
+tensile_strength = 3
+[[materials]]
+region = "strong"
+youngs_modulus = 30000
+fracture_energy = 0.4
+tensile_strength = 6
+[[materials]]
+regions = ["lower grip", "upper grip"]
+youngs_modulus = 30000
+fracture_energy = "infinite"
+[[supports]]
+region = "lower end"
+fix = ["x", "y"]
+[[displacements]]
+region = "upper end"
+y = 1
+{3})",
+                     weak, left, right, more);
+}
+
+/// The weak strip breaks at 3 (weak + strong); alone the strong one bears 6 strong.
+TEST(ResidualStrength, IsNotThePeak) {
+  for (const auto& [weak, strong] :
+       {std::pair{40.0, 80.0}, std::pair{60.0, 80.0}, std::pair{80.0, 120.0}}) {
+    const test::WholeRun run(two_strips(weak, strong, "[stop]\nload_fraction = 0.1\n"));
+    const auto told = [&](const char* key) { return run.summary.json.at(key).get<double>(); };
+    const double first = 3.0 * (weak + strong), later = 6.0 * strong;
+    EXPECT_NEAR(told("peak_load"), first, 0.05 * first);
+    EXPECT_NEAR(told("smoothed_peak_load"), first, 0.05 * first);
+    EXPECT_EQ(told("first_peak_load"), told("peak_load"));
+    EXPECT_NEAR(told("largest_load"), later, 0.05 * later);
+    EXPECT_THAT(run.summary.doubts, Contains(HasSubstr("residual strength")));
+    EXPECT_THAT(run.summary.text, HasSubstr("residual strength"));
+
+    const test::WholeRun stages(
+        two_strips(weak, strong, "[[stages]]\nname = \"pull\"\nload_fraction = 0.1\n"));
+    const auto& stage = stages.summary.json.at("stages").at(0);
+    for (const char* key : {"peak_load", "largest_load", "smoothed_peak_load"}) {
+      EXPECT_NEAR(stage.at(key).get<double>(), told(key), 1e-6 * told(key)) << key;
+      EXPECT_EQ(stages.summary.json.at(key), stage.at(key)) << key;
+    }
+    EXPECT_THAT(stages.summary.doubts, Contains(HasSubstr("residual strength")));
+  }
+}
+
+/// A strip that is weaker than the other by a fifth of the load: the load never climbs again.
+TEST(ResidualStrength, IsNoneWhereTheLoadStaysBelowItsPeak) {
+  const test::WholeRun run(two_strips(160.0, 60.0, "[stop]\nload_fraction = 0.1\n"));
+  EXPECT_EQ(run.summary.json.at("peak_load"), run.summary.json.at("largest_load"));
+  EXPECT_THAT(run.summary.doubts, Not(Contains(HasSubstr("residual strength"))));
+}
+
+}  // namespace
+}  // namespace perilink

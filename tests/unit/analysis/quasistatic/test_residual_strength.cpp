@@ -1,0 +1,89 @@
+#include "analysis/quasistatic/residual_strength.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "support/strip_case.hpp"
+
+namespace perilink {
+namespace {
+
+/// Bonds across x = 15 in a strip of 40 by 80, from below.
+std::vector<Index> bonds_across(const Network& network) {
+  const Particles& particles = network.particles;
+  std::vector<Index> across;
+  for (Index b = 0; b < network.bonds.size(); ++b) {
+    const double from = particles.position(network.bonds.first[b])[0];
+    const double to = particles.position(network.bonds.second[b])[0];
+    if (std::min(from, to) < 15.0 && std::max(from, to) > 15.0) across.push_back(b);
+  }
+  const auto height = [&](Index b) {
+    return particles.position(network.bonds.first[b])[1] +
+           particles.position(network.bonds.second[b])[1];
+  };
+  std::ranges::stable_sort(across, {}, height);
+  return across;
+}
+
+/// Rows in which the bonds fail one after the other, `events` times each.
+std::vector<StepRecord> rows_of(const std::vector<Index>& bonds, int events = 1) {
+  std::vector<StepRecord> rows;
+  for (int k = 0; k < events; ++k) {
+    for (const Index bond : bonds) rows.emplace_back().element = bond;
+  }
+  return rows;
+}
+
+/// The middles of the bonds reach from y = 0 to 64 or more.
+TEST(ThroughCrack, SpansFourFifthsOfTheBody) {
+  const Network network = build_model(test::strip_case()).network;
+  const std::vector<Index> across = bonds_across(network);
+  const std::vector<StepRecord> rows = rows_of(across);
+  const auto reaches = std::ranges::find_if(across, [&](Index b) {
+    return network.particles.position(network.bonds.first[b])[1] +
+               network.particles.position(network.bonds.second[b])[1] >=
+           2.0 * 64.0;
+  });
+  const auto expected = static_cast<std::size_t>(reaches - across.begin()) + 1;
+  ASSERT_GT(expected, across.size() / 2);
+  EXPECT_EQ(rows_before_through_crack(network, rows), expected);
+  EXPECT_EQ(rows_before_through_crack(network, std::span(rows).first(expected - 1)), expected - 1);
+}
+
+/// Forces at the limits are 1, 0.6 and 0.3: the second event brings a bond below half.
+TEST(ThroughCrack, IsMadeOfBondsBelowHalfOfTheirForce) {
+  Network network = build_model(test::strip_case()).network;
+  network.laws = {BondLaw::saw_tooth({{1.0, 1.0}, {0.3, 2.0}, {0.1, 3.0}})};
+  const std::vector<Index> across = bonds_across(network);
+  EXPECT_EQ(rows_before_through_crack(network, rows_of(across)), across.size());
+  EXPECT_GT(rows_before_through_crack(network, rows_of(across, 2)), across.size());
+  EXPECT_LT(rows_before_through_crack(network, rows_of(across, 2)), 2 * across.size());
+}
+
+/// Loads climb by half once the crack has gone through.
+TEST(Peaks, EndWithTheCrackThroughTheBody) {
+  const Network network = build_model(test::strip_case()).network;
+  std::vector<StepRecord> rows = rows_of(bonds_across(network));
+  const std::size_t through = rows_before_through_crack(network, rows);
+  const auto result_of = [&](double later) {
+    DamageResult result;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      rows[k].displacement = 1.0 + static_cast<double>(k);
+      rows[k].load = k < through ? 10.0 + 0.001 * static_cast<double>(k) : later;
+      result.peaks.add({rows[k].displacement, rows[k].load});
+    }
+    find_peaks(network, rows, result);
+    return result;
+  };
+  const DamageResult climbed = result_of(15.0);
+  EXPECT_EQ(climbed.peak_load, rows[through - 1].load);
+  EXPECT_EQ(climbed.peak_displacement, static_cast<double>(through));
+  EXPECT_EQ(climbed.peaks.highest().load, 15.0);
+  EXPECT_TRUE(climbed.peaks.climbed_again());
+  EXPECT_EQ(result_of(11.0).peak_load, 11.0) << "by less than a tenth";
+}
+
+}  // namespace
+}  // namespace perilink
