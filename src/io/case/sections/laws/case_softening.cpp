@@ -74,9 +74,9 @@ std::array<double, 2> read_plateau(const CaseTable& table, const std::string& se
                                    "the stretch at which it falls to zero over that limit");
   if (!(factor > 1.0 && factor <= most_rise)) {
     table.refuse(factor_key,
-                 fmt::format("is {}, but the force is constant up to there: more than one and at "
-                             "most {:g} are possible",
-                             factor, most_rise),
+                 fmt::format("must be more than one and at most {:g}: the force is constant up to "
+                             "there",
+                             most_rise),
                  "2 in tension and 3 in compression are those of the paper");
   }
   return {limit, factor * limit};
