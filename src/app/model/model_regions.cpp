@@ -95,7 +95,10 @@ void add_bar_nodes(const Model& model, const Group* group, std::vector<Index>& m
     }
   };
   if (group != nullptr && !group->cells.empty()) {
-    const Mesh mesh{particles.dim, particles.positions, model.cells.vertices};
+    Mesh mesh;
+    mesh.dim = particles.dim;
+    mesh.positions = particles.positions;
+    mesh.cells = model.cells.vertices;
     const CellSearch cells(mesh, group->cells, tolerance);
     return add([&](const Vector3& point) { return cells.contains(point); });
   }

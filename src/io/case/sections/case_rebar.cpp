@@ -232,19 +232,16 @@ void read_bond(const CaseTable& table, RebarSection& bar) {
   }
 }
 
-/// A prestrain, and flow that stages leave behind, move an end of each segment with its node.
-void refuse_shifts_without_factor(const CaseFile& input, std::size_t k) {
-  if (input.analysis.solver != LinearSolver::iterative) return;
+/// Flow that stages leave behind moves an end of each segment with its node.
+void refuse_flow_without_factor(const CaseFile& input, std::size_t k) {
   const RebarSection& bar = input.rebar[k];
-  const bool flows = input.analysis.type == AnalysisType::damage && !input.stages.empty() &&
-                     bar.yields && (bar.yield_strength || !bar.curve.empty());
-  if (bar.prestrain == 0.0 && !flows) return;
-  throw InputError(
-      input.where("analysis.solver"),
-      fmt::format("is \"iterative\", but rebar[{}] {}, which only a factor serves", k + 1,
-                  bar.prestrain != 0.0 ? "has a prestrain" : "may yield in a case with [[stages]]"),
-      fmt::format("set solver = \"direct\", or {} in [[rebar]]",
-                  bar.prestrain != 0.0 ? "prestrain = 0" : "yields = false"));
+  const bool flows = bar.yields && (bar.yield_strength || !bar.curve.empty());
+  if (input.analysis.solver != LinearSolver::iterative || input.stages.empty() || !flows) return;
+  throw InputError(input.where("analysis.solver"),
+                   fmt::format("is \"iterative\", but rebar[{}] may yield in a case with "
+                               "[[stages]], which only a factor serves",
+                               k + 1),
+                   "set solver = \"direct\", or yields = false in [[rebar]]");
 }
 
 }  // namespace
@@ -276,13 +273,8 @@ void check_rebar(const CaseFile& input) {
           fmt::format("is \"{}\", but the body is no mesh that could have such a group", bar.group),
           "give the `points` of the bar, or `mesh` in [body]");
     }
-    if (bar.prestrain != 0.0 && !is_quasistatic(input.analysis.type)) {
-      throw InputError(input.where(item_key("rebar", k, "prestrain")),
-                       "is given, but explicit runs and relaxation know no prestrain",
-                       "set type = \"damage\" or \"elastic\" in [analysis]");
-    }
     if (bar.bond == RebarBond::concrete) {
-      refuse_shifts_without_factor(input, k);
+      refuse_flow_without_factor(input, k);
       continue;
     }
     if (input.analysis.solver == LinearSolver::iterative) {
@@ -295,6 +287,11 @@ void check_rebar(const CaseFile& input) {
       throw InputError(input.where("analysis.strain"),
                        "is \"green\", but the ties of bars know small strains only",
                        "delete the line, or set bond = \"concrete\" in [[rebar]]");
+    }
+    if (bar.prestrain != 0.0 && !is_quasistatic(input.analysis.type)) {
+      throw InputError(input.where(item_key("rebar", k, "prestrain")),
+                       "is given, but explicit runs and relaxation know no prestrain",
+                       "set type = \"damage\" or \"elastic\" in [analysis]");
     }
   }
 }
