@@ -84,8 +84,10 @@ std::vector<Tooth> teeth_of(const SofteningCurve& curve, double ripple) {
         (rises_less(end) ? low : high) = end;
       }
     }
-    if (!(end > begin)) throw std::invalid_argument("the curve is too flat for secants of its own");
     const ToothBetween tooth(curve, begin, end);
+    if (!(tooth.limit >= begin && std::isfinite(tooth.limit))) {  // or the loop would not end
+      throw std::invalid_argument("the curve is too flat for secants of its own");
+    }
     teeth.push_back({tooth.secant, tooth.limit});
     begin = end;
   }

@@ -17,7 +17,7 @@ namespace perilink {
 
 /// A bond dissipates at most so many times the energy that it holds at its strength [-]: beyond,
 /// round-off decides where its secants leave the curve.
-constexpr double most_softening = 1e12;
+constexpr double most_softening = 1e10;
 
 /// At the strength of a material a bond holds more energy than the fracture energy pays for, or less
 /// than a part 1 / most_softening of it.

@@ -14,7 +14,7 @@ namespace perilink {
 namespace {
 
 constexpr double least_error = 1e-5;
-constexpr double most_rise = 1e12;  ///< stretch where the force is zero over that where it falls
+constexpr double most_rise = 1e10;  ///< stretch where the force is zero over that where it falls
 constexpr std::array knee_keys = {"knee_stress_ratio", "knee_opening_ratio"};
 constexpr std::array concrete_keys = {"tension_limit", "tension_factor", "compression_limit",
                                       "compression_factor", "shear_softening"};
