@@ -85,6 +85,9 @@ std::vector<Tooth> teeth_of(const SofteningCurve& curve, double ripple) {
       }
     }
     const ToothBetween tooth(curve, begin, end);
+    if (!(tooth.limit >= begin && std::isfinite(tooth.limit))) {  // or the loop would not end
+      throw std::invalid_argument("the curve is too flat for secants of its own");
+    }
     teeth.push_back({tooth.secant, tooth.limit});
     begin = end;
   }

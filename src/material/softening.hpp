@@ -74,7 +74,7 @@ class SofteningCurve {
 /// straight piece is sqrt(S_k S_(k+1)).
 /// \param ripple  most by which the force of a tooth rises above the curve [-]; all teeth but the
 ///     last rise so far
-/// \throws std::invalid_argument unless the ripple is positive
+/// \throws std::invalid_argument unless the ripple is positive, or for a curve too flat to tell
 std::vector<Tooth> teeth_of(const SofteningCurve& curve, double ripple);
 BondLaw saw_tooth_of(const SofteningCurve& curve, double ripple);
 

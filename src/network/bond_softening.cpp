@@ -220,7 +220,7 @@ double find_energy(const StrengthFactor& factor_of, const SofteningShape& shape,
   double factor = 1.0;
   for (int round = 0; round < most_rounds; ++round) {
     const double energy = unit_energy * factor * factor;
-    if (!(energy > 1.0)) throw TooStrong(no_index, energy);
+    if (!(energy > 1.0 && energy < most_softening)) throw TooStrong(no_index, energy);
     const double next = factor_of(saw_tooth_of(SofteningCurve(shape, energy), fine_ripple), false);
     const bool same = std::abs(next - factor) < same_factor * next;
     factor = next;
@@ -283,7 +283,7 @@ MaterialBonds bonds_by(const StrengthFactor& factor_of, double modulus,
 }  // namespace
 
 TooStrong::TooStrong(Index number, double energy)
-    : std::invalid_argument("a bond would release more energy than it may dissipate"),
+    : std::invalid_argument("the strength of a bond does not fit its fracture energy"),
       material(number),
       share(energy) {}
 

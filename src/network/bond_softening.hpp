@@ -15,12 +15,17 @@
 
 namespace perilink {
 
-/// At the strength of a material a bond holds more energy than the fracture energy pays for.
+/// A bond dissipates at most so many times the energy that it holds at its strength [-]: beyond,
+/// round-off decides where its secants leave the curve.
+constexpr double most_softening = 1e10;
+
+/// At the strength of a material a bond holds more energy than the fracture energy pays for, or less
+/// than a part 1 / most_softening of it.
 class TooStrong : public std::invalid_argument {
  public:
   TooStrong(Index material, double share);
   Index material;  ///< number in NetworkInput::materials
-  double share;    ///< energy that the bond may dissipate over that which it holds; one or less
+  double share;    ///< energy that the bond may dissipate over that which it holds
 };
 
 /// Law and strength of the bonds of one material.
@@ -32,7 +37,7 @@ struct MaterialBonds {
 /// Bonds that would break at the stretch s_c if they were brittle may dissipate s_c^2 / 2 per
 /// stiffness and length; those that soften have 2 G_s / s_0^2 = (s_c / s_0)^2 and begin to at
 /// s_0 = f_t / (beta E), with beta by cell_strength(). It depends on that energy: a fixed point.
-/// \throws TooStrong where s_c does not exceed s_0
+/// \throws TooStrong where s_c does not exceed s_0, or (s_c / s_0)^2 most_softening
 MaterialBonds bonds_of_material(const Body& body, const NetworkInput& input,
                                 const SolidMaterial& material, double brittle_stretch);
 

@@ -170,8 +170,7 @@ double Vibration::settle() {
     improve(last);
   }
   throw SolverError(
-      fmt::format("the fundamental period is not settled after {} iterations; give it in the case",
-                  most_period_steps));
+      fmt::format("the fundamental period is not settled after {} iterations", most_period_steps));
 }
 
 }  // namespace

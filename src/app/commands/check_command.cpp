@@ -209,15 +209,23 @@ int check_relaxation(const std::string& case_path, const CaseFile& input) {
   const Model model = draft_model(input);
   const double drafted = timer.seconds();
   const ExpectedSetUp set_up{drafted, time_of_calibration(input, model)};
-  const double iterations = expected_iterations(model, relaxation_options(input, 1));
+  double iterations = 0.0;
+  std::string unknown;  // why the iterations are, which the run itself finds out
+  try {
+    iterations = expected_iterations(model, relaxation_options(input, 1));
+  } catch (const SolverError& error) {
+    unknown = error.what();
+  }
   print_case(case_path, input);
   print_sizes(model);
-  fmt::print("#   load steps         {}, the first of about {:.2g} iterations\n",
-             input.analysis.load_factors.size(), iterations);
+  fmt::print("#   load steps         {}, the first of {} iterations\n",
+             input.analysis.load_factors.size(),
+             unknown.empty() ? fmt::format("about {:.2g}", iterations) : "an unknown number of");
   const double step = model.network.num_elements() * iterations / bond_steps_per_second;
   fmt::print("# expected cost of a run\n");
   print_set_up(set_up);
-  fmt::print("#   first load step    about {} on one core\n", time_text(step));
+  fmt::print("#   first load step    {}\n",
+             unknown.empty() ? fmt::format("about {} on one core", time_text(step)) : unknown);
   return exit_done;
 }
 

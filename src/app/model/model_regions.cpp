@@ -6,6 +6,9 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "discretization/facet_geometry.hpp"
+#include "discretization/mesh_faces.hpp"
+#include "discretization/meshes/cell_search.hpp"
 #include "io/case/case_words.hpp"
 
 namespace perilink {
@@ -33,15 +36,95 @@ std::vector<Index> corners_of_surface(const Facets& facets) {
   return corners;
 }
 
+using Piece = std::vector<Vector3>;  ///< corners of a point, a line, a triangle or a rectangle
+
+Piece piece_of(const Particles& particles, std::span<const Index> corners) {
+  Piece piece;
+  for (const Index i : corners) piece.push_back(point_of(particles.positions, particles.dim, i));
+  return piece;
+}
+
+/// Points, lines or triangles of a group without cells.
+std::vector<Piece> pieces_of(const Model& model, const Group& group) {
+  std::vector<Piece> pieces;
+  const auto at = [&](Index k) { return point_of(group.line_points, 3, k); };
+  for (std::size_t k = 0; k + 1 < group.lines.size(); k += 2) {
+    pieces.push_back({at(group.lines[k]), at(group.lines[k + 1])});
+  }
+  const auto points = static_cast<Index>(group.line_points.size() / 3);
+  for (Index k = 0; k < points && group.lines.empty(); ++k) pieces.push_back({at(k)});
+  const Particles& particles = model.network.particles;
+  const auto dim = static_cast<std::size_t>(particles.dim);
+  for (std::size_t k = 0; dim == 3 && k < group.sides.size(); k += dim) {
+    pieces.push_back(piece_of(particles, std::span(group.sides).subspan(k, dim)));
+  }
+  return pieces;
+}
+
+std::vector<Piece> pieces_of_surface(const Model& model) {
+  std::vector<Piece> pieces;
+  for (Index facet = 0; facet < model.facets.size(); ++facet) {
+    if (!model.facets.on_surface(facet)) continue;
+    pieces.push_back(piece_of(model.network.particles, model.facets.corners.row(facet)));
+  }
+  return pieces;
+}
+
+bool lies_on(const Piece& piece, const Vector3& point, double tolerance) {
+  for (int a = 0; a < 3; ++a) {
+    const auto by_axis = [a](const Vector3& p, const Vector3& q) { return p[a] < q[a]; };
+    const auto [low, high] = std::minmax_element(piece.begin(), piece.end(), by_axis);
+    if (point[a] < (*low)[a] - tolerance || point[a] > (*high)[a] + tolerance) return false;
+  }
+  if (piece.size() != 2 && piece.size() != 3) return true;  // its box is the piece itself
+  const FacetGeometry facet{piece.size() == 2, piece[0], piece[1], piece.back()};
+  return norm(minus(nearest_point(facet, point), point)) <= tolerance;
+}
+
+/// Adds the nodes of bars on the surface or on the points, lines, sides or cells of a group, which
+/// have no particles of the mesh.
+/// \param group  null: the surface
+void add_bar_nodes(const Model& model, const Group* group, std::vector<Index>& members) {
+  const Particles& particles = model.network.particles;
+  if (model.network.bars.bar.empty()) return;
+  const double tolerance = region_tolerance * model.lattice.spacing;
+  const auto add = [&](auto is_inside) {
+    for (Index i = 0; i < particles.size(); ++i) {
+      if (particles.kind[i] != ParticleKind::rebar) continue;
+      if (is_inside(point_of(particles.positions, particles.dim, i))) members.push_back(i);
+    }
+  };
+  if (group != nullptr && !group->cells.empty()) {
+    Mesh mesh;
+    mesh.dim = particles.dim;
+    mesh.positions = particles.positions;
+    mesh.cells = model.cells.vertices;
+    const CellSearch cells(mesh, group->cells, tolerance);
+    return add([&](const Vector3& point) { return cells.contains(point); });
+  }
+  const auto pieces = group == nullptr ? pieces_of_surface(model) : pieces_of(model, *group);
+  add([&](const Vector3& point) {
+    return std::ranges::any_of(
+        pieces, [&](const Piece& piece) { return lies_on(piece, point, tolerance); });
+  });
+}
+
 std::vector<Index> particles_inside(const Model& model, const Region* region,
                                     const std::string& name) {
-  if (region == nullptr && name == surface_region) return corners_of_surface(model.facets);
+  std::vector<Index> inside;
+  if (region == nullptr && name == surface_region) {
+    inside = corners_of_surface(model.facets);
+    add_bar_nodes(model, nullptr, inside);
+    return inside;
+  }
   if (region != nullptr && !region->group.empty()) {
-    return group_named(model, region->group).particles;
+    const Group& group = group_named(model, region->group);
+    inside = group.particles;
+    add_bar_nodes(model, &group, inside);
+    return inside;
   }
   const Particles& particles = model.network.places();
   const double tolerance = region_tolerance * model.lattice.spacing;
-  std::vector<Index> inside;
   for (Index i = 0; i < particles.size(); ++i) {
     if (!is_material(particles.kind[i])) continue;
     if (region == nullptr || region->contains(particles.position(i), tolerance)) {

@@ -67,7 +67,8 @@ struct Group {
   std::string name;
   std::vector<Index> particles;  ///< ascending
   std::vector<Index> facets;     ///< those on the surface that belong to the group, ascending
-  /// Groups of lines: their points [length], shape (points, 3), and their ends, shape (lines, 2).
+  /// Groups of points and of lines: points [length], shape (points, 3), and the ends of lines, shape
+  /// (lines, 2).
   std::vector<double> line_points = {};
   std::vector<Index> lines = {};
   /// An end of a line that is no edge of the body: a curve for bars alone.
@@ -75,6 +76,7 @@ struct Group {
   /// Groups of lines, in space of triangles: the sides of cells that they are, by their corners,
   /// shape (sides, dim).
   std::vector<Index> sides = {};
+  std::vector<Index> cells = {};  ///< groups of cells: their numbers in Body::cells, ascending
 };
 
 /// A part of a beam with one section and one material.

@@ -169,13 +169,14 @@ void add_facets_of_facets(const Mesh& mesh, const MeshGroup& group, const CellFa
   }
 }
 
+/// Points of a group of points or lines, and the ends of its lines.
 void add_lines(const Mesh& mesh, const MeshGroup& group, const Numbering& numbering,
                Group& result) {
   const std::vector<Index>& lines = mesh.dim == 2 ? mesh.facets : mesh.lines;
   for (const Index point : group.points) {
     const Vector3 x = point_of(mesh.positions, mesh.dim, point);
     result.line_points.insert(result.line_points.end(), x.begin(), x.end());
-    const bool is_own = numbering.particle[point] == no_index;
+    const bool is_own = group.dim == 1 && numbering.particle[point] == no_index;
     if (is_own && numbering.whole && !result.loose) result.loose = x;
   }
   for (const Index element : group.elements) {
@@ -187,19 +188,20 @@ void add_lines(const Mesh& mesh, const MeshGroup& group, const Numbering& number
   }
 }
 
-std::vector<Index> facets_of_cells(const MeshGroup& group, const CellFaces& faces,
-                                   const Numbering& numbering, Index num_cells) {
+void add_cells_of_group(const MeshGroup& group, const CellFaces& faces, const Numbering& numbering,
+                        Index num_cells, Group& result) {
   std::vector<bool> member(static_cast<std::size_t>(num_cells), false);
   for (const Index element : group.elements) {
     if (numbering.cell[element] != no_index) member[numbering.cell[element]] = true;
   }
-  std::vector<Index> found;
+  for (Index cell = 0; cell < num_cells; ++cell) {
+    if (member[cell]) result.cells.push_back(cell);
+  }
   for (Index f = 0; f < faces.size(); ++f) {
     if (numbering.surface_facet[f] != no_index && member[faces.cells[f][0]]) {
-      found.push_back(numbering.surface_facet[f]);
+      result.facets.push_back(numbering.surface_facet[f]);
     }
   }
-  return found;
 }
 
 Group body_group(const Mesh& mesh, const MeshGroup& group, const CellFaces& faces,
@@ -211,9 +213,9 @@ Group body_group(const Mesh& mesh, const MeshGroup& group, const CellFaces& face
       result.particles.push_back(numbering.particle[point]);
     }
   }
-  if (group.dim == mesh.dim) result.facets = facets_of_cells(group, faces, numbering, num_cells);
+  if (group.dim == mesh.dim) add_cells_of_group(group, faces, numbering, num_cells, result);
   if (group.dim == mesh.dim - 1) add_facets_of_facets(mesh, group, faces, numbering, result);
-  if (group.dim == 1) add_lines(mesh, group, numbering, result);
+  if (group.dim <= 1) add_lines(mesh, group, numbering, result);
   std::sort(result.facets.begin(), result.facets.end());
   result.facets.erase(std::unique(result.facets.begin(), result.facets.end()), result.facets.end());
   return result;

@@ -23,6 +23,9 @@ namespace {
 /// Particles this close to a region's side, in spacings, are inside.
 constexpr double on_side = 1e-6;
 
+/// Bonds that may dissipate a smaller part of what they would hold tell of units that do not fit.
+constexpr double far = 1e-3;
+
 /// Marks the particles of a region that the case names.
 void mark(const CaseFile& input, const Body& body, const std::string& name, std::uint8_t side,
           std::vector<std::uint8_t>& sides) {
@@ -167,20 +170,33 @@ void refuse_interfaces_without_bonds(const CaseFile& input, const Network& netwo
   }
 }
 
-void refuse_strong_interface(const CaseFile& input, const NetworkInput& network,
-                             const TooStrong& error) {
-  const auto first = static_cast<Index>(network.materials.size());
-  if (error.material < first) return;
-  const auto k = static_cast<std::size_t>(error.material - first);
-  const double strength = network.interfaces[k].softening.tensile_strength;
+void refuse_unfit_strength(const CaseFile& input, const NetworkInput& network,
+                           const TooStrong& error) {
+  const auto count = static_cast<Index>(network.materials.size());
+  const bool is_face = error.material >= count;
+  const auto k = static_cast<std::size_t>(is_face ? error.material - count : error.material);
+  const char* table = is_face ? "interfaces" : "materials";
+  const double strength = is_face ? network.interfaces[k].softening.tensile_strength
+                                  : network.materials[k].softening.tensile_strength;
+  if (error.share > 1.0) {
+    const double energy =
+        is_face ? network.interfaces[k].fracture_energy : network.materials[k].fracture_energy;
+    throw InputError(
+        input.where(item_key(table, k, "fracture_energy")),
+        fmt::format("is {:.6g}, {:.3g} times what a bond with a horizon of {:.6g} holds at "
+                    "tensile_strength = {:.6g}; at most {:g} times are possible",
+                    energy, error.share, network.horizon, strength, most_softening),
+        "give less, or a larger tensile_strength; are the numbers in units of one system?");
+  }
   throw InputError(
-      input.where(item_key("interfaces", k, "tensile_strength")),
+      input.where(item_key(table, k, "tensile_strength")),
       fmt::format("is {:.6g}, but with a horizon of {:.6g} a bond would hold {:.3g} times the "
                   "energy at this stress that fracture_energy lets it dissipate",
                   strength, network.horizon, 1.0 / error.share),
       fmt::format("take a horizon below {:.4g}, a strength below {:.4g} or a larger "
-                  "fracture_energy; brittle bonds have no strength of their own",
-                  network.horizon * error.share, strength * std::sqrt(error.share)));
+                  "fracture_energy; brittle bonds have no strength of their own{}",
+                  network.horizon * error.share, strength * std::sqrt(error.share),
+                  error.share < far ? "; are the numbers in units of one system?" : ""));
 }
 
 }  // namespace perilink

@@ -17,8 +17,9 @@ std::vector<WeakInterface> weak_interfaces(const CaseFile& input, const Body& bo
 /// \throws InputError
 void refuse_interfaces_without_bonds(const CaseFile& input, const Network& network);
 
-/// Where the strength that is too large is that of an interface. \throws InputError
-void refuse_strong_interface(const CaseFile& input, const NetworkInput& network,
-                             const TooStrong& error);
+/// Refuses a material or an interface whose strength does not fit its fracture energy.
+/// \throws InputError
+[[noreturn]] void refuse_unfit_strength(const CaseFile& input, const NetworkInput& network,
+                                        const TooStrong& error);
 
 }  // namespace perilink

@@ -127,24 +127,11 @@ void refuse_unbending_materials(const CaseFile& input, const NetworkInput& netwo
   }
 }
 
-/// Bonds that may dissipate a smaller part of what they would hold tell of units that do not fit.
-constexpr double far = 1e-3;
-
 Network build_case_network(const CaseFile& input, const Body& body, const NetworkInput& network) {
   try {
     return build_network(body, network);
   } catch (const TooStrong& error) {
-    refuse_strong_interface(input, network, error);
-    const double strength = network.materials[error.material].softening.tensile_strength;
-    throw InputError(
-        input.where(item_key("materials", error.material, "tensile_strength")),
-        fmt::format("is {:.6g}, but with a horizon of {:.6g} a bond would hold {:.3g} times the "
-                    "energy at this stress that fracture_energy lets it dissipate",
-                    strength, network.horizon, 1.0 / error.share),
-        fmt::format("take a horizon below {:.4g}, a strength below {:.4g} or a larger "
-                    "fracture_energy; brittle bonds have no strength of their own{}",
-                    network.horizon * error.share, strength * std::sqrt(error.share),
-                    error.share < far ? "; are the numbers in units of one system?" : ""));
+    refuse_unfit_strength(input, network, error);
   } catch (const std::invalid_argument& error) {
     refuse_unbending_materials(input, network);
     throw InputError(input.where(horizon_key(input.body)), error.what(),

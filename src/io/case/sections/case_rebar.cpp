@@ -232,6 +232,18 @@ void read_bond(const CaseTable& table, RebarSection& bar) {
   }
 }
 
+/// Flow that stages leave behind moves an end of each segment with its node.
+void refuse_flow_without_factor(const CaseFile& input, std::size_t k) {
+  const RebarSection& bar = input.rebar[k];
+  const bool flows = bar.yields && (bar.yield_strength || !bar.curve.empty());
+  if (input.analysis.solver != LinearSolver::iterative || input.stages.empty() || !flows) return;
+  throw InputError(input.where("analysis.solver"),
+                   fmt::format("is \"iterative\", but rebar[{}] may yield in a case with "
+                               "[[stages]], which only a factor serves",
+                               k + 1),
+                   "set solver = \"direct\", or yields = false in [[rebar]]");
+}
+
 }  // namespace
 
 RebarSection read_rebar(const CaseTable& table, int dim) {
@@ -261,7 +273,10 @@ void check_rebar(const CaseFile& input) {
           fmt::format("is \"{}\", but the body is no mesh that could have such a group", bar.group),
           "give the `points` of the bar, or `mesh` in [body]");
     }
-    if (bar.bond == RebarBond::concrete) continue;
+    if (bar.bond == RebarBond::concrete) {
+      refuse_flow_without_factor(input, k);
+      continue;
+    }
     if (input.analysis.solver == LinearSolver::iterative) {
       throw InputError(input.where("analysis.solver"),
                        "is \"iterative\", but the body has bars, whose nodes are tied to "

@@ -3,8 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
 
+#include "support/halved_meshes.hpp"
 #include "support/strip_case.hpp"
+#include "support/temporary_directory.hpp"
 
 namespace perilink {
 namespace {
@@ -55,6 +60,107 @@ TEST(ModelRegions, HoldBarNodesToo) {
   ASSERT_EQ(one.size(), 1u);
   EXPECT_EQ(model.network.particles.kind[one[0]], ParticleKind::rebar);
 }
+
+/// A group of points holds the nodes there, one of lines those along them, and the surface its own.
+TEST(ModelRegions, HoldBarNodesOnPointsLinesAndTheSurface) {
+  CaseFile input = strip_case();
+  RebarSection bar;
+  bar.points = {{15.0, 0.0, 0.0}, {15.0, 60.0, 0.0}};
+  bar.bond = RebarBond::linear;
+  bar.bond_stiffness = 1.0;
+  bar.youngs_modulus = 29000.0;
+  bar.area = 1.0;
+  input.rebar.push_back(bar);
+  Model model = build_model(input);
+  model.groups = {{"point", {}, {}, {15, 60, 0}}, {"line", {}, {}, {15, 5, 0, 15, 35, 0}, {0, 1}}};
+  const auto nodes_in = [&](const std::string& group) {
+    input.regions[3].group = group;
+    return particles_of_region(input, model, "middle", "k");
+  };
+  const std::vector<Index> end = nodes_in("point");
+  ASSERT_EQ(end.size(), 1u);
+  EXPECT_EQ(model.network.particles.kind[end[0]], ParticleKind::rebar);
+  EXPECT_DOUBLE_EQ(model.network.particles.position(end[0])[1], 60.0);
+  EXPECT_EQ(nodes_in("line").size(), 3u);  // at y = 10, 20 and 30
+  const std::vector<Index> surface = particles_of_region(input, model, "surface", "k");
+  EXPECT_EQ(std::count_if(
+                surface.begin(), surface.end(),
+                [&](Index i) { return model.network.particles.kind[i] == ParticleKind::rebar; }),
+            1);
+}
+
+/// Coordinates before test::turned().
+Vector3 turned_back(std::span<const double> x) {
+  Vector3 point{};
+  std::copy(x.begin(), x.end(), point.begin());
+  const double a = std::acos(-1.0) / 6.0, b = x.size() == 3 ? std::acos(-1.0) / 9.0 : 0.0;
+  const double across = point[1] * std::cos(b) + point[2] * std::sin(b);
+  return {point[0] * std::cos(a) + across * std::sin(a),
+          across * std::cos(a) - point[0] * std::sin(a),
+          point[2] * std::cos(b) - point[1] * std::sin(b)};
+}
+
+class RegionsOfGroups : public testing::TestWithParam<int> {};
+
+/// A hundred bars at random places through the halves of a turned square or cube: groups of cells
+/// and of sides hold the nodes that intervals along the body's own axes would.
+TEST_P(RegionsOfGroups, HoldTheBarNodesThatIntervalsWould) {
+  const int dim = GetParam(), count = dim == 2 ? 10 : 4;
+  const double side = 10.0 * count, near = 1e-7 * side;
+  const test::TemporaryDirectory directory;
+  test::write_text(directory / "halves.msh", test::halved_mesh_text(dim, count, side));
+  std::string text = fmt::format(
+      "[body]\nproblem = \"{}\"\nmesh = \"halves.msh\"\nsurface = \"none\"\nhorizon_ratio = 2\n",
+      dim == 3 ? "three_dimensional" : "plane_stress");
+  const std::vector<std::string> groups = {"first", "second", "left", "right", "face"};
+  for (const std::string& name : groups) {
+    text += fmt::format("[[regions]]\nname = \"{0}\"\ngroup = \"{0}\"\n", name);
+  }
+  text +=
+      "[[materials]]\nregions = [\"first\", \"second\"]\nyoungs_modulus = 100\n"
+      "[[supports]]\nregion = \"left\"\nfix = [\"x\", \"y\"]\n"
+      "[[loads]]\nregion = \"right\"\nforce = [1, 0]\n[analysis]\ntype = \"elastic\"\n";
+  if (dim == 3) {
+    text.replace(text.find("\"y\"]"), 4, "\"y\", \"z\"]");
+    text.replace(text.find("[1, 0]"), 6, "[1, 0, 0]");
+  }
+  std::mt19937 random(23);
+  std::uniform_real_distribution<double> place(0.1 * side, 0.9 * side);
+  for (int bar = 0; bar < 100; ++bar) {
+    text += "[[rebar]]\nyoungs_modulus = 1000\narea = 1\npoints = [";
+    const std::array<double, 3> from = {0.0, place(random), place(random)};
+    std::array<double, 3> to = {side, from[1], from[2]};
+    if (bar % 3 == 0) to = {place(random), place(random), place(random)};
+    for (const auto& end : {from, to}) {
+      const auto x = test::turned(dim == 2 ? std::array<double, 3>{end[0], end[1]} : end, dim);
+      text += fmt::format("[{}], ", fmt::join(x.begin(), x.begin() + dim, ", "));
+    }
+    text += bar % 2 == 0 ? "]\nbond = \"concrete\"\n" : "]\n";
+  }
+  const CaseFile input = parse_case(text, (directory / "halves.toml").string());
+  const Model model = draft_model(input);
+  const Particles& particles = model.network.particles;
+  const auto holds = [&](const std::string& name, double x) {
+    if (name == "first") return x <= 0.5 * side + near;
+    if (name == "second") return x >= 0.5 * side - near;
+    const double at = name == "left" ? 0.0 : name == "right" ? side : 0.5 * side;
+    return name == "surface" ? x <= near || x >= side - near : std::abs(x - at) <= near;
+  };
+  for (const std::string name : {"first", "second", "left", "right", "face", "surface"}) {
+    std::vector<Index> wanted, held;
+    for (Index i = 0; i < particles.size(); ++i) {
+      const bool is_bar = particles.kind[i] == ParticleKind::rebar;
+      if (is_bar && holds(name, turned_back(particles.position(i))[0])) wanted.push_back(i);
+    }
+    for (const Index i : particles_of_region(input, model, name, "supports[1]")) {
+      if (particles.kind[i] == ParticleKind::rebar) held.push_back(i);
+    }
+    EXPECT_GE(wanted.size(), 30u) << name;
+    EXPECT_EQ(held, wanted) << name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(PlaneAndSpace, RegionsOfGroups, testing::Values(2, 3));
 
 TEST(ModelRegions, EmptyOnesAreRefusedAtTheKeyThatAsks) {
   CaseFile input = strip_case();

@@ -14,6 +14,7 @@ namespace perilink {
 namespace {
 
 constexpr double least_error = 1e-5;
+constexpr double most_rise = 1e10;  ///< stretch where the force is zero over that where it falls
 constexpr std::array knee_keys = {"knee_stress_ratio", "knee_opening_ratio"};
 constexpr std::array concrete_keys = {"tension_limit", "tension_factor", "compression_limit",
                                       "compression_factor", "shear_softening"};
@@ -45,8 +46,9 @@ std::array<double, 2> read_stretches(const CaseTable& table, Softening kind) {
     table.refuse("fracture_energy", "is given beside `softening_stretches`",
                  "delete one of the two: the stretches settle the energy");
   }
-  if (given->size() != 2 || !((*given)[0] > 0.0) || !((*given)[1] > (*given)[0])) {
-    table.refuse(key, "must be two stretches that rise",
+  if (given->size() != 2 || !((*given)[0] > 0.0) || !((*given)[1] > (*given)[0]) ||
+      !((*given)[1] <= most_rise * (*given)[0])) {
+    table.refuse(key, fmt::format("must be two stretches that rise, {:g} times at most", most_rise),
                  "give where the force of a bond begins to fall and where it has fallen to zero: "
                  "[1e-4, 1e-3]");
   }
@@ -70,11 +72,22 @@ std::array<double, 2> read_plateau(const CaseTable& table, const std::string& se
                                   "the stretch at which the force of a bond ceases to grow");
   const double factor = table.need(factor_key, table.positive(factor_key),
                                    "the stretch at which it falls to zero over that limit");
-  if (!(factor > 1.0)) {
-    table.refuse(factor_key, "must be more than one: the force is constant up to there",
+  if (!(factor > 1.0 && factor <= most_rise)) {
+    table.refuse(factor_key,
+                 fmt::format("must be more than one and at most {:g}: the force is constant up to "
+                             "there",
+                             most_rise),
                  "2 in tension and 3 in compression are those of the paper");
   }
   return {limit, factor * limit};
+}
+
+void read_error(const CaseTable& table, SofteningMaterial& material) {
+  assign(material.error, table.fraction("softening_error"));
+  if (material.error >= least_error) return;
+  table.refuse("softening_error", fmt::format("is {}", material.error),
+               fmt::format("give {} or more: bonds would have more teeth than anyone can wait for",
+                           least_error));
 }
 
 void read_concrete(const CaseTable& table, SofteningMaterial& material) {
@@ -89,7 +102,7 @@ void read_concrete(const CaseTable& table, SofteningMaterial& material) {
   material.stretches = read_plateau(table, "tension");
   material.crushing = read_plateau(table, "compression");
   assign(material.shear_softens, table.boolean("shear_softening"));
-  assign(material.error, table.fraction("softening_error"));
+  read_error(table, material);
 }
 
 }  // namespace
@@ -123,13 +136,7 @@ SofteningMaterial read_softening(const CaseTable& table) {
   }
   assign(material.shape.knee_force, table.fraction("knee_stress_ratio"));
   assign(material.shape.knee_stretch, table.fraction("knee_opening_ratio"));
-  assign(material.error, table.fraction("softening_error"));
-  if (material.error < least_error) {
-    table.refuse(
-        "softening_error", fmt::format("is {}", material.error),
-        fmt::format("give {} or more: bonds would have more teeth than anyone can wait for",
-                    least_error));
-  }
+  read_error(table, material);
   return material;
 }
 
