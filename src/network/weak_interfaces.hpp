@@ -1,16 +1,29 @@
 #pragma once
 
+#include <span>
+#include <vector>
+
+#include "base/types.hpp"
 #include "discretization/lattices/lattice.hpp"
 #include "network/network.hpp"
 #include "network/network_input.hpp"
 
 namespace perilink {
 
+/// Bonds of the solid that cross a weak interface, without those that pre-cracks have cut,
+/// ascending.
+std::vector<Index> bonds_across(const Body& body, const WeakInterface& face,
+                                const Network& network);
+
 /// Lets the bonds that cross a weak interface break by its own law, whatever their materials. Their
 /// breaking takes its fracture energy per area of the face, G = s_c^2 / 2 times the sum of k xi^2
 /// over the area. Soft ones begin to at the stretch that makes the force across the face peak at
-/// its strength, by bonds_of_face() (docs/theory/softening.md, section 10).
+/// its strength, by bonds_of_face(). Where the stiffness of bonds varies along the face, stretches
+/// do too (docs/theory/softening.md, section 10).
+/// \param even_stiffness  of every bond if all materials had the constants of the first one
+///                        [force/length]; empty: bonds have the stiffness of their own materials
 /// \throws TooStrong  with the number of the interface behind those of the materials
-void weaken_interfaces(const Body& body, const NetworkInput& input, Network& network);
+void weaken_interfaces(const Body& body, const NetworkInput& input,
+                       std::span<const double> even_stiffness, Network& network);
 
 }  // namespace perilink
