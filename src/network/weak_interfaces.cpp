@@ -21,9 +21,39 @@ constexpr double plane = 0.98;
 /// Normals and sums at single particles are those of so many rounds of neighbours across the face.
 constexpr int rounds_of_spreading = 3;
 
+/// Bonds shorter than so many spacings tell which materials lie beside a face.
+constexpr double short_bonds = 1.5;
+
+/// Mark of particles in both regions beside a face.
+constexpr std::uint8_t both_sides = 3;
+
 /// Stiffnesses of places of a face that differ by less, in their logarithm, are taken together:
 /// each is a law of its own.
 constexpr double step_of_places = 0.05;
+
+/// Bonds that cross the face if particles that lie in both regions are on the given side.
+std::vector<Index> crossing_bonds(const Body& body, const WeakInterface& face, std::uint8_t shared,
+                                  const Network& network) {
+  std::vector<Index> crossing;
+  std::vector<std::uint8_t> keep;
+  if (face.side.empty()) {
+    keep = find_cut_bonds(network.particles, network.bonds, face.faces, body.lattice.spacing).keep;
+  }
+  const auto side = [&](Index i) -> int {
+    if (i >= static_cast<Index>(face.side.size())) return 0;
+    return face.side[i] == both_sides ? shared : face.side[i];
+  };
+  const bool has_bars = network.first_tie > 0;
+  const Index count = has_bars ? network.num_bonds() : network.bonds.size();
+  for (Index e = 0; e < count; ++e) {
+    const bool crosses = face.side.empty()
+                             ? keep[e] == 0
+                             : side(network.bonds.first[e]) + side(network.bonds.second[e]) == 3;
+    const std::vector<Index>& cut = network.cut_elements;
+    if (crosses && !std::binary_search(cut.begin(), cut.end(), e)) crossing.push_back(e);
+  }
+  return crossing;
+}
 
 Vector3 direction_of(const Network& network, Index bond) {
   Vector3 n{};
@@ -119,18 +149,15 @@ class Measure {
   std::span<const Index> crossing_;
   std::vector<double> dilatation_;  ///< stress of a uniform dilatation of one, per material
   double stress_ = 0.0;             ///< its mean over the bonds
-  bool uniform_ = true;             ///< all bonds have the mean constants
   std::map<Index, double> cosine_;  ///< between each bond and its normal
 };
 
-/// Mean constants of the materials that decide when the bonds break.
+/// Mean constants of the ends of the bonds.
 void Measure::mix(Face& face) {
   std::vector<double> parts(input_.materials.size(), 0.0);
-  const double first = dilatation_[materials_of_bond(network_, crossing_[0])[0]];
   for (const Index e : crossing_) {
-    for (const Index m : materials_of_bond(network_, e)) {
-      parts[m] += 0.5 / static_cast<double>(crossing_.size());
-      uniform_ = uniform_ && even_.empty() && dilatation_[m] == first;
+    for (const Index i : {network_.bonds.first[e], network_.bonds.second[e]}) {
+      parts[network_.particles.material[i]] += 0.5 / static_cast<double>(crossing_.size());
     }
   }
   for (std::size_t m = 0; m < parts.size(); ++m) {
@@ -142,10 +169,7 @@ void Measure::mix(Face& face) {
 
 /// Stiffness of a bond if all materials had the mean constants.
 double Measure::even_stiffness(Index bond) const {
-  if (uniform_) return network_.stiffness[bond];
-  if (!even_.empty()) return even_[bond] * (stress_ / dilatation_[0]);
-  const auto [a, b] = materials_of_bond(network_, bond);
-  return network_.stiffness[bond] * (stress_ / (0.5 * (dilatation_[a] + dilatation_[b])));
+  return even_.empty() ? network_.stiffness[bond] : even_[bond] * (stress_ / dilatation_[0]);
 }
 
 /// A uniform dilatation of one brings a stress of dim lambda + 2 mu, which bonds carry across the
@@ -262,31 +286,31 @@ MaterialBonds bonds_of(const Body& body, const NetworkInput& input, const Networ
 
 }  // namespace
 
-std::vector<Index> bonds_across(const Body& body, const WeakInterface& face,
-                                const Network& network) {
-  std::vector<Index> crossing;
-  std::vector<std::uint8_t> keep;
-  if (face.side.empty()) {
-    keep = find_cut_bonds(network.particles, network.bonds, face.faces, body.lattice.spacing).keep;
-  }
-  const auto side = [&](Index i) {
-    return i < static_cast<Index>(face.side.size()) ? face.side[i] : 0;
+std::vector<Index> bonds_across(const Body& body, const NetworkInput& input,
+                                const WeakInterface& face, const Network& network) {
+  const std::vector<Index> drawn = crossing_bonds(body, face, 2, network);
+  WeakInterface turned = face;
+  for (Crack& piece : turned.faces) std::reverse(piece.points.begin(), piece.points.end());
+  const std::vector<Index> others = crossing_bonds(body, turned, 1, network);
+  const auto modulus = [&](std::span<const Index> crossing) {
+    double sum = 0.0, count = 0.0;
+    for (const Index e : crossing) {
+      if (network.bonds.length(e) > short_bonds * body.lattice.spacing) continue;
+      for (const Index i : {network.bonds.first[e], network.bonds.second[e]}) {
+        sum += input.materials[network.particles.material[i]].youngs_modulus;
+        count += 1.0;
+      }
+    }
+    return count > 0.0 ? sum / count : infinity;
   };
-  for (Index e = 0; e < network.num_bonds(); ++e) {
-    const bool crosses = face.side.empty()
-                             ? keep[e] == 0
-                             : side(network.bonds.first[e]) + side(network.bonds.second[e]) == 3;
-    const std::vector<Index>& cut = network.cut_elements;
-    if (crosses && !std::binary_search(cut.begin(), cut.end(), e)) crossing.push_back(e);
-  }
-  return crossing;
+  return modulus(others) < (1.0 - 1e-6) * modulus(drawn) ? others : drawn;
 }
 
 void weaken_interfaces(const Body& body, const NetworkInput& input,
                        std::span<const double> even_stiffness, Network& network) {
   for (std::size_t k = 0; k < input.interfaces.size(); ++k) {
     const WeakInterface& section = input.interfaces[k];
-    const std::vector<Index> crossing = bonds_across(body, section, network);
+    const std::vector<Index> crossing = bonds_across(body, input, section, network);
     InterfaceBonds& own = network.interfaces.emplace_back();
     own.count = static_cast<Index>(crossing.size());
     if (crossing.empty()) continue;

@@ -11,9 +11,11 @@
 namespace perilink {
 
 /// Bonds of the solid that cross a weak interface, without those that pre-cracks have cut,
-/// ascending.
-std::vector<Index> bonds_across(const Body& body, const WeakInterface& face,
-                                const Network& network);
+/// ascending. Particles on the face are on the side that leaves the bonds of the softer material to
+/// it. Where materials are the same, particles in both regions are on the second side, and those on
+/// lines or planes on the positive one.
+std::vector<Index> bonds_across(const Body& body, const NetworkInput& input,
+                                const WeakInterface& face, const Network& network);
 
 /// Lets the bonds that cross a weak interface break by its own law, whatever their materials. Their
 /// breaking takes its fracture energy per area of the face, G = s_c^2 / 2 times the sum of k xi^2

@@ -133,7 +133,7 @@ std::vector<Crack> cracks_on_weaker_sides(const Body& body, const NetworkInput& 
     weakness.push_back(1.0 / energy_between(input.materials[i], input.materials[j]));
   }
   for (const WeakInterface& face : input.interfaces) {
-    for (const Index b : bonds_across(body, face, network))
+    for (const Index b : bonds_across(body, input, face, network))
       weakness[b] = 1.0 / face.fracture_energy;
   }
   const auto cut_by = [&](const Crack& crack) {
@@ -187,9 +187,8 @@ void share_directions_of_many(const NetworkInput& input, Bonds& bonds) {
 }
 
 /// Bonds of the solid and their stiffness.
-/// \param in_layers  set where the materials were calibrated layer by layer
 Network make_calibrated_bonds(const Body& body, const NetworkInput& input,
-                              const PairConstants& constants, bool& in_layers) {
+                              const PairConstants& constants) {
   Network network;
   network.particles = body.particles;
   network.bonds = make_bonds(network.particles, input.horizon);
@@ -204,7 +203,7 @@ Network make_calibrated_bonds(const Body& body, const NetworkInput& input,
   set_materials_at_joints(input, network);
   add_bonds(constants, input, network);
   if (input.model == BondModel::micropolar) network.torsion = input.torsion;
-  in_layers = correct_surfaces(body, input, network);
+  correct_surfaces(body, input, network);
   return network;
 }
 
@@ -223,10 +222,9 @@ void set_stretches(const Body& body, const NetworkInput& input, const PairConsta
 }
 
 /// The same, made in a smaller box where that will do, without those that pre-cracks cut.
-Network build_bonds(const Body& body, const NetworkInput& input, const PairConstants& constants,
-                    bool& in_layers) {
+Network build_bonds(const Body& body, const NetworkInput& input, const PairConstants& constants) {
   const auto make = [&](const Body& whole_or_part, const NetworkInput& its_input) {
-    return make_calibrated_bonds(whole_or_part, its_input, constants, in_layers);
+    return make_calibrated_bonds(whole_or_part, its_input, constants);
   };
   std::optional<Network> repeated = repeat_smaller_box(body, input, make);
   if (repeated) set_stretches(body, input, constants, *repeated);
@@ -240,9 +238,9 @@ Network build_bonds(const Body& body, const NetworkInput& input, const PairConst
 
 /// Bonds of a part of the body, and cells of the rest.
 Network build_bonds_and_cells(const Body& body, const NetworkInput& input,
-                              const PairConstants& constants, bool& in_layers) {
+                              const PairConstants& constants) {
   const BondedPart part = bonded_part(body, input.thickness);
-  Network network = build_bonds(part.body, input, constants, in_layers);
+  Network network = build_bonds(part.body, input, constants);
   join_cells(body, part, input, network);
   return network;
 }
@@ -250,7 +248,7 @@ Network build_bonds_and_cells(const Body& body, const NetworkInput& input,
 /// Stiffness of every bond if all materials had the constants of the first one; empty where bonds
 /// have the stiffness of their materials alone. Calibration of a body of several materials as a
 /// whole gives bonds near their joints any stiffness between theirs, and others.
-std::vector<double> even_stiffness(const Body& body, const NetworkInput& input, bool in_layers,
+std::vector<double> even_stiffness(const Body& body, const NetworkInput& input,
                                    const Network& network) {
   NetworkInput even = input;
   bool unlike = false;
@@ -260,22 +258,22 @@ std::vector<double> even_stiffness(const Body& body, const NetworkInput& input, 
     material.youngs_modulus = first.youngs_modulus;
     material.poissons_ratio = first.poissons_ratio;
   }
-  if (input.interfaces.empty() || in_layers || !unlike) return {};
+  if (input.interfaces.empty() || !unlike) return {};
   even.interfaces.clear();
   even.cracks.clear();
   even.on_search = {};
   const PairConstants constants(body, even);
-  const Network whole = body.glued.empty()
-                            ? build_bonds(body, even, constants, in_layers)
-                            : build_bonds_and_cells(body, even, constants, in_layers);
+  const Network whole = body.glued.empty() ? build_bonds(body, even, constants)
+                                           : build_bonds_and_cells(body, even, constants);
   std::vector<double> stiffness(static_cast<std::size_t>(network.num_bonds()), 0.0);
   const auto ends = [](const Bonds& bonds, Index b) {
     return std::pair(bonds.first[b], bonds.second[b]);
   };
+  const Index count = whole.bonds.size() - whole.num_edges_of_cells();
   Index at = 0;  // both are sorted by their ends
   for (Index b = 0; b < network.num_bonds(); ++b) {
-    while (at < whole.num_bonds() && ends(whole.bonds, at) < ends(network.bonds, b)) ++at;
-    if (at == whole.num_bonds()) break;
+    while (at < count && ends(whole.bonds, at) < ends(network.bonds, b)) ++at;
+    if (at == count) break;
     if (ends(whole.bonds, at) == ends(network.bonds, b)) stiffness[b] = whole.stiffness[at];
   }
   return stiffness;
@@ -287,14 +285,13 @@ Network build_network(const Body& body, const NetworkInput& input) {
   check_input(body, input);
   if (!body.spans.empty()) return make_beam(body, input);
   const PairConstants constants(body, input);
-  bool in_layers = false;
-  Network network = body.glued.empty() ? build_bonds(body, input, constants, in_layers)
-                                       : build_bonds_and_cells(body, input, constants, in_layers);
+  Network network = body.glued.empty() ? build_bonds(body, input, constants)
+                                       : build_bonds_and_cells(body, input, constants);
   add_bars(
       body, input, [&](Index material) { return constants.tie(material); }, network);
   if (!input.elastic) {
     soften_bonds(body, input, network);
-    weaken_interfaces(body, input, even_stiffness(body, input, in_layers, network), network);
+    weaken_interfaces(body, input, even_stiffness(body, input, network), network);
     for (const Index e : network.cut_elements) network.critical_stretch[e] = infinity;
   }
   for (std::vector<double>* of_ties : {&network.bending, &network.bending_ratio}) {

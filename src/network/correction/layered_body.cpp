@@ -291,9 +291,8 @@ bool calibrate_layers(const Body& body, const NetworkInput& input, const Joint& 
   NewBonds made{std::vector<double>(count, 0.0), {}};
   if (!input.elastic) made.stretch.assign(count, 0.0);
   if (!input.elastic &&
-      (!input.interfaces.empty() ||
-       std::any_of(input.materials.begin(), input.materials.end(),
-                   [](const SolidMaterial& m) { return std::isfinite(m.fracture_energy); }))) {
+      std::any_of(input.materials.begin(), input.materials.end(),
+                  [](const SolidMaterial& m) { return std::isfinite(m.fracture_energy); })) {
     whole.materials_of.assign(count, {no_index, no_index});
   }
   if (whole.carries_moments()) {

@@ -281,7 +281,7 @@ void Correction::set_strength(const LatticeFamilies* families) {
 
 /// Layers of materials that meet in planes, each as a body of its own.
 bool Correction::calibrate_layers() {
-  if (input_.materials.size() < 2) return false;
+  if (input_.materials.size() < 2 || !input_.interfaces.empty()) return false;
   if (input_.draft || input_.shell) return false;
   if (can_break(input_) && on_lattice() && input_.critical_stretch != Constants::lattice) {
     return false;
@@ -326,14 +326,12 @@ void Correction::balance(const CalibrationInput& calibration) {
 
 }  // namespace
 
-bool correct_surfaces(const Body& body, const NetworkInput& input, Network& network) {
+void correct_surfaces(const Body& body, const NetworkInput& input, Network& network) {
   const Surface surface = body.lattice.surface;
   if (surface == Surface::energy) Correction(body, input, network).energy();
-  if (surface != Surface::calibrated) return false;
+  if (surface != Surface::calibrated) return;
   Correction correction(body, input, network);
-  const bool in_layers = correction.calibrate_layers();
-  if (!in_layers) correction.calibrate();
-  return in_layers;
+  if (!correction.calibrate_layers()) correction.calibrate();
 }
 
 }  // namespace perilink

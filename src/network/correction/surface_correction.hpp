@@ -15,8 +15,7 @@ namespace perilink {
 ///   (calibrate_layers()). Bonds that end with nothing to carry are taken out. The critical
 ///   stretches follow the new stiffness, so that a straight crack releases G_F.
 /// Nothing is done for other options. To be called before bars are added.
-/// \return whether materials were calibrated layer by layer
 /// \throws std::invalid_argument where the horizon holds too few neighbours for an isotropic solid
-bool correct_surfaces(const Body& body, const NetworkInput& input, Network& network);
+void correct_surfaces(const Body& body, const NetworkInput& input, Network& network);
 
 }  // namespace perilink

@@ -32,13 +32,13 @@ void mark(const CaseFile& input, const Body& body, const std::string& name, std:
     return !region.group.empty() && known.name == region.group;
   });
   if (group != body.groups.end()) {
-    for (const Index i : group->particles) sides[i] = side;
+    for (const Index i : group->particles) sides[i] |= side;
     return;
   }
   for (Index i = 0; i < body.particles.size(); ++i) {
     if (body.particles.kind[i] != ParticleKind::solid) continue;
     if (region.contains(body.particles.position(i), on_side * body.lattice.spacing)) {
-      sides[i] = side;
+      sides[i] |= side;
     }
   }
 }
