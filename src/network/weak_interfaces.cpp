@@ -114,21 +114,17 @@ struct Face {
   std::map<Place, std::vector<Index>> places;  ///< with their bonds
 };
 
-/// What a bond of one holds when it breaks by an opening along the normal, over k xi^2 s_c^2 / 2.
-/// Bonds that carry moments break by a ratio of k_b to k that calibration has left behind.
-double held_at_the_end(const Network& network, Index bond, double cosine) {
-  if (!network.carries_moments()) return 1.0;
-  const double along = cosine * cosine, across = 1.0 - along;
-  const double bending = network.bending[bond] / network.stiffness[bond];
-  return (along + bending * across) / (along + network.ratio_of_bending(bond) * across);
-}
+/// Stiffness of a bond, and the ratio to it of its bending stiffness.
+struct BondStiffnesses {
+  double axial = 0.0, bending = 0.0;
+};
 
 /// Measures the bonds that cross a face.
 class Measure {
  public:
-  Measure(const NetworkInput& input, const Network& network, std::span<const double> even_stiffness,
+  Measure(const NetworkInput& input, const Network& network, const EvenBonds& even,
           std::span<const Index> crossing)
-      : input_(input), network_(network), even_(even_stiffness), crossing_(crossing) {
+      : input_(input), network_(network), even_(even), crossing_(crossing) {
     for (const SolidMaterial& material : input.materials) {
       const auto [lambda, mu] = lame_constants(input, material);
       dilatation_.push_back(network.dim() * lambda + 2.0 * mu);
@@ -138,14 +134,16 @@ class Measure {
   Face face();
 
  private:
-  double even_stiffness(Index bond) const;
+  BondStiffnesses stiffness_of(Index bond) const;
+  BondStiffnesses even_stiffness(Index bond) const;
+  double held_at_the_end(Index bond, double cosine, double bending) const;
   void mix(Face& face);
   void measure_area(Face& face);
   void find_places(Face& face) const;
 
   const NetworkInput& input_;
   const Network& network_;
-  std::span<const double> even_;
+  const EvenBonds& even_;
   std::span<const Index> crossing_;
   std::vector<double> dilatation_;  ///< stress of a uniform dilatation of one, per material
   double stress_ = 0.0;             ///< its mean over the bonds
@@ -167,9 +165,26 @@ void Measure::mix(Face& face) {
   }
 }
 
+BondStiffnesses Measure::stiffness_of(Index bond) const {
+  const double axial = network_.stiffness[bond];
+  return {axial, network_.carries_moments() ? network_.bending[bond] / axial : 0.0};
+}
+
 /// Stiffness of a bond if all materials had the mean constants.
-double Measure::even_stiffness(Index bond) const {
-  return even_.empty() ? network_.stiffness[bond] : even_[bond] * (stress_ / dilatation_[0]);
+BondStiffnesses Measure::even_stiffness(Index bond) const {
+  if (even_.stiffness.empty()) return stiffness_of(bond);
+  const double axial = even_.stiffness[bond];
+  return {axial * (stress_ / dilatation_[0]),
+          axial > 0.0 && network_.carries_moments() ? even_.bending[bond] / axial : 0.0};
+}
+
+/// What a bond of one holds when it breaks by an opening along the normal, over k xi^2 s_c^2 / 2.
+/// Bonds that carry moments break by a ratio of k_b to k that calibration has left behind.
+/// \param bending  ratio of its bending stiffness
+double Measure::held_at_the_end(Index bond, double cosine, double bending) const {
+  if (!network_.carries_moments()) return 1.0;
+  const double along = cosine * cosine, across = 1.0 - along;
+  return (along + bending * across) / (along + network_.ratio_of_bending(bond) * across);
 }
 
 /// A uniform dilatation of one brings a stress of dim lambda + 2 mu, which bonds carry across the
@@ -190,7 +205,8 @@ void Measure::measure_area(Face& face) {
     Sums both = axes.at(network_.bonds.first[e]);
     add(axes.at(network_.bonds.second[e]), both);
     const Vector3 n = direction_of(network_, e);
-    const double length = network_.bonds.length(e), stiffness = even_stiffness(e);
+    const double length = network_.bonds.length(e);
+    const auto [stiffness, bending] = even_stiffness(e);
     const double area = stiffness * length / stress_, square = stiffness * length * length;
     const double own = std::abs(cosine_between(n, principal_direction(both, dim)));
     const double by_mean = std::abs(cosine_between(n, face.axis));
@@ -198,8 +214,8 @@ void Measure::measure_area(Face& face) {
     face.area += area * own;
     along += area * by_mean;
     squares += square;
-    face.fracture_sum += square * held_at_the_end(network_, e, own);
-    fracture_along += square * held_at_the_end(network_, e, by_mean);
+    face.fracture_sum += square * held_at_the_end(e, own, bending);
+    fracture_along += square * held_at_the_end(e, by_mean, bending);
   }
   face.plane = along > plane * face.area;
   if (face.plane) {
@@ -216,11 +232,18 @@ void Measure::measure_area(Face& face) {
 /// strength and the energy that it has if all materials have the mean constants.
 void Measure::find_places(Face& face) const {
   const auto own_sums = [&](Index e) {
-    const double length = network_.bonds.length(e),
-                 held = held_at_the_end(network_, e, cosine_.at(e));
-    const double stiffness = network_.stiffness[e], even = even_stiffness(e);
-    const double force = length * cosine_.at(e), square = length * length * held;
-    return Sums{stiffness * force, even * force, stiffness * square, even * square};
+    const double length = network_.bonds.length(e), along = std::pow(cosine_.at(e), 2);
+    // Opening over length at which the equivalent stretch is one.
+    const double ratio = network_.carries_moments() ? network_.ratio_of_bending(e) : 0.0;
+    const double opening = std::sqrt(along + ratio * (1.0 - along));
+    Sums sums{};
+    for (const bool even : {false, true}) {
+      const auto [stiffness, bending] = even ? even_stiffness(e) : stiffness_of(e);
+      const double held = stiffness * length * held_at_the_end(e, cosine_.at(e), bending);
+      sums[even ? 1 : 0] = held * opening;
+      sums[even ? 3 : 2] = held * length;
+    }
+    return sums;
   };
   const std::map<Index, Sums> sums = sums_along_face(network_, crossing_, own_sums);
   const auto in_steps = [](double ratio) {
@@ -306,15 +329,15 @@ std::vector<Index> bonds_across(const Body& body, const NetworkInput& input,
   return modulus(others) < (1.0 - 1e-6) * modulus(drawn) ? others : drawn;
 }
 
-void weaken_interfaces(const Body& body, const NetworkInput& input,
-                       std::span<const double> even_stiffness, Network& network) {
+void weaken_interfaces(const Body& body, const NetworkInput& input, const EvenBonds& even,
+                       Network& network) {
   for (std::size_t k = 0; k < input.interfaces.size(); ++k) {
     const WeakInterface& section = input.interfaces[k];
     const std::vector<Index> crossing = bonds_across(body, input, section, network);
     InterfaceBonds& own = network.interfaces.emplace_back();
     own.count = static_cast<Index>(crossing.size());
     if (crossing.empty()) continue;
-    Face face = Measure(input, network, even_stiffness, crossing).face();
+    Face face = Measure(input, network, even, crossing).face();
     face.material.fracture_energy = section.fracture_energy;
     face.material.softening = section.softening;
     own.area = face.area;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "base/types.hpp"
@@ -9,6 +8,13 @@
 #include "network/network_input.hpp"
 
 namespace perilink {
+
+/// Stiffnesses of every bond if all materials had the constants of the first one [force/length];
+/// empty: bonds have those of their own materials.
+struct EvenBonds {
+  std::vector<double> stiffness;
+  std::vector<double> bending = {};  ///< empty where no bond carries a moment
+};
 
 /// Bonds of the solid that cross a weak interface, without those that pre-cracks have cut,
 /// ascending. Particles on the face are on the side that leaves the bonds of the softer material to
@@ -22,10 +28,8 @@ std::vector<Index> bonds_across(const Body& body, const NetworkInput& input,
 /// over the area. Soft ones begin to at the stretch that makes the force across the face peak at
 /// its strength, by bonds_of_face(). Where the stiffness of bonds varies along the face, stretches
 /// do too (docs/theory/softening.md, section 10).
-/// \param even_stiffness  of every bond if all materials had the constants of the first one
-///                        [force/length]; empty: bonds have the stiffness of their own materials
 /// \throws TooStrong  with the number of the interface behind those of the materials
-void weaken_interfaces(const Body& body, const NetworkInput& input,
-                       std::span<const double> even_stiffness, Network& network);
+void weaken_interfaces(const Body& body, const NetworkInput& input, const EvenBonds& even,
+                       Network& network);
 
 }  // namespace perilink

@@ -245,11 +245,9 @@ Network build_bonds_and_cells(const Body& body, const NetworkInput& input,
   return network;
 }
 
-/// Stiffness of every bond if all materials had the constants of the first one; empty where bonds
-/// have the stiffness of their materials alone. Calibration of a body of several materials as a
-/// whole gives bonds near their joints any stiffness between theirs, and others.
-std::vector<double> even_stiffness(const Body& body, const NetworkInput& input,
-                                   const Network& network) {
+/// Empty without interfaces or with materials of one stiffness. Calibration of a body of several
+/// materials as a whole gives bonds near their joints any stiffness between theirs, and others.
+EvenBonds even_bonds(const Body& body, const NetworkInput& input, const Network& network) {
   NetworkInput even = input;
   bool unlike = false;
   for (SolidMaterial& material : even.materials) {
@@ -265,7 +263,8 @@ std::vector<double> even_stiffness(const Body& body, const NetworkInput& input,
   const PairConstants constants(body, even);
   const Network whole = body.glued.empty() ? build_bonds(body, even, constants)
                                            : build_bonds_and_cells(body, even, constants);
-  std::vector<double> stiffness(static_cast<std::size_t>(network.num_bonds()), 0.0);
+  EvenBonds bonds{std::vector<double>(static_cast<std::size_t>(network.num_bonds()), 0.0)};
+  if (!whole.bending.empty()) bonds.bending = bonds.stiffness;
   const auto ends = [](const Bonds& bonds, Index b) {
     return std::pair(bonds.first[b], bonds.second[b]);
   };
@@ -274,9 +273,11 @@ std::vector<double> even_stiffness(const Body& body, const NetworkInput& input,
   for (Index b = 0; b < network.num_bonds(); ++b) {
     while (at < count && ends(whole.bonds, at) < ends(network.bonds, b)) ++at;
     if (at == count) break;
-    if (ends(whole.bonds, at) == ends(network.bonds, b)) stiffness[b] = whole.stiffness[at];
+    if (ends(whole.bonds, at) != ends(network.bonds, b)) continue;
+    bonds.stiffness[b] = whole.stiffness[at];
+    if (!whole.bending.empty()) bonds.bending[b] = whole.bending[at];
   }
-  return stiffness;
+  return bonds;
 }
 
 }  // namespace
@@ -291,7 +292,7 @@ Network build_network(const Body& body, const NetworkInput& input) {
       body, input, [&](Index material) { return constants.tie(material); }, network);
   if (!input.elastic) {
     soften_bonds(body, input, network);
-    weaken_interfaces(body, input, even_stiffness(body, input, network), network);
+    weaken_interfaces(body, input, even_bonds(body, input, network), network);
     for (const Index e : network.cut_elements) network.critical_stretch[e] = infinity;
   }
   for (std::vector<double>* of_ties : {&network.bending, &network.bending_ratio}) {
