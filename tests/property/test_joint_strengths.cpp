@@ -121,27 +121,18 @@ TEST(JointStrengths, DoNotDependOnTheOrderOfMaterialsOrTheDirectionOfACrack) {
 /// smaller energy along the joint the drive stays within what lattice trapping leaves, 1.15 times
 /// that of the smooth crack; with the mean of both energies it is 1.3 times and more.
 TEST(JointStrengths, AreThoseOfTheWeakerMaterial) {
-  for (const bool weak_below : {true, false}) {
-    JointStrip strip;
-    strip.columns = 56;
-    strip.clamped = true;
-    if (!weak_below) std::swap(strip.energy[0], strip.energy[1]);
-    const double ratio = 1.0 / 3.0;
-    const double drive = std::sqrt(2.0 * 0.1 * (1.0 - ratio * ratio) * strip.height() / 30000.0);
-    std::vector<double> first;
-    for (const bool swapped : {false, true}) {
-      for (const bool backwards : {false, true}) {
-        const WholeRun run(case_of(strip, swapped, backwards));
-        const std::vector<double> opened = run.history("displacement");
-        if (first.empty()) first = opened;
-        ASSERT_EQ(opened.size(), first.size());
-        for (std::size_t k = 0; k < opened.size(); ++k) {
-          EXPECT_NEAR(opened[k], first[k], 1e-9 * first[k]);
-          EXPECT_LT(opened[k], 1.15 * drive);
-        }
-      }
-    }
-  }
+  JointStrip strip;
+  strip.columns = 60;
+  strip.rows = 20;
+  strip.joint = 10;
+  strip.crack = 24;
+  strip.clamped = true;
+  const double ratio = 1.0 / 3.0;
+  const double drive = std::sqrt(2.0 * 0.1 * (1.0 - ratio * ratio) * strip.height() / 30000.0);
+  const std::vector<double> opened = WholeRun(case_of(strip, false, false)).history("displacement");
+  EXPECT_EQ(WholeRun(case_of(strip, true, true)).history("displacement"), opened);
+  EXPECT_GT(opened.size(), 200u);
+  EXPECT_LT(*std::max_element(opened.begin(), opened.end()), 1.15 * drive);
 }
 
 }  // namespace
