@@ -55,6 +55,22 @@ std::vector<Index> crossing_bonds(const Body& body, const WeakInterface& face, s
   return crossing;
 }
 
+/// Whether particles may be on either side: where regions have more than joints of materials in
+/// common, the face is where the second one begins.
+bool can_turn(const NetworkInput& input, const WeakInterface& face, const Network& network) {
+  if (input.materials.size() < 2) return false;
+  std::vector<std::uint8_t> in_joint(static_cast<std::size_t>(network.particles.size()), 0);
+  const Facets& facets = network.facets;
+  for (Index f = 0; f < facets.size(); ++f) {
+    if (facets.on_surface(f) || facets.inside[f] == facets.outside[f]) continue;
+    for (const Index i : facets.corners.row(f)) in_joint[i] = 1;
+  }
+  for (std::size_t i = 0; i < face.side.size(); ++i) {
+    if (face.side[i] == both_sides && in_joint[i] == 0) return false;
+  }
+  return true;
+}
+
 Vector3 direction_of(const Network& network, Index bond) {
   Vector3 n{};
   const auto direction = network.bonds.direction(bond);
@@ -311,7 +327,8 @@ MaterialBonds bonds_of(const Body& body, const NetworkInput& input, const Networ
 
 std::vector<Index> bonds_across(const Body& body, const NetworkInput& input,
                                 const WeakInterface& face, const Network& network) {
-  const std::vector<Index> drawn = crossing_bonds(body, face, 2, network);
+  std::vector<Index> drawn = crossing_bonds(body, face, 2, network);
+  if (drawn.empty() || !can_turn(input, face, network)) return drawn;
   WeakInterface turned = face;
   for (Crack& piece : turned.faces) std::reverse(piece.points.begin(), piece.points.end());
   const std::vector<Index> others = crossing_bonds(body, turned, 1, network);
