@@ -11,6 +11,7 @@
 
 #include "material/strength/bond_cell.hpp"
 #include "material/strength/face_chain.hpp"
+#include "network/bond_strength.hpp"
 #include "network/lattice_families.hpp"
 
 namespace perilink {
@@ -188,7 +189,8 @@ bool softens(const SolidMaterial& material) {
   return material.softening.shape.kind != Softening::brittle;
 }
 
-/// Means of two materials, with the shape of the weaker one.
+/// Of two materials the mean constants, the smaller strength and energy and the shape of the weaker
+/// one; stretches of one of them count beside a strength.
 SolidMaterial mean_of(const SolidMaterial& a, const SolidMaterial& b) {
   const auto strength = [](const SolidMaterial& material) {
     return std::pair(material.softening.tensile_strength, material.softening.stretches[0]);
@@ -198,13 +200,14 @@ SolidMaterial mean_of(const SolidMaterial& a, const SolidMaterial& b) {
   mean.softening.closes = a.softening.closes && b.softening.closes;
   mean.youngs_modulus = 0.5 * (a.youngs_modulus + b.youngs_modulus);
   mean.poissons_ratio = 0.5 * (a.poissons_ratio + b.poissons_ratio);
-  mean.fracture_energy = 0.5 * (a.fracture_energy + b.fracture_energy);
+  mean.fracture_energy = energy_between(a, b);
   mean.softening.tensile_strength =
-      0.5 * (a.softening.tensile_strength + b.softening.tensile_strength);
+      std::min(a.softening.tensile_strength, b.softening.tensile_strength);
   mean.softening.shear_softens = a.softening.shear_softens && b.softening.shear_softens;
   for (int k = 0; k < 2; ++k) {
-    mean.softening.stretches[k] = 0.5 * (a.softening.stretches[k] + b.softening.stretches[k]);
-    mean.softening.crushing[k] = 0.5 * (a.softening.crushing[k] + b.softening.crushing[k]);
+    const auto [least, most] = std::minmax(a.softening.stretches[k], b.softening.stretches[k]);
+    mean.softening.stretches[k] = least > 0.0 ? least : most;
+    mean.softening.crushing[k] = std::min(a.softening.crushing[k], b.softening.crushing[k]);
   }
   return mean;
 }

@@ -1,8 +1,12 @@
 #include "network/bond_strength.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
+#include <tuple>
 
+#include "base/csr.hpp"
 #include "material/critical_stretch.hpp"
 
 namespace perilink {
@@ -25,9 +29,8 @@ class PairOf {
   PairOf(const NetworkInput& input, const Network& network)
       : network_(network), count_(input.materials.size()) {}
   std::size_t operator()(Index bond) const {
-    const std::vector<Index>& material = network_.particles.material;
-    return static_cast<std::size_t>(material[network_.bonds.first[bond]]) * count_ +
-           static_cast<std::size_t>(material[network_.bonds.second[bond]]);
+    const auto [a, b] = materials_of_bond(network_, bond);
+    return static_cast<std::size_t>(a) * count_ + static_cast<std::size_t>(b);
   }
 
  private:
@@ -74,7 +77,7 @@ void apply_fracture_sums(const NetworkInput& input, const std::vector<double>& f
   std::vector<double> stretches;
   for (const SolidMaterial& a : input.materials) {
     for (const SolidMaterial& b : input.materials) {
-      const double energy = 0.5 * (a.fracture_energy + b.fracture_energy);
+      const double energy = energy_between(a, b);
       const double sum = fracture_sums[stretches.size()];
       stretches.push_back(sum > 0.0 ? lattice_critical_stretch(energy, sum) : 0.0);
     }
@@ -86,7 +89,78 @@ void apply_fracture_sums(const NetworkInput& input, const std::vector<double>& f
   }
 }
 
+/// Materials are compared by what it takes to break them.
+auto strength_of(const SolidMaterial& material) {
+  const SofteningMaterial& softening = material.softening;
+  return std::tuple(material.fracture_energy, softening.tensile_strength, softening.stretches,
+                    softening.shape.kind);
+}
+
+/// Facets in the body between breakable materials of different strength.
+bool is_joint(const NetworkInput& input, const Facets& facets, Index facet) {
+  if (facets.on_surface(facet)) return false;
+  const SolidMaterial& inside = input.materials[facets.inside[facet]];
+  const SolidMaterial& outside = input.materials[facets.outside[facet]];
+  return std::isfinite(inside.fracture_energy) && std::isfinite(outside.fracture_energy) &&
+         strength_of(inside) != strength_of(outside);
+}
+
+/// Of a facet's two materials the one that a direction from its plane leads into; in the plane the
+/// weaker one.
+Index material_entered(const NetworkInput& input, const Facets& facets, Index facet,
+                       std::span<const double> direction, double sign) {
+  constexpr double in_plane = 1e-6;
+  const auto area = facets.area_vector(facet);
+  const double along = std::inner_product(area.begin(), area.end(), direction.begin(), 0.0);
+  const double size = std::inner_product(area.begin(), area.end(), area.begin(), 0.0);
+  const Index inside = facets.inside[facet], outside = facets.outside[facet];
+  if (std::abs(along) > in_plane * std::sqrt(size)) return sign * along > 0.0 ? outside : inside;
+  const bool first = strength_of(input.materials[inside]) < strength_of(input.materials[outside]);
+  return first ? inside : outside;
+}
+
 }  // namespace
+
+double energy_between(const SolidMaterial& a, const SolidMaterial& b) {
+  const auto [least, most] = std::minmax(a.fracture_energy, b.fracture_energy);
+  return std::isinf(most) ? most : least;
+}
+
+std::array<Index, 2> materials_of_bond(const Network& network, Index bond) {
+  if (!network.materials_of.empty()) return network.materials_of[bond];
+  const Index i = network.bonds.first[bond], j = network.bonds.second[bond];
+  const std::vector<Index>& material = network.particles.material;
+  const bool ghost = network.particles.kind[j] == ParticleKind::ghost;  // never first
+  return {material[i], material[ghost ? i : j]};
+}
+
+void set_materials_at_joints(const NetworkInput& input, Network& network) {
+  if (input.elastic || input.materials.size() < 2) return;
+  const Facets& facets = network.facets;
+  const Csr joints_at = sorted_into_rows(network.particles.size(), [&](const auto& add_to) {
+    for (Index f = 0; f < facets.size(); ++f) {
+      if (!is_joint(input, facets, f)) continue;
+      for (const Index i : facets.corners.row(f)) add_to(i, f);
+    }
+  });
+  if (joints_at.values.empty()) return;
+  std::vector<std::array<Index, 2>> materials;
+  for (Index b = 0; b < network.bonds.size(); ++b) {
+    std::array<Index, 2> own = materials_of_bond(network, b);
+    for (const bool second : {false, true}) {
+      const auto joints = joints_at.row(second ? network.bonds.second[b] : network.bonds.first[b]);
+      for (std::size_t k = 0; k < joints.size(); ++k) {
+        const Index entered = material_entered(input, facets, joints[k], network.bonds.direction(b),
+                                               second ? -1.0 : 1.0);
+        const bool weaker =
+            strength_of(input.materials[entered]) < strength_of(input.materials[own[second]]);
+        if (k == 0 || weaker) own[second] = entered;
+      }
+    }
+    materials.push_back(own);
+  }
+  network.materials_of = std::move(materials);
+}
 
 std::vector<double> own_bending_ratios(const Network& network) {
   std::vector<double> ratios;

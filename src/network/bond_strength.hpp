@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "network/lattice_families.hpp"
@@ -12,6 +13,18 @@
 /// materials, and such that a straight crack releases G_F in the mean.
 
 namespace perilink {
+
+/// Fracture energy of the bonds between two materials: the smaller one; beside an unbreakable
+/// material bonds do not break [force/length].
+double energy_between(const SolidMaterial& a, const SolidMaterial& b);
+
+/// Materials that decide when a bond breaks: Network::materials_of or, where it is empty, those of
+/// its ends.
+std::array<Index, 2> materials_of_bond(const Network& network, Index bond);
+
+/// Fills Network::materials_of where breakable materials of different strength meet: a particle on
+/// their joint counts as the material that the bond enters there, in the joint as the weaker one.
+void set_materials_at_joints(const NetworkInput& input, Network& network);
 
 /// k_b / k of every bond as it is, the Network::bending_ratio before a calibration [-]; empty where
 /// no bond carries a moment.

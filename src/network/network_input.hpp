@@ -64,8 +64,8 @@ struct BarMaterial {
 
 /// A face whose bonds break by an energy of their own.
 struct WeakInterface {
-  /// Per particle: on which side it lies, 1 or 2; 0: neither. Bonds with an end on either side
-  /// cross the face. Empty: those do that cross the lines or planes.
+  /// Per particle: on which side it lies, 1 or 2; 0: neither, 3: in both regions. Bonds with an end
+  /// on either side cross the face. Empty: those do that cross the lines or planes.
   std::vector<std::uint8_t> side;
   std::vector<Crack> faces;
   double fracture_energy = 0.0;  ///< [force/length]

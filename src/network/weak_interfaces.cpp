@@ -4,15 +4,13 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <optional>
-#include <span>
 
-#include "base/csr.hpp"
 #include "discretization/cuts/cracks.hpp"
 #include "material/critical_stretch.hpp"
 #include "material/principal_values.hpp"
 #include "network/bond_softening.hpp"
+#include "network/bond_strength.hpp"
 
 namespace perilink {
 namespace {
@@ -20,21 +18,34 @@ namespace {
 /// A face is plane where so much of its area is seen along its mean normal.
 constexpr double plane = 0.98;
 
-/// Normals at single particles are those of so many rounds of neighbours across the face.
+/// Normals and sums at single particles are those of so many rounds of neighbours across the face.
 constexpr int rounds_of_spreading = 3;
 
-/// Bonds of the solid that cross the face, without those that pre-cracks have cut.
-std::vector<Index> crossing_bonds(const Body& body, const WeakInterface& face,
+/// Bonds shorter than so many spacings tell which materials lie beside a face.
+constexpr double short_bonds = 1.5;
+
+/// Mark of particles in both regions beside a face.
+constexpr std::uint8_t both_sides = 3;
+
+/// Stiffnesses of places of a face that differ by less, in their logarithm, are taken together:
+/// each is a law of its own.
+constexpr double step_of_places = 0.05;
+
+/// Bonds that cross the face if particles that lie in both regions are on the given side.
+std::vector<Index> crossing_bonds(const Body& body, const WeakInterface& face, std::uint8_t shared,
                                   const Network& network) {
   std::vector<Index> crossing;
   std::vector<std::uint8_t> keep;
   if (face.side.empty()) {
     keep = find_cut_bonds(network.particles, network.bonds, face.faces, body.lattice.spacing).keep;
   }
-  const auto side = [&](Index i) {
-    return i < static_cast<Index>(face.side.size()) ? face.side[i] : 0;
+  const auto side = [&](Index i) -> int {
+    if (i >= static_cast<Index>(face.side.size())) return 0;
+    return face.side[i] == both_sides ? shared : face.side[i];
   };
-  for (Index e = 0; e < network.num_bonds(); ++e) {
+  const bool has_bars = network.first_tie > 0;
+  const Index count = has_bars ? network.num_bonds() : network.bonds.size();
+  for (Index e = 0; e < count; ++e) {
     const bool crosses = face.side.empty()
                              ? keep[e] == 0
                              : side(network.bonds.first[e]) + side(network.bonds.second[e]) == 3;
@@ -42,13 +53,6 @@ std::vector<Index> crossing_bonds(const Body& body, const WeakInterface& face,
     if (crosses && !std::binary_search(cut.begin(), cut.end(), e)) crossing.push_back(e);
   }
   return crossing;
-}
-
-Vector3 direction_of(const Network& network, Index bond) {
-  Vector3 n{};
-  const auto direction = network.bonds.direction(bond);
-  std::copy(direction.begin(), direction.end(), n.begin());
-  return n;
 }
 
 /// Materials at the ends of a bond: a ghost, the second end, has that of the solid particle.
@@ -59,16 +63,69 @@ std::array<Index, 2> materials_at(const Network& network, Index bond) {
   return {first, second == no_index ? first : second};
 }
 
+/// Whether particles may be on either side: where regions have more than joints of materials in
+/// common, the face is where the second one begins.
+bool can_turn(const NetworkInput& input, const WeakInterface& face, const Network& network) {
+  if (input.materials.size() < 2) return false;
+  std::vector<std::uint8_t> in_joint(static_cast<std::size_t>(network.particles.size()), 0);
+  const Facets& facets = network.facets;
+  for (Index f = 0; f < facets.size(); ++f) {
+    if (facets.on_surface(f) || facets.inside[f] == facets.outside[f]) continue;
+    for (const Index i : facets.corners.row(f)) in_joint[i] = 1;
+  }
+  for (std::size_t i = 0; i < face.side.size(); ++i) {
+    if (face.side[i] == both_sides && in_joint[i] == 0) return false;
+  }
+  return true;
+}
+
+Vector3 direction_of(const Network& network, Index bond) {
+  Vector3 n{};
+  const auto direction = network.bonds.direction(bond);
+  std::copy(direction.begin(), direction.end(), n.begin());
+  return n;
+}
+
 double cosine_between(const Vector3& a, const Vector3& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Where the bonds that cross lie: sums of n n.
-using Axes = SymmetricTensor;
+/// Sums over bonds that cross a face.
+using Sums = std::array<double, 6>;
 
-void add(const Axes& other, Axes& axes) {
-  for (std::size_t a = 0; a < axes.size(); ++a) axes[a] += other[a];
+void add(const Sums& other, Sums& sums) {
+  for (std::size_t a = 0; a < sums.size(); ++a) sums[a] += other[a];
 }
+
+/// Sums at each particle with crossing bonds, those of particles around it along such bonds added.
+/// \param own  sums of a bond
+template <class Own>
+std::map<Index, Sums> sums_along_face(const Network& network, std::span<const Index> crossing,
+                                      Own own) {
+  std::map<Index, Sums> sums;
+  for (const Index e : crossing) {
+    const Sums added = own(e);
+    add(added, sums[network.bonds.first[e]]);
+    add(added, sums[network.bonds.second[e]]);
+  }
+  for (int round = 0; round < rounds_of_spreading; ++round) {
+    const std::map<Index, Sums> before = sums;
+    for (const Index e : crossing) {
+      const Index i = network.bonds.first[e], j = network.bonds.second[e];
+      add(before.at(i), sums.at(j));
+      add(before.at(j), sums.at(i));
+    }
+  }
+  return sums;
+}
+
+/// Stiffness of the bonds at a place of a face over that which they would have if all materials
+/// had the mean constants.
+struct Place {
+  double force = 1.0;   ///< by sums of k xi, which a strain needs
+  double energy = 1.0;  ///< by sums of k xi^2
+  auto operator<=>(const Place&) const = default;
+};
 
 /// What the bonds that cross a face make of it.
 struct Face {
@@ -77,170 +134,251 @@ struct Face {
   double held = 1.0;          ///< mean of held_at_the_end()
   Vector3 axis{};             ///< mean normal
   bool plane = false;
-  std::array<double, 2> moduli{};  ///< mean E behind it and where the normal points
-  SolidMaterial material;          ///< mean constants of both sides, with the law of the face
+  SolidMaterial material;  ///< mean constants of the bonds, with the law of the face
+  std::map<Place, std::vector<Index>> places;  ///< with their bonds
 };
 
-/// Parts of the materials that fill the face itself. Where particles on the facets between two
-/// materials have bonds across, that is the one which these bonds enter there, whatever the
-/// particles are made of: for its stress they are calibrated.
-std::vector<double> parts_of_materials(const Body& body, const NetworkInput& input,
-                                       const Network& network, std::span<const Index> crossing) {
-  std::vector<double> ends(input.materials.size(), 0.0), gap = ends;
-  for (const Index e : crossing) {
-    for (const Index m : materials_at(network, e)) {
-      ends[m] += 0.5 / static_cast<double>(crossing.size());
-    }
-  }
-  if (input.draft || body.lattice.surface != Surface::calibrated) return ends;
-  const Facets& facets = network.facets;
-  const Csr facets_at = sorted_into_rows(network.particles.size(), [&](const auto& add_to) {
-    for (Index f = 0; f < facets.size(); ++f) {
-      if (facets.on_surface(f) || facets.inside[f] == facets.outside[f]) continue;
-      for (const Index i : facets.corners.row(f)) add_to(i, f);
-    }
-  });
-  double sum = 0.0;
-  for (const Index e : crossing) {
-    const auto n = network.bonds.direction(e);
-    for (const bool first : {true, false}) {
-      for (const Index f :
-           facets_at.row(first ? network.bonds.first[e] : network.bonds.second[e])) {
-        const auto area = facets.area_vector(f);
-        const double out = std::inner_product(n.begin(), n.end(), area.begin(), 0.0);
-        gap[(out > 0.0) == first ? facets.outside[f] : facets.inside[f]] += std::abs(out);
-        sum += std::abs(out);
-      }
-    }
-  }
-  if (sum == 0.0) return ends;
-  for (double& part : gap) part /= sum;
-  return gap;
-}
+/// Stiffness of a bond, and the ratio to it of its bending stiffness.
+struct BondStiffnesses {
+  double axial = 0.0, bending = 0.0;
+};
 
-/// Constants of what fills the face, and moduli beside it.
-void mix(const NetworkInput& input, const Network& network, std::span<const Index> crossing,
-         std::span<const double> parts, Face& face) {
-  const double part = 1.0 / static_cast<double>(crossing.size());
-  for (const Index e : crossing) {
-    const bool along = cosine_between(face.axis, direction_of(network, e)) > 0.0;
-    const auto [first, second] = materials_at(network, e);
-    face.moduli[along ? 0 : 1] += part * input.materials[first].youngs_modulus;
-    face.moduli[along ? 1 : 0] += part * input.materials[second].youngs_modulus;
+/// Measures the bonds that cross a face.
+class Measure {
+ public:
+  Measure(const NetworkInput& input, const Network& network, const EvenBonds& even,
+          std::span<const Index> crossing)
+      : input_(input), network_(network), even_(even), crossing_(crossing) {
+    for (const SolidMaterial& material : input.materials) {
+      const auto [lambda, mu] = lame_constants(input, material);
+      dilatation_.push_back(network.dim() * lambda + 2.0 * mu);
+    }
+  }
+
+  Face face();
+
+ private:
+  BondStiffnesses stiffness_of(Index bond) const;
+  BondStiffnesses even_stiffness(Index bond) const;
+  double held_at_the_end(Index bond, double cosine, double bending) const;
+  void mix(Face& face);
+  void measure_area(Face& face);
+  void find_places(Face& face) const;
+
+  const NetworkInput& input_;
+  const Network& network_;
+  const EvenBonds& even_;
+  std::span<const Index> crossing_;
+  std::vector<double> dilatation_;  ///< stress of a uniform dilatation of one, per material
+  double stress_ = 0.0;             ///< its mean over the bonds
+  std::map<Index, double> cosine_;  ///< between each bond and its normal
+};
+
+/// Mean constants of the ends of the bonds.
+void Measure::mix(Face& face) {
+  std::vector<double> parts(input_.materials.size(), 0.0);
+  for (const Index e : crossing_) {
+    for (const Index m : materials_at(network_, e)) {
+      parts[m] += 0.5 / static_cast<double>(crossing_.size());
+    }
   }
   for (std::size_t m = 0; m < parts.size(); ++m) {
-    face.material.youngs_modulus += parts[m] * input.materials[m].youngs_modulus;
-    face.material.poissons_ratio += parts[m] * input.materials[m].poissons_ratio;
+    stress_ += parts[m] * dilatation_[m];
+    face.material.youngs_modulus += parts[m] * input_.materials[m].youngs_modulus;
+    face.material.poissons_ratio += parts[m] * input_.materials[m].poissons_ratio;
   }
 }
 
-/// Axes at each particle with crossing bonds, those of particles around it along such bonds added.
-std::map<Index, Axes> axes_of_face(const Network& network, std::span<const Index> crossing) {
-  std::map<Index, Axes> axes;
-  for (const Index e : crossing) {
-    const auto [x, y, z] = direction_of(network, e);
-    const Axes own{x * x, y * y, z * z, x * y, y * z, z * x};
-    add(own, axes[network.bonds.first[e]]);
-    add(own, axes[network.bonds.second[e]]);
-  }
-  for (int round = 0; round < rounds_of_spreading; ++round) {
-    const std::map<Index, Axes> before = axes;
-    for (const Index e : crossing) {
-      const Index i = network.bonds.first[e], j = network.bonds.second[e];
-      add(before.at(i), axes.at(j));
-      add(before.at(j), axes.at(i));
-    }
-  }
-  return axes;
+BondStiffnesses Measure::stiffness_of(Index bond) const {
+  const double axial = network_.stiffness[bond];
+  return {axial, network_.carries_moments() ? network_.bending[bond] / axial : 0.0};
+}
+
+/// Stiffness of a bond if all materials had the mean constants.
+BondStiffnesses Measure::even_stiffness(Index bond) const {
+  if (even_.stiffness.empty()) return stiffness_of(bond);
+  const double axial = even_.stiffness[bond];
+  return {axial * (stress_ / dilatation_[0]),
+          axial > 0.0 && network_.carries_moments() ? even_.bending[bond] / axial : 0.0};
 }
 
 /// What a bond of one holds when it breaks by an opening along the normal, over k xi^2 s_c^2 / 2.
 /// Bonds that carry moments break by a ratio of k_b to k that calibration has left behind.
-double held_at_the_end(const Network& network, Index bond, double cosine) {
-  if (!network.carries_moments()) return 1.0;
+/// \param bending  ratio of its bending stiffness
+double Measure::held_at_the_end(Index bond, double cosine, double bending) const {
+  if (!network_.carries_moments()) return 1.0;
   const double along = cosine * cosine, across = 1.0 - along;
-  const double bending = network.bending[bond] / network.stiffness[bond];
-  return (along + bending * across) / (along + network.ratio_of_bending(bond) * across);
+  return (along + bending * across) / (along + network_.ratio_of_bending(bond) * across);
 }
 
 /// A uniform dilatation of one brings a stress of dim lambda + 2 mu, which bonds carry across the
 /// face by k xi: that settles the area that they carry. The normal where a bond crosses is the axis
 /// along which the bonds at its ends lie most.
-Face measure(const Body& body, const NetworkInput& input, const Network& network,
-             std::span<const Index> crossing) {
-  const int dim = network.dim();
-  const std::vector<double> parts = parts_of_materials(body, input, network, crossing);
-  double stress = 0.0;
-  for (std::size_t m = 0; m < parts.size(); ++m) {
-    const LameConstants own = lame_constants(input, input.materials[m]);
-    stress += parts[m] * (dim * own.lambda + 2.0 * own.mu);
-  }
-  const std::map<Index, Axes> axes = axes_of_face(network, crossing);
-  Axes mean{};
+void Measure::measure_area(Face& face) {
+  const int dim = network_.dim();
+  const std::map<Index, Sums> axes = sums_along_face(network_, crossing_, [&](Index e) {
+    const auto [x, y, z] = direction_of(network_, e);
+    return Sums{x * x, y * y, z * z, x * y, y * z, z * x};
+  });
+  Sums mean{};
   for (const auto& own : axes) add(own.second, mean);
-  Face face;
   face.axis = principal_direction(mean, dim);
   double along = 0.0, fracture_along = 0.0;  // the same seen along the mean normal
   double squares = 0.0;
-  for (const Index e : crossing) {
-    const Index i = network.bonds.first[e], j = network.bonds.second[e];
-    Axes both = axes.at(i);
-    add(axes.at(j), both);
-    const Vector3 n = direction_of(network, e);
-    const double length = network.bonds.length(e);
-    const double area = network.stiffness[e] * length / stress;
-    const double square = network.stiffness[e] * length * length;
+  for (const Index e : crossing_) {
+    Sums both = axes.at(network_.bonds.first[e]);
+    add(axes.at(network_.bonds.second[e]), both);
+    const Vector3 n = direction_of(network_, e);
+    const double length = network_.bonds.length(e);
+    const auto [stiffness, bending] = even_stiffness(e);
+    const double area = stiffness * length / stress_, square = stiffness * length * length;
     const double own = std::abs(cosine_between(n, principal_direction(both, dim)));
     const double by_mean = std::abs(cosine_between(n, face.axis));
+    cosine_[e] = own;
     face.area += area * own;
     along += area * by_mean;
     squares += square;
-    face.fracture_sum += square * held_at_the_end(network, e, own);
-    fracture_along += square * held_at_the_end(network, e, by_mean);
+    face.fracture_sum += square * held_at_the_end(e, own, bending);
+    fracture_along += square * held_at_the_end(e, by_mean, bending);
   }
   face.plane = along > plane * face.area;
   if (face.plane) {
     face.area = along;
     face.fracture_sum = fracture_along;
+    for (auto& [e, cosine] : cosine_) {
+      cosine = std::abs(cosine_between(direction_of(network_, e), face.axis));
+    }
   }
   face.held = face.fracture_sum / squares;
+}
+
+/// Bonds by the stiffness around them, in few steps. In the mean over the places the face has the
+/// strength and the energy that it has if all materials have the mean constants.
+void Measure::find_places(Face& face) const {
+  const auto own_sums = [&](Index e) {
+    const double length = network_.bonds.length(e), along = std::pow(cosine_.at(e), 2);
+    // Opening over length at which the equivalent stretch is one.
+    const double ratio = network_.carries_moments() ? network_.ratio_of_bending(e) : 0.0;
+    const double opening = std::sqrt(along + ratio * (1.0 - along));
+    Sums sums{};
+    for (const bool even : {false, true}) {
+      const auto [stiffness, bending] = even ? even_stiffness(e) : stiffness_of(e);
+      const double held = stiffness * length * held_at_the_end(e, cosine_.at(e), bending);
+      sums[even ? 1 : 0] = held * opening;
+      sums[even ? 3 : 2] = held * length;
+    }
+    return sums;
+  };
+  const std::map<Index, Sums> sums = sums_along_face(network_, crossing_, own_sums);
+  const auto in_steps = [](double ratio) {
+    return std::exp(step_of_places * std::round(std::log(ratio) / step_of_places));
+  };
+  std::map<Place, std::vector<Index>> places;
+  double force = 0.0, even_force = 0.0, energy = 0.0, even_energy = 0.0;
+  for (const Index e : crossing_) {
+    Sums both = sums.at(network_.bonds.first[e]);
+    add(sums.at(network_.bonds.second[e]), both);
+    const Place place{in_steps(both[0] / both[1]), in_steps(both[2] / both[3])};
+    const Sums own = own_sums(e);
+    force += own[0] / place.force;
+    even_force += own[1];
+    energy += own[2] / place.energy;
+    even_energy += own[3];
+    places[place].push_back(e);
+  }
+  for (auto& [place, bonds] : places) {
+    face.places[{place.force * (force / even_force), place.energy * (energy / even_energy)}] =
+        std::move(bonds);
+  }
+}
+
+Face Measure::face() {
+  Face face;
+  mix(face);
+  measure_area(face);
+  find_places(face);
   face.fracture_sum /= face.area;
-  mix(input, network, crossing, parts, face);
   return face;
 }
 
-MaterialBonds bonds_of(const Body& body, const NetworkInput& input, const Face& face) {
-  const double own = face.material.youngs_modulus;
-  FaceShape shape{std::nullopt, {face.moduli[0] / own, face.moduli[1] / own}, face.held};
+/// Young's moduli of the ends of bonds behind a face and where its normal points.
+std::array<double, 2> moduli_beside(const NetworkInput& input, const Network& network,
+                                    std::span<const Index> crossing, const Vector3& axis) {
+  std::array<double, 2> moduli{};
+  const double part = 1.0 / static_cast<double>(crossing.size());
+  for (const Index e : crossing) {
+    const bool along = cosine_between(axis, direction_of(network, e)) > 0.0;
+    const auto [first, second] = materials_at(network, e);
+    moduli[along ? 0 : 1] += part * input.materials[first].youngs_modulus;
+    moduli[along ? 1 : 0] += part * input.materials[second].youngs_modulus;
+  }
+  return moduli;
+}
+
+/// Law of the bonds of a place.
+MaterialBonds bonds_of(const Body& body, const NetworkInput& input, const Network& network,
+                       const Face& face, const Place& place, std::span<const Index> crossing) {
+  SolidMaterial material = face.material;
+  material.youngs_modulus *= place.force;
+  const auto [behind, ahead] = moduli_beside(input, network, crossing, face.axis);
+  const double own = material.youngs_modulus;
+  FaceShape shape{std::nullopt, {behind / own, ahead / own}, face.held};
   if (face.plane) shape.normal = face.axis;
-  return bonds_of_face(body, input, shape, face.material,
-                       lattice_critical_stretch(face.material.fracture_energy, face.fracture_sum));
+  return bonds_of_face(
+      body, input, shape, material,
+      lattice_critical_stretch(material.fracture_energy, face.fracture_sum * place.energy));
 }
 
 }  // namespace
 
-void weaken_interfaces(const Body& body, const NetworkInput& input, Network& network) {
+std::vector<Index> bonds_across(const Body& body, const NetworkInput& input,
+                                const WeakInterface& face, const Network& network) {
+  std::vector<Index> drawn = crossing_bonds(body, face, 2, network);
+  if (drawn.empty() || !can_turn(input, face, network)) return drawn;
+  WeakInterface turned = face;
+  for (Crack& piece : turned.faces) std::reverse(piece.points.begin(), piece.points.end());
+  const std::vector<Index> others = crossing_bonds(body, turned, 1, network);
+  const auto modulus = [&](std::span<const Index> crossing) {
+    double sum = 0.0, count = 0.0;
+    for (const Index e : crossing) {
+      if (network.bonds.length(e) > short_bonds * body.lattice.spacing) continue;
+      for (const Index m : materials_at(network, e)) {
+        sum += input.materials[m].youngs_modulus;
+        count += 1.0;
+      }
+    }
+    return count > 0.0 ? sum / count : infinity;
+  };
+  return modulus(others) < (1.0 - 1e-6) * modulus(drawn) ? others : drawn;
+}
+
+void weaken_interfaces(const Body& body, const NetworkInput& input, const EvenBonds& even,
+                       Network& network) {
   for (std::size_t k = 0; k < input.interfaces.size(); ++k) {
     const WeakInterface& section = input.interfaces[k];
-    const std::vector<Index> crossing = crossing_bonds(body, section, network);
+    const std::vector<Index> crossing = bonds_across(body, input, section, network);
     InterfaceBonds& own = network.interfaces.emplace_back();
     own.count = static_cast<Index>(crossing.size());
     if (crossing.empty()) continue;
-    Face face = measure(body, input, network, crossing);
+    Face face = Measure(input, network, even, crossing).face();
     face.material.fracture_energy = section.fracture_energy;
     face.material.softening = section.softening;
     own.area = face.area;
-    try {
-      const MaterialBonds bonds = bonds_of(body, input, face);
-      own.strength = bonds.strength;
-      network.law_of.resize(network.stiffness.size(), 0);
-      for (const Index e : crossing) {
-        network.law_of[e] = static_cast<Index>(network.laws.size());
-        network.critical_stretch[e] = bonds.strength.first_stretch;
+    network.law_of.resize(network.stiffness.size(), 0);
+    std::size_t most = 0;
+    for (const auto& [place, bonds] : face.places) {
+      try {
+        const MaterialBonds made = bonds_of(body, input, network, face, place, bonds);
+        if (bonds.size() > most) own.strength = made.strength;
+        most = std::max(most, bonds.size());
+        for (const Index e : bonds) {
+          network.law_of[e] = static_cast<Index>(network.laws.size());
+          network.critical_stretch[e] = made.strength.first_stretch;
+        }
+        network.laws.push_back(made.law);
+      } catch (const TooStrong& error) {
+        throw TooStrong(static_cast<Index>(input.materials.size() + k), error.share);
       }
-      network.laws.push_back(bonds.law);
-    } catch (const TooStrong& error) {
-      throw TooStrong(static_cast<Index>(input.materials.size() + k), error.share);
     }
   }
 }

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "app/run/run_kind.hpp"
 #include "io/text/csv.hpp"
@@ -23,6 +24,14 @@ class WholeRun {
   explicit WholeRun(const std::string& text) : WholeRun(parse_case(text, "")) {}
 
   CsvTable history() const { return read_csv((work / "history.csv").string()); }
+  /// A column of the history.
+  std::vector<double> history(const std::string& name) const {
+    const CsvTable table = history();
+    const auto column = static_cast<std::size_t>(table.column(name));
+    std::vector<double> values;
+    for (const auto& row : table.rows) values.push_back(row.at(column));
+    return values;
+  }
   std::vector<PvdEntry> series() const { return read_pvd((work / "fields.pvd").string()); }
   VtuGrid fields(std::size_t number) const {
     return read_vtu((work / series().at(number).file).string());

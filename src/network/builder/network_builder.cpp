@@ -64,8 +64,11 @@ class PairConstants {
     for (std::size_t a = 0; a < count_; ++a) {
       for (std::size_t b = 0; b < count_; ++b) {
         const double c = 0.5 * (moduli[a].micromodulus + moduli[b].micromodulus);
+        // Peri2D, whose grid has ghosts, takes the mean.
         const double energy =
-            0.5 * (input.materials[a].fracture_energy + input.materials[b].fracture_energy);
+            body.lattice.surface == Surface::ghost
+                ? 0.5 * (input.materials[a].fracture_energy + input.materials[b].fracture_energy)
+                : energy_between(input.materials[a], input.materials[b]);
         const double stretch = !on_lattice
                                    ? continuum_critical_stretch(input.problem, energy, c,
                                                                 input.horizon, input.thickness)
@@ -101,32 +104,66 @@ void add_bonds(const PairConstants& constants, const NetworkInput& input, Networ
     const Index j = network.bonds.second[b];
     const Index own = particles.material[i];  // a ghost is never first
     const bool ghost = particles.kind[j] == ParticleKind::ghost;
-    const auto& [moduli, stretch] = constants.of(own, ghost ? own : particles.material[j]);
+    const MicropolarModuli& moduli = constants.of(own, ghost ? own : particles.material[j]).moduli;
     const double part = ghost ? 0.5 : 1.0;
     const double length = network.bonds.length(b);
     network.stiffness.push_back(moduli.micromodulus * part * particles.volumes[i] *
                                 particles.volumes[j] / length);
-    add_critical_stretch(input, stretch, network);
+    const auto [first, second] = materials_of_bond(network, b);
+    add_critical_stretch(input, constants.of(first, second).critical_stretch, network);
     if (!bends) continue;
     network.bending.push_back(12.0 * (moduli.bending_modulus * part) * particles.volumes[i] *
                               particles.volumes[j] / (length * length * length));
   }
 }
 
+/// Pre-cracks drawn so that those along a joint or an interface cut the bonds of its weaker side.
+std::vector<Crack> cracks_on_weaker_sides(const Body& body, const NetworkInput& input,
+                                          const Network& network) {
+  std::vector<Crack> cracks = input.cracks;
+  const double first = input.materials.front().fracture_energy;
+  if (input.interfaces.empty() && std::ranges::all_of(input.materials, [&](const SolidMaterial& m) {
+        return m.fracture_energy == first;
+      })) {
+    return cracks;
+  }
+  std::vector<double> weakness;  // per bond
+  for (Index b = 0; b < network.bonds.size(); ++b) {
+    const auto [i, j] = materials_of_bond(network, b);
+    weakness.push_back(1.0 / energy_between(input.materials[i], input.materials[j]));
+  }
+  for (const WeakInterface& face : input.interfaces) {
+    for (const Index b : bonds_across(body, input, face, network))
+      weakness[b] = 1.0 / face.fracture_energy;
+  }
+  const auto cut_by = [&](const Crack& crack) {
+    return find_cut_bonds(network.particles, network.bonds, {&crack, 1}, body.lattice.spacing).keep;
+  };
+  for (Crack& crack : cracks) {
+    Crack turned = crack;
+    std::reverse(turned.points.begin(), turned.points.end());
+    const std::vector<std::uint8_t> keep = cut_by(crack), keep_turned = cut_by(turned);
+    // Mean of the short bonds that one way of drawing cuts and the other does not.
+    std::array<double, 2> sum{}, count{};
+    for (Index b = 0; b < network.bonds.size(); ++b) {
+      if (keep[b] == keep_turned[b] || network.bonds.length(b) > 1.5 * body.lattice.spacing)
+        continue;
+      sum[keep[b]] += weakness[b];
+      count[keep[b]] += 1.0;
+    }
+    if (sum[1] * count[0] > (1.0 + 1e-6) * sum[0] * count[1]) crack = turned;
+  }
+  return cracks;
+}
+
 /// Takes out the bonds that cross a pre-crack, but for those that close.
 void cut_bonds(const Body& body, const NetworkInput& input, Network& network) {
-  CutBonds cut =
-      find_cut_bonds(network.particles, network.bonds, input.cracks, body.lattice.spacing);
+  CutBonds cut = find_cut_bonds(network.particles, network.bonds,
+                                cracks_on_weaker_sides(body, input, network), body.lattice.spacing);
   network.cut_by_crack = std::move(cut.count);
   const auto closes = [&](Index bond) {
-    const std::vector<Index>& material = network.particles.material;
-    const std::array<Index, 2> ends =
-        network.materials_of.empty()
-            ? std::array{material[network.bonds.first[bond]], material[network.bonds.second[bond]]}
-            : network.materials_of[bond];
-    return std::all_of(ends.begin(), ends.end(), [&](Index m) {
-      return m != no_index && input.materials[m].softening.closes;
-    });
+    return std::ranges::all_of(materials_of_bond(network, bond),
+                               [&](Index m) { return input.materials[m].softening.closes; });
   };
   Index number = 0;
   for (Index b = 0; b < network.bonds.size(); ++b) {
@@ -163,6 +200,7 @@ Network make_calibrated_bonds(const Body& body, const NetworkInput& input,
   remove_loose_ghosts(network.particles, network.bonds);
   share_directions_of_many(input, network.bonds);
   network.facets = body.facets;
+  set_materials_at_joints(input, network);
   add_bonds(constants, input, network);
   if (input.model == BondModel::micropolar) network.torsion = input.torsion;
   correct_surfaces(body, input, network);
@@ -173,11 +211,11 @@ Network make_calibrated_bonds(const Body& body, const NetworkInput& input,
 void set_stretches(const Body& body, const NetworkInput& input, const PairConstants& constants,
                    Network& network) {
   if (input.elastic) return;
-  const std::vector<Index>& material = network.particles.material;
+  set_materials_at_joints(input, network);
   network.critical_stretch.reserve(network.stiffness.size());
   for (Index b = 0; b < network.bonds.size(); ++b) {
-    const Index i = network.bonds.first[b], j = network.bonds.second[b];
-    network.critical_stretch.push_back(constants.of(material[i], material[j]).critical_stretch);
+    const auto [i, j] = materials_of_bond(network, b);
+    network.critical_stretch.push_back(constants.of(i, j).critical_stretch);
   }
   if (input.critical_stretch != Constants::lattice) return;
   set_critical_stretches(input, LatticeFamilies(body, input), body.lattice.cell_volume, network);
@@ -207,6 +245,41 @@ Network build_bonds_and_cells(const Body& body, const NetworkInput& input,
   return network;
 }
 
+/// Empty without interfaces or with materials of one stiffness. Calibration of a body of several
+/// materials as a whole gives bonds near their joints any stiffness between theirs, and others.
+EvenBonds even_bonds(const Body& body, const NetworkInput& input, const Network& network) {
+  NetworkInput even = input;
+  bool unlike = false;
+  for (SolidMaterial& material : even.materials) {
+    const SolidMaterial& first = input.materials.front();
+    unlike = unlike || !(lame_constants(input, material) == lame_constants(input, first));
+    material.youngs_modulus = first.youngs_modulus;
+    material.poissons_ratio = first.poissons_ratio;
+  }
+  if (input.interfaces.empty() || !unlike) return {};
+  even.interfaces.clear();
+  even.cracks.clear();
+  even.on_search = {};
+  const PairConstants constants(body, even);
+  const Network whole = body.glued.empty() ? build_bonds(body, even, constants)
+                                           : build_bonds_and_cells(body, even, constants);
+  EvenBonds bonds{std::vector<double>(static_cast<std::size_t>(network.num_bonds()), 0.0)};
+  if (!whole.bending.empty()) bonds.bending = bonds.stiffness;
+  const auto ends = [](const Bonds& bonds, Index b) {
+    return std::pair(bonds.first[b], bonds.second[b]);
+  };
+  const Index count = whole.bonds.size() - whole.num_edges_of_cells();
+  Index at = 0;  // both are sorted by their ends
+  for (Index b = 0; b < network.num_bonds(); ++b) {
+    while (at < count && ends(whole.bonds, at) < ends(network.bonds, b)) ++at;
+    if (at == count) break;
+    if (ends(whole.bonds, at) != ends(network.bonds, b)) continue;
+    bonds.stiffness[b] = whole.stiffness[at];
+    if (!whole.bending.empty()) bonds.bending[b] = whole.bending[at];
+  }
+  return bonds;
+}
+
 }  // namespace
 
 Network build_network(const Body& body, const NetworkInput& input) {
@@ -219,7 +292,7 @@ Network build_network(const Body& body, const NetworkInput& input) {
       body, input, [&](Index material) { return constants.tie(material); }, network);
   if (!input.elastic) {
     soften_bonds(body, input, network);
-    weaken_interfaces(body, input, network);
+    weaken_interfaces(body, input, even_bonds(body, input, network), network);
     for (const Index e : network.cut_elements) network.critical_stretch[e] = infinity;
   }
   for (std::vector<double>* of_ties : {&network.bending, &network.bending_ratio}) {

@@ -8,6 +8,7 @@
 
 #include "discretization/lattices/triangulate.hpp"
 #include "material/critical_stretch.hpp"
+#include "network/bond_strength.hpp"
 
 namespace perilink {
 namespace {
@@ -165,11 +166,10 @@ void Cut::add_bonds(LayerBody& cut) const {
     return mean > 0.0 ? moduli_[joint_.layers[layer_]].*modulus / mean : 0.0;
   };
   const auto stretch = [&](Index bond) {
-    const auto energy = [&](Index i) {
-      return input_.materials[layer.particles.material[i]].fracture_energy;
-    };
+    const auto material = [&](Index i) { return input_.materials[layer.particles.material[i]]; };
     return continuum_critical_stretch(
-        input_.problem, 0.5 * (energy(layer.bonds.first[bond]) + energy(layer.bonds.second[bond])),
+        input_.problem,
+        energy_between(material(layer.bonds.first[bond]), material(layer.bonds.second[bond])),
         moduli_[joint_.layers[layer_]].micromodulus, input_.horizon, input_.thickness);
   };
   for (Index b = 0; b < whole_.bonds.size(); ++b) {

@@ -104,12 +104,11 @@ TEST(BondStrength, OfPairsOfMaterialsIsThatOfBothTogether) {
   for (const Index pair : {0, 1, 2}) sums[pair] = sums_of(network, pair / 2, (pair + 1) / 2);
   std::array<int, 3> found{};
   for (Index e = 0; e < network.num_elements(); ++e) {
-    const Index a = network.particles.material[network.bonds.first[e]];
-    const Index b = network.particles.material[network.bonds.second[e]];
+    const auto [a, b] = materials_of_bond(network, e);
     const Sums& both = sums[a + b];
     ++found[a + b];
-    const double energy =
-        0.5 * (input.materials[a].fracture_energy + input.materials[b].fracture_energy);
+    const double energy = energy_between(input.materials[a], input.materials[b]);
+    EXPECT_EQ(energy, a + b < 2 ? 0.02 : 0.05);
     const double sum = 2.0 / std::numbers::pi * both.axial / both.volume;
     EXPECT_NEAR(0.5 * std::pow(network.critical_stretch[e], 2) * sum, energy,
                 strength_round_off * energy);

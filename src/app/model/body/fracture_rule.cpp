@@ -46,7 +46,11 @@ std::vector<double> count_on_the_path(const CaseFile& input, const Body& body,
   }
   for (WeakInterface& face : network.interfaces) {
     if (face.softening.shape.kind != Softening::brittle) continue;
-    face.fracture_energy /= crack_cost(body, network, network.materials.front());
+    double sum = 0.0;
+    for (const SolidMaterial& material : network.materials) {
+      sum += crack_cost(body, network, material);
+    }
+    face.fracture_energy /= sum / static_cast<double>(network.materials.size());
   }
   return costs;
 }

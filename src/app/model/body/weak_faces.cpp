@@ -35,13 +35,13 @@ void mark(const CaseFile& input, const Body& body, const std::string& name, std:
       body.groups.rbegin(), body.groups.rend(),
       [&](const Group& known) { return !region.group.empty() && known.name == region.group; });
   if (group != body.groups.rend()) {
-    for (const Index i : group->particles) sides[i] = side;
+    for (const Index i : group->particles) sides[i] |= side;
     return;
   }
   for (Index i = 0; i < body.particles.size(); ++i) {
     if (body.particles.kind[i] != ParticleKind::solid) continue;
     if (region.contains(body.particles.position(i), on_side * body.lattice.spacing)) {
-      sides[i] = side;
+      sides[i] |= side;
     }
   }
 }

@@ -25,7 +25,8 @@ LatticeInput two_materials(Surface surface) {
   return input;
 }
 
-TEST(BuildNetwork, BondsCarryTheMeanOfTheirEnds) {
+/// Particles in the joint break as the material that a bond enters there.
+TEST(BuildNetwork, BondsCarryTheMeanOfTheirEndsAndBreakByTheSmallerEnergy) {
   const LatticeInput body_of = two_materials(Surface::none);
   const Body body = make_body(body_of);
   NetworkInput input = network_input(body_of);
@@ -43,10 +44,13 @@ TEST(BuildNetwork, BondsCarryTheMeanOfTheirEnds) {
         network.stiffness[b],
         mean * c * body.particles.volumes[i] * body.particles.volumes[j] / network.bonds.lengths[b],
         1e-12 * network.stiffness[b]);
-    EXPECT_NEAR(network.critical_stretch[b],
-                continuum_critical_stretch(input.problem, mean * 0.02, mean * c, input.horizon,
-                                           input.thickness),
-                1e-12 * network.critical_stretch[b]);
+    const auto [first, second] = network.materials_of.at(b);
+    const double energy = input.materials[std::min(first, second)].fracture_energy;
+    const double modulus = (1.0 + first + second) * c;
+    EXPECT_NEAR(
+        network.critical_stretch[b],
+        continuum_critical_stretch(input.problem, energy, modulus, input.horizon, input.thickness),
+        1e-12 * network.critical_stretch[b]);
     factors.insert(mean);
   }
   EXPECT_EQ(factors.size(), 3U);
