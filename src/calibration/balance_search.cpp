@@ -1,7 +1,6 @@
 #include "calibration/balance_search.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <cmath>
 #include <utility>
 
@@ -30,7 +29,7 @@ constexpr double far_from_worth = 0.5, near_to_worth = 0.3;
 
 /// Few digits of the energies of dilatation are enough; what the exact forces move afterwards is
 /// more.
-const double settling_tolerance = getenv("RO_T") ? atof(getenv("RO_T")) : 0.01;
+constexpr double settling_tolerance = 0.01;
 
 /// Iterations of conjugate gradients in one search. Searches that end need less, up to 4000 in
 /// solids with edges; those of nearly contradictory equations would go on for minutes.
@@ -71,8 +70,9 @@ void BalanceSearch::fit_energies() {
   const CalibrationEquations::State start = equations_.save();
   LeastChangeOptions options;
   options.tolerance = settling_tolerance;
-  options.preconditioner = getenv("RO_F") ? Preconditioner::factor : Preconditioner::blocks_then_boxes;
-  if (getenv("RO_P")) options.price = priced_ ? price : no_price;
+  options.preconditioner = Preconditioner::blocks_then_boxes;
+  options.price = priced_ ? price : no_price;
+  options.keeps_directions = !in_space_;
   KeptPreconditioner of_forces = std::exchange(kept_, {});
   for (const Method method : {Method::newton, Method::interior_point}) {
     if (in_space_ && method == Method::newton) continue;

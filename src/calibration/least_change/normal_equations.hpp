@@ -345,6 +345,7 @@ int NormalEquations<Rows, Odd, Grouped>::solve(const Vector& residual, double re
                                                Vector& direction) {
   DirectionSearch search{residual, reduction * norm(residual), residual, Vector(size_, 0.0)};
   search.rounded = packed_.has_value();
+  search.keeps_directions = options_.keeps_directions && !search.rounded;
   find_direction(search);
   direction = std::move(search.direction);
   return search.iterations;

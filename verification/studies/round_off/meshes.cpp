@@ -114,9 +114,11 @@ std::string case_text(const MeshBody& body, const Mesh& mesh, double unit, int b
   for (const char* name : {"all", "right"}) {
     const double modulus = 30e3 * (name == std::string("all") ? 1.0 : body.stiffer);
     if (name == std::string("right") && body.stiffer == 1.0) continue;
-    text += fmt::format("[[materials]]\nregion = \"{}\"\nyoungs_modulus = {}\nfracture_energy = {}\n",
-                        name, modulus / unit / unit, 0.1 / unit);
-    if (body.poissons_ratio > 0.0) text += fmt::format("poissons_ratio = {}\n", body.poissons_ratio);
+    text +=
+        fmt::format("[[materials]]\nregion = \"{}\"\nyoungs_modulus = {}\nfracture_energy = {}\n",
+                    name, modulus / unit / unit, 0.1 / unit);
+    if (body.poissons_ratio > 0.0)
+      text += fmt::format("poissons_ratio = {}\n", body.poissons_ratio);
     if (body.strength > 0.0) {
       text += fmt::format("tensile_strength = {}\n", body.strength / unit / unit);
     }
@@ -199,8 +201,8 @@ double stiffness_difference(const MeshBody& body, const Model& plain, const Mode
   const auto stiffnesses = [](const Model& model, std::span<const Index> numbers, double factor) {
     std::map<std::pair<Index, Index>, double> result;
     for (Index b = 0; b < model.network.bonds.size(); ++b) {
-      const auto ends =
-          std::minmax(numbers[model.network.bonds.first[b]], numbers[model.network.bonds.second[b]]);
+      const auto ends = std::minmax(numbers[model.network.bonds.first[b]],
+                                    numbers[model.network.bonds.second[b]]);
       result[ends] = factor * model.network.stiffness[b];
     }
     return result;

@@ -87,6 +87,9 @@ struct LeastChangeOptions {
   /// Tied variables only: operations after which no step begins, those of a factor; solutions
   /// count by their time.
   double operations = std::numeric_limits<double>::infinity();
+  /// Conjugate gradients that ask for few digits keep all directions of a search, so that round-off
+  /// does not change their answers.
+  bool keeps_directions = false;
   Preconditioner preconditioner = Preconditioner::blocks;
   Method method = Method::newton;
   /// Newton's method only: multipliers to start from, of nearly the same problem. Empty: none.
