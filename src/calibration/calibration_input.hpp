@@ -62,6 +62,7 @@ struct CalibrationReport {
   double smallest_weight = 1.0;  ///< axial stiffness, end over start
   double largest_weight = 1.0;
   Index at_least_weight = 0;  ///< number of bonds at the least weight
+  bool ended_early = false;   ///< unmet after several times the work that was expected
   Index dropped = 0;          ///< bonds that may carry nothing: their stiffness is zero
   int iterations = 0;         ///< conjugate gradients, in all
   double seconds = 0.0;       ///< wall time, with that of the families of a lattice

@@ -84,11 +84,11 @@ struct LeastChangeOptions {
   /// the search ends with that. Multipliers of what contradicts itself grow until the weights that
   /// they choose have nothing to do with the other equations.
   double lost = std::numeric_limits<double>::infinity();
-  /// Tied variables only: operations after which no step begins, those of a factor; solutions
-  /// count by their time.
+  /// Work after which no step begins. Tied variables: operations of a factor; solutions count by
+  /// their time. Others: that of factors of all equations only, about 1e9 in a second.
   double operations = std::numeric_limits<double>::infinity();
-  /// Conjugate gradients that ask for few digits keep all directions of a search, so that round-off
-  /// does not change their answers.
+  /// Conjugate gradients keep all directions of a solution, so that what they leave of equations
+  /// that are solved to few digits is no matter of round-off.
   bool keeps_directions = false;
   Preconditioner preconditioner = Preconditioner::blocks;
   Method method = Method::newton;
