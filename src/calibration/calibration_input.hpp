@@ -51,6 +51,7 @@ struct CalibrationOptions {
 struct CalibrationReport {
   Index free_bonds = 0;
   bool alike = false;            ///< bonds that lie alike were made alike
+  bool ended_early = false;      ///< unmet after several times the work that was expected
   double residual_before = 0.0;  ///< largest force out of balance at the start ...
   double residual_after = 0.0;   ///< ... and at the end
   double moment_after = 0.0;  ///< largest moment out of balance of bonds that carry moments, over
@@ -62,7 +63,6 @@ struct CalibrationReport {
   double smallest_weight = 1.0;  ///< axial stiffness, end over start
   double largest_weight = 1.0;
   Index at_least_weight = 0;  ///< number of bonds at the least weight
-  bool ended_early = false;   ///< unmet after several times the work that was expected
   Index dropped = 0;          ///< bonds that may carry nothing: their stiffness is zero
   int iterations = 0;         ///< conjugate gradients, in all
   double seconds = 0.0;       ///< wall time, with that of the families of a lattice
