@@ -31,7 +31,7 @@ struct MeshBody {
 /// A body after a change.
 struct ChangedBody {
   Model model;
-  double seconds = 0.0;  ///< wall time of calibrations
+  double seconds = 0.0;  ///< processor time of the set-up, calibration and all
   double peak = 0.0;     ///< largest load, in the unit of force, which no change alters
 };
 
