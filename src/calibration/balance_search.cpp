@@ -267,7 +267,6 @@ CalibrationReport BalanceSearch::run(double operations) {
     equations_.report_balance(report_);
   }
   equations_.report_weights(report_);
-  report_.ended_early = operations_ <= 0.0 && unbalanced() > met_balance;
   return report_;
 }
 

@@ -37,7 +37,7 @@ class BalanceSearch {
         energies_(irregular_),
         equations_(input, options.least_weight, facets, stiffness, orbits) {}
 
-  /// \param operations  that searches may take, see LeastChangeOptions::operations
+  /// \param operations  that searches of tied bonds may take
   CalibrationReport run(double operations = std::numeric_limits<double>::infinity());
   CalibrationEquations::State result() const { return equations_.save(); }
   /// Whether what must vanish was dropped, and forces came nearer to balance so.

@@ -71,7 +71,7 @@ std::optional<CalibrationReport> calibrate_alike(const CalibrationInput& input,
 CalibrationReport calibrate_singly(const CalibrationInput& input, const CalibrationOptions& options,
                                    Facets& facets, BondStiffness& stiffness, bool drops_first) {
   BalanceSearch search(input, options, facets, stiffness, nullptr, drops_first);
-  const CalibrationReport report = search.run(single_budget(input, !stiffness.bending.empty()));
+  const CalibrationReport report = search.run();
   CalibrationEquations::State found = search.result();
   stiffness = std::move(found.stiffness);
   facets.shares = std::move(found.shares);

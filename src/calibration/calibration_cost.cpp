@@ -35,8 +35,6 @@ constexpr double few_bonds = 30.0, in_space_by_factor = 200e-6, bonds_by_factor 
 constexpr double alike = 0.6e-6, alike_operations = 0.8, operations_per_second = 3e10;
 /// So many end the attempt: bodies that need most of them take a half of it.
 constexpr double most_alike_operations = 6.0;
-/// In the plane single bonds may take so many times what is expected, and so many seconds always.
-constexpr double most_of_estimate = 7.0, always_allowed = 3.0;
 /// They must save so much: they may have no solution, and both costs are rough.
 constexpr double worth_a_try = 2.0;
 /// Bytes for every bond that may change on its own, in space (lattices of 170 000 to 1 100 000
@@ -137,11 +135,6 @@ std::optional<BondOrbits> alike_bonds(const CalibrationInput& input, const Facet
 double alike_budget(const CalibrationInput& input, const BondOrbits& orbits, bool moments) {
   return input.box ? std::numeric_limits<double>::infinity()
                    : most_alike_operations * unit_alike(input, orbits, moments);
-}
-
-double single_budget(const CalibrationInput& input, bool moments) {
-  if (input.particles.dim == 3) return std::numeric_limits<double>::infinity();
-  return 1e9 * std::max(always_allowed, most_of_estimate * cost_of_single_bonds(input, moments));
 }
 
 bool meets_few(const CalibrationInput& input) {

@@ -18,10 +18,6 @@ std::optional<BondOrbits> alike_bonds(const CalibrationInput& input, const Facet
 /// twice as many as are expected.
 double alike_budget(const CalibrationInput& input, const BondOrbits& orbits, bool moments);
 
-/// Work after which searches for single bonds end, see LeastChangeOptions::operations: in the plane
-/// several times what is expected, in space without limit.
-double single_budget(const CalibrationInput& input, bool moments);
-
 /// Whether the bonds that may change meet so few that searches leave out all others.
 bool meets_few(const CalibrationInput& input);
 

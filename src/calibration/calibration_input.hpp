@@ -51,7 +51,6 @@ struct CalibrationOptions {
 struct CalibrationReport {
   Index free_bonds = 0;
   bool alike = false;            ///< bonds that lie alike were made alike
-  bool ended_early = false;      ///< unmet after several times the work that was expected
   double residual_before = 0.0;  ///< largest force out of balance at the start ...
   double residual_after = 0.0;   ///< ... and at the end
   double moment_after = 0.0;  ///< largest moment out of balance of bonds that carry moments, over

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "io/mesh/gmsh_file.hpp"
 #include "meshes.hpp"
 #include "support/temporary_directory.hpp"
 
@@ -24,22 +23,18 @@ void expect_same(const MeshBody& body, double stiffness, double peak) {
   }
 }
 
-Mesh mesh(const std::string& name, int dim) {
-  return read_gmsh_file(PERILINK_SOURCE_DIR "/meshes/" + name + ".msh", dim);
-}
-
 /// Coordinates a thousand sizes away have 1e-13 of the size, a bond of the L 1e-12 of its length.
 TEST(RoundOff, DoesNotChangeAnswersOnMeshesInThePlane) {
-  expect_same({"L", mesh("l_shape", 2)}, 1e-8, 1e-8);
-  expect_same({"L, two spacings", mesh("l_shape", 2), 2.0}, 1e-8, 1e-8);
-  expect_same({"L with moments", mesh("l_shape", 2), 2.0, 0.2}, 1e-8, 1e-8);
-  expect_same({"plate", mesh("plate_with_hole", 2)}, 1e-8, 1e-8);
-  expect_same({"corbel", mesh("corbel", 2), 2.0}, 1e-8, 1e-8);
+  expect_same({"L", read_body("l_shape", 2)}, 1e-8, 1e-8);
+  expect_same({"L, two spacings", read_body("l_shape", 2), 2.0}, 1e-8, 1e-8);
+  expect_same({"L with moments", read_body("l_shape", 2), 2.0, 0.2}, 1e-8, 1e-8);
+  expect_same({"plate", read_body("plate_with_hole", 2)}, 1e-8, 1e-8);
+  expect_same({"corbel", read_body("corbel", 2), 2.0}, 1e-8, 1e-8);
 }
 
 /// Searches in space read coefficients in single precision.
 TEST(RoundOff, DoesNotChangeStiffnessesOfMeshesInSpace) {
-  expect_same({"L", mesh("l_block_coarse", 3)}, 1e-6, 0.0);
+  expect_same({"L", read_body("l_block_coarse", 3)}, 1e-6, 0.0);
 }
 
 }  // namespace

@@ -33,12 +33,7 @@ std::optional<std::string> calibration_shortfall(const Network& network) {
       "uniform strains leave {} particles out of balance, most (by {:.1e} of the force on a face "
       "of its cell) the one at ({:.6g})",
       report.unmet, worst, fmt::join(network.particles.position(report.worst_particle), ", "));
-  if (report.ended_early) {
-    text +=
-        "; WARNING: the calibration ended without a solution after several times the work that "
-        "such bodies take, and strains there are wrong by about as much: take a shorter horizon "
-        "(at most half of the body), a smaller poissons_ratio, or surface = \"energy\"";
-  } else if (worst > harmful) {
+  if (worst > harmful) {
     text +=
         "; WARNING: strains around it are wrong by about as much, so mesh that place more evenly "
         "or take a longer horizon";

@@ -2,7 +2,6 @@
 
 #include <omp.h>
 
-#include <algorithm>
 #include <array>
 
 #include <Eigen/Core>
@@ -18,9 +17,6 @@ namespace {
 /// that depend on others. What the factor misses by it the conjugate gradients make up for; more is
 /// needed only where many rows depend on others.
 constexpr std::array<double, 3> floors = {1e-14, 1e-12, 1e-10};
-
-/// A factor takes about as long for so many operations as a solution that reads one number.
-constexpr double operations_per_number = 10.0;
 
 PointMatrix::Pairs shared_points(const PointEquations& equations) {
   PointMatrix::Pairs pairs;
@@ -86,16 +82,9 @@ void EquationsFactor::factorize(const PointEquations& equations, const std::vect
   for (const double floor : floors) {
     fill(equations, active, diagonal, floor);
     try {
-      if (factor_) {
-        factor_->refactorize(matrix_.matrix());
-      } else {
-        factor_ = make_factor(FactorRoute::in_place, omp_get_max_threads());
-        factor_->factorize(matrix_.matrix(), matrix_.point_of_rows());
-      }
-      const FactorStatistics statistics = factor_->statistics();
-      numbers_ = 2.0 * statistics.entries;
-      work_ += statistics.flops / operations_per_number;
-      return;
+      if (factor_) return factor_->refactorize(matrix_.matrix());
+      factor_ = make_factor(FactorRoute::in_place, omp_get_max_threads());
+      return factor_->factorize(matrix_.matrix(), matrix_.point_of_rows());
     } catch (const SolverError&) {
       if (floor == floors.back()) throw;
       factor_.reset();
@@ -105,13 +94,7 @@ void EquationsFactor::factorize(const PointEquations& equations, const std::vect
 
 void EquationsFactor::solve(const std::vector<double>& residual,
                             std::vector<double>& result) const {
-  work_ += numbers_;
   factor_->solve(residual, result);
-}
-
-int EquationsFactor::affordable(int most, double limit) const {
-  const double left = std::max(0.0, limit - work_);
-  return left < most * numbers_ ? 1 + static_cast<int>(left / numbers_) : most;
 }
 
 }  // namespace perilink

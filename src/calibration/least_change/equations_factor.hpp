@@ -25,12 +25,6 @@ class EquationsFactor {
   /// result = S^-1 residual, both of shape (points, rows).
   void solve(const std::vector<double>& residual, std::vector<double>& result) const;
 
-  /// Factorisations and solutions so far: numbers that are read, of which a second takes some 1e9.
-  double work() const { return work_; }
-  void count_anew() { work_ = 0.0; }
-  /// At most so many solutions, at least one, that leave the work below a limit.
-  int affordable(int most, double limit) const;
-
  private:
   void fill(const PointEquations& equations, const std::vector<double>& active,
             const std::vector<double>& diagonal, double floor);
@@ -38,8 +32,6 @@ class EquationsFactor {
   int rows_;
   PointMatrix matrix_;
   std::unique_ptr<Factor> factor_;
-  mutable double work_ = 0.0;
-  double numbers_ = 0.0;  ///< that a solution reads
 };
 
 }  // namespace perilink

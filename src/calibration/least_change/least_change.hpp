@@ -19,7 +19,7 @@ struct LeastChange {
   Index worst_point = no_index;     ///< where it is
   Index at_lower = 0;               ///< number of weights at their lower bound
   int iterations = 0;               ///< conjugate gradients, in all
-  double operations = 0.0;          ///< work, see LeastChangeOptions::operations
+  double operations = 0.0;          ///< tied variables only
   std::vector<double> multipliers;  ///< by Newton's method
   /// False: no weights within the bounds satisfy all equations, or too few iterations; what can be
   /// met is met.

@@ -41,7 +41,6 @@ class NormalEquations {
         // The first steps of an interior point have other fields: blocks serve better.
         with_boxes_(options.preconditioner == Preconditioner::blocks_then_boxes && kept.boxes &&
                     options.method == Method::newton) {
-    if (kept_.factor) kept_.factor->count_anew();
     if (std::isfinite(options.price)) compliance.assign(size_, 0.0);
     if (options.preconditioner == Preconditioner::blocks_then_boxes &&
         PackedProduct::serves(equations)) {
@@ -71,15 +70,15 @@ class NormalEquations {
   void prepare_if_stale(bool settled, bool last);
   /// S direction = residual, the residual reduced by the factor. \return iterations
   int solve(const Vector& residual, double reduction, Vector& direction);
-  /// Work of the factor of all equations.
-  double spent() const { return kept_.factor ? kept_.factor->work() : 0.0; }
+  /// Only tied equations count operations.
+  static double spent() { return 0.0; }
 
   std::vector<double> mobility;
   /// What an exact equation gives way per unit of its multiplier, shape (points, Rows); empty where
   /// none has a price.
   Vector compliance;
-  /// Weight of the method of multipliers: contradictions of equations of order one decay by it over
-  /// the smallest squared singular value in each step. 0: the least.
+  /// Weight of the method of multipliers, relative to equations of order one: contradictions decay
+  /// by this factor over the smallest squared singular value in each step. 0: the least.
   double proximity = 0.0;
 
  private:
@@ -94,8 +93,9 @@ class NormalEquations {
   static constexpr double settled_proximity = 1e-13;
   /// Iterations that take about as long as a factor, and those of a solution that make it stale.
   static constexpr int worth_of_factor = 15, stale_iterations = 40;
-  /// Iterations after which blocks get help, or boxes other fields. Soft ones take the time of some
-  /// 500 iterations of blocks and serve several solutions; known ones that of a coarse system.
+  /// Iterations of a solution after which blocks get help, or boxes other fields. Soft ones take
+  /// the time of about 500 iterations of blocks alone, and serve several solutions; with those of
+  /// an earlier search help takes that of a coarse system.
   static constexpr int patience = 200, patience_with_fields = 100, stale_fields = 200;
   /// The coarse system of boxes takes the time of about forty iterations.
   static constexpr int stale_coarse = 80;
@@ -382,7 +382,6 @@ template <int Rows, int Odd, bool Grouped>
 bool NormalEquations<Rows, Odd, Grouped>::iterate(DirectionSearch& search, int most) {
   const Vector shift = diagonal();
   const int before = search.iterations;
-  if (by_factor_) most = kept_.factor->affordable(most, options_.operations);
   search.cheap_iterations = !by_factor_ && !with_boxes_ ? cheap_iterations : 0;
   const bool reached = descend(
       search, most, [&](const Vector& y, Vector& result) { apply_system(shift, y, result); },

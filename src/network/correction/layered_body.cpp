@@ -263,7 +263,6 @@ void add_report(const LayerBody& layer, CalibrationReport& sum) {
   sum.largest_weight = std::max(sum.largest_weight, own.largest_weight);
   sum.at_least_weight += own.at_least_weight;
   sum.dropped += own.dropped;
-  sum.ended_early = sum.ended_early || own.ended_early;
   sum.iterations += own.iterations;
 }
 

@@ -16,6 +16,7 @@
 #include "app/model/from_case/analysis_options.hpp"
 #include "app/model/from_case/configure.hpp"
 #include "io/case/case_file.hpp"
+#include "io/mesh/gmsh_file.hpp"
 
 namespace perilink::verification {
 namespace {
@@ -137,6 +138,22 @@ class Quiet : public StepObserver {
 };
 
 }  // namespace
+
+Mesh read_body(const std::string& name, int dim) {
+  const Mesh mesh = read_gmsh_file(PERILINK_SOURCE_DIR "/meshes/" + name + ".msh", dim);
+  Mesh result;
+  result.dim = dim;
+  std::vector<Index> number(static_cast<std::size_t>(mesh.num_points()), no_index);
+  for (const Index point : mesh.cells) number[point] = 0;
+  for (Index i = 0, count = 0; i < mesh.num_points(); ++i) {
+    if (number[i] == no_index) continue;
+    number[i] = count++;
+    const double* x = mesh.positions.data() + static_cast<std::size_t>(i) * dim;
+    result.positions.insert(result.positions.end(), x, x + dim);
+  }
+  for (const Index point : mesh.cells) result.cells.push_back(number[point]);
+  return result;
+}
 
 Mesh changed(const Mesh& mesh, Change change, std::vector<Index>& number) {
   Mesh result = mesh;

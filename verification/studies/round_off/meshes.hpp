@@ -35,6 +35,9 @@ struct ChangedBody {
   double peak = 0.0;     ///< largest load, in the unit of force, which no change alters
 };
 
+/// A mesh of meshes/ without points that no cell uses.
+Mesh read_body(const std::string& name, int dim);
+
 /// \param number  place of each point in a renumbered file, filled here
 Mesh changed(const Mesh& mesh, Change change, std::vector<Index>& number);
 

@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "io/mesh/gmsh_file.hpp"
 #include "meshes.hpp"
 #include "problems/program.hpp"
 #include "problems/result.hpp"
@@ -19,22 +18,19 @@ namespace perilink::verification {
 namespace {
 
 std::vector<MeshBody> bodies() {
-  const auto mesh = [](const std::string& name, int dim) {
-    return read_gmsh_file(PERILINK_SOURCE_DIR "/meshes/" + name + ".msh", dim);
-  };
-  return {{"disc", mesh("disc", 2)},
-          {"disc, softening", mesh("disc", 2), 3.0, 0.0, 1.0, 3.0},
-          {"L", mesh("l_shape", 2)},
-          {"L, micropolar", mesh("l_shape", 2), 3.0, 0.2},
-          {"plate with a hole", mesh("plate_with_hole", 2)},
-          {"plate with a hole, two materials", mesh("full_plate_with_hole", 2), 3.0, 0.0, 4.0},
-          {"plate with a hole, micropolar", mesh("full_plate_with_hole", 2), 3.0, 0.2},
-          {"corbel", mesh("corbel", 2)},
-          {"corbel, horizon of two spacings", mesh("corbel", 2), 2.0},
-          {"L in space", mesh("l_block_coarse", 3)},
-          {"cylinder", mesh("cylinder", 3)},
-          {"block with a hole", mesh("block_with_hole", 3)},
-          {"hollow sphere", mesh("hollow_sphere", 3)}};
+  return {{"disc", read_body("disc", 2)},
+          {"disc, softening", read_body("disc", 2), 3.0, 0.0, 1.0, 3.0},
+          {"L", read_body("l_shape", 2)},
+          {"L, micropolar", read_body("l_shape", 2), 3.0, 0.2},
+          {"plate with a hole", read_body("plate_with_hole", 2)},
+          {"plate with a hole, two materials", read_body("full_plate_with_hole", 2), 3.0, 0.0, 4.0},
+          {"plate with a hole, micropolar", read_body("full_plate_with_hole", 2), 3.0, 0.2},
+          {"corbel", read_body("corbel", 2)},
+          {"corbel, horizon of two spacings", read_body("corbel", 2), 2.0},
+          {"L in space", read_body("l_block_coarse", 3)},
+          {"cylinder", read_body("cylinder", 3)},
+          {"block with a hole", read_body("block_with_hole", 3)},
+          {"hollow sphere", read_body("hollow_sphere", 3)}};
 }
 
 }  // namespace

@@ -84,8 +84,8 @@ struct LeastChangeOptions {
   /// the search ends with that. Multipliers of what contradicts itself grow until the weights that
   /// they choose have nothing to do with the other equations.
   double lost = std::numeric_limits<double>::infinity();
-  /// Work after which no step begins. Tied variables: operations of a factor; solutions count by
-  /// their time. Others: that of factors of all equations only, about 1e9 in a second.
+  /// Tied variables only: operations after which no step begins, those of a factor; solutions
+  /// count by their time.
   double operations = std::numeric_limits<double>::infinity();
   /// Conjugate gradients keep all directions of a solution, so that what they leave of equations
   /// that are solved to few digits is no matter of round-off.
