@@ -71,6 +71,8 @@ void BalanceSearch::fit_energies() {
   LeastChangeOptions options;
   options.tolerance = settling_tolerance;
   options.preconditioner = Preconditioner::blocks_then_boxes;
+  options.price = priced_ ? price : no_price;
+  options.keeps_directions = !in_space_;
   KeptPreconditioner of_forces = std::exchange(kept_, {});
   for (const Method method : {Method::newton, Method::interior_point}) {
     if (in_space_ && method == Method::newton) continue;

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Core>
+
 namespace perilink {
 
 /// From so many numbers on vectors are worked on in so many parts, which threads share.
@@ -63,11 +65,40 @@ struct DirectionSearch {
   int iterations = 0;
   int cheap_iterations = 0;  ///< until then a solution may as well be more exact
   bool rounded = false;      ///< whether products of the steps have few digits
+  /// Whether directions are made conjugate to all former ones, see FormerDirections.
+  bool keeps_directions = false;
 
   static constexpr double cheap_reduction = 0.1;
   /// Products of few digits serve until residuals have fallen by this factor; where they have not
   /// by the second one they do not serve.
   static constexpr double digits_of_steps = 1e-4, least_gain = 0.1;
+};
+
+/// Directions of a search with their products. In exact arithmetic a new one is conjugate to all of
+/// them. Round-off breaks that after some tens of iterations, grows from each to the next, and what
+/// a search for few digits ends with is a matter of the last bit of the equations.
+class FormerDirections {
+ public:
+  void add(const std::vector<double>& direction, const std::vector<double>& product,
+           double curvature) {
+    if ((directions_.size() + 1) * direction.size() > most_numbers) return;
+    directions_.push_back(map(direction));
+    products_.push_back(map(product) / curvature);
+  }
+  void make_conjugate(std::vector<double>& direction) const {
+    Eigen::Map<Eigen::VectorXd> result(direction.data(), map(direction).size());
+    for (std::size_t k = directions_.size(); k-- > 0;) {
+      result -= products_[k].dot(result) * directions_[k];
+    }
+  }
+
+ private:
+  /// 128 MB; round-off grows less in larger bodies.
+  static constexpr std::size_t most_numbers = 8'000'000;
+  static Eigen::Map<const Eigen::VectorXd> map(const std::vector<double>& vector) {
+    return {vector.data(), static_cast<Eigen::Index>(vector.size())};
+  }
+  std::vector<Eigen::VectorXd> directions_, products_;  // products over curvatures
 };
 
 /// Goes on with a search, by so many iterations at most. Where products of the steps have few
@@ -92,6 +123,7 @@ bool descend(DirectionSearch& search, int most, Exact exact, Product product,
   const bool corrects =
       search.rounded && search.target < search.digits_of_steps * norm(search.right);
   bool is_exact = true;
+  FormerDirections former;
   for (int count = 0;;) {
     const bool cheap = count < search.cheap_iterations;
     const double enough = cheap ? search.cheap_reduction * search.target : search.target;
@@ -119,7 +151,9 @@ bool descend(DirectionSearch& search, int most, Exact exact, Product product,
     is_exact = !corrects || !search.rounded;
     precondition(r, z);
     const double next = dot(r, z);
+    if (search.keeps_directions) former.add(p, q, curvature);
     combine(p, z, next / rz, p);
+    if (search.keeps_directions) former.make_conjugate(p);
     rp = rz = next;
     ++count;
     ++search.iterations;

@@ -91,10 +91,8 @@ class NormalEquations {
   static constexpr double factor_proximity = 1e-18;
   /// What a step leaves along long waves of clouds takes further steps: the last ones leave less.
   static constexpr double settled_proximity = 1e-13;
-  /// Iterations that take about as long as a factor.
-  static constexpr int worth_of_factor = 15;
-  /// A factor is made anew when the last solution needed more iterations than this.
-  static constexpr int stale_iterations = 40;
+  /// Iterations that take about as long as a factor, and those of a solution that make it stale.
+  static constexpr int worth_of_factor = 15, stale_iterations = 40;
   /// Iterations of a solution after which blocks get help, or boxes other fields. Soft ones take
   /// the time of about 500 iterations of blocks alone, and serve several solutions; with those of
   /// an earlier search help takes that of a coarse system.
@@ -345,6 +343,7 @@ int NormalEquations<Rows, Odd, Grouped>::solve(const Vector& residual, double re
                                                Vector& direction) {
   DirectionSearch search{residual, reduction * norm(residual), residual, Vector(size_, 0.0)};
   search.rounded = packed_.has_value();
+  search.keeps_directions = options_.keeps_directions && !search.rounded;
   find_direction(search);
   direction = std::move(search.direction);
   return search.iterations;

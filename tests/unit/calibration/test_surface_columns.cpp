@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "discretization/lattices/lattice.hpp"
 #include "discretization/lattices/make_body.hpp"
@@ -58,6 +59,29 @@ TEST(SurfaceColumns, DoNotMixMaterials) {
   }
   EXPECT_EQ(without, 11);
   EXPECT_GT(joined, 30);
+}
+
+/// Under a side of regular triangles every second row is as far from two particles of the side: the
+/// last bit of coordinates, which moves every bond's length, must not choose between them.
+TEST(SurfaceColumns, DoNotDependOnRoundOff) {
+  LatticeInput input;
+  input.pattern = Pattern::hexagonal;
+  input.spacing = 0.1;
+  input.surface = Surface::calibrated;
+  input.solid = {{{0, 0, 0}, {1, 1, 0}}};
+  input.material = {0};
+  const Body body = make_body(input);
+  const double horizon = 2.0 * body.lattice.spacing;
+  const auto columns = [&](const Particles& particles) {
+    return surface_columns(make_bonds(particles, horizon), body.facets, particles);
+  };
+  const std::vector<Index> head = columns(body.particles);
+  std::mt19937 random(3);
+  for (int round = 0; round < 5; ++round) {
+    Particles noisy = body.particles;
+    for (double& x : noisy.positions) x = std::nextafter(x, random() % 2 ? 10.0 : -10.0);
+    EXPECT_EQ(columns(noisy), head);
+  }
 }
 
 }  // namespace

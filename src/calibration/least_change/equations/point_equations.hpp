@@ -87,6 +87,9 @@ struct LeastChangeOptions {
   /// Tied variables only: operations after which no step begins, those of a factor; solutions
   /// count by their time.
   double operations = std::numeric_limits<double>::infinity();
+  /// Conjugate gradients keep all directions of a solution, so that what they leave of equations
+  /// that are solved to few digits is no matter of round-off.
+  bool keeps_directions = false;
   Preconditioner preconditioner = Preconditioner::blocks;
   Method method = Method::newton;
   /// Newton's method only: multipliers to start from, of nearly the same problem. Empty: none.

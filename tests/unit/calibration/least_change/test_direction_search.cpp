@@ -125,5 +125,23 @@ TEST(DirectionSearch, SumsUpLongVectorsAlikeByAnyNumberOfThreads) {
   EXPECT_NEAR(*found.begin(), static_cast<double>(sum), static_cast<double>(1e-14L * sizes));
 }
 
+/// In exact arithmetic a search ends after as many iterations as there are unknowns; round-off
+/// delays it where directions are only made conjugate to the last one, by how much is a matter of
+/// the last bit.
+TEST(DirectionSearch, KeptDirectionsEndItAsInExactArithmetic) {
+  const Vector right(size, 1.0);
+  const auto iterations = [&](bool keeps) {
+    DirectionSearch search = search_for(right, 1e-3);
+    search.keeps_directions = keeps;
+    const auto product = [](const Vector& x, Vector& result) {
+      for (std::size_t k = 0; k < size; ++k) result[k] = std::pow(10.0, -0.15 * k) * x[k];
+    };
+    EXPECT_TRUE(descend(search, 1000, product, product, [](const Vector& r, Vector& z) { z = r; }));
+    return search.iterations;
+  };
+  EXPECT_LE(iterations(true), static_cast<int>(size));
+  EXPECT_GT(iterations(false), static_cast<int>(size) + 10);
+}
+
 }  // namespace
 }  // namespace perilink
