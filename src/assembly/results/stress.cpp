@@ -17,14 +17,24 @@ namespace {
 /// above 1e-3.
 constexpr double smallest_stress_pivot = 1e-7;
 
-/// Solid particles of the same material that are bonded to a particle, and theirs; ascending.
+/// Whether the particle has bonds that a pre-crack cuts and that are open.
+bool is_beside_open_crack(const StressInput& input, Index particle) {
+  if (input.secants.size() == 0 || input.network.cut_elements.empty()) return false;
+  return std::ranges::any_of(input.families.row(particle), [&](Index e) {
+    return input.secants.least(e) < 1.0 && is_cut(input.network, e);
+  });
+}
+
+/// Solid particles of the same material that are bonded to a particle, and theirs; ascending. An
+/// open pre-crack hides the particles behind it.
 void find_neighbors(const StressInput& input, Index particle, std::vector<Index>& found) {
   const Network& network = input.network;
   const Particles& particles = network.particles;
+  const bool one_side = is_beside_open_crack(input, particle);
   found.clear();
   const auto append = [&](Index i) {
     for (const Index e : input.families.row(i)) {
-      if (e >= network.first_tie) continue;
+      if (e >= network.first_tie || (one_side && is_cut(network, e))) continue;
       const Index j = network.bonds.other_end(e, i);
       if (j == particle || particles.kind[j] != ParticleKind::solid) continue;
       if (particles.material[j] == particles.material[particle]) found.push_back(j);
@@ -100,7 +110,7 @@ bool is_damaged(const StressInput& input, Index particle) {
   if (input.secants.size() == 0) return false;
   const auto bonds = input.families.row(particle);
   return std::any_of(bonds.begin(), bonds.end(), [&](Index e) {
-    return e < input.network.first_tie && input.secants.least(e) < 1.0;
+    return e < input.network.first_tie && input.secants.least(e) < 1.0 && !is_cut(input.network, e);
   });
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <stdexcept>
 
 #include "discretization/facet_geometry.hpp"
@@ -61,6 +63,25 @@ Piece polygon_piece(const Crack& crack, Index number) {
   return piece;
 }
 
+/// Whether each line runs against those before it: where two begin, or end, at one point the later
+/// one is turned, so that a particle there lies on one side of both.
+std::vector<std::uint8_t> turned_lines(std::span<const Crack> cracks) {
+  std::vector<std::uint8_t> turned(cracks.size(), 0);
+  std::map<Vector3, bool> begins;  // at the ends so far: whether a line, as turned, begins there
+  for (std::size_t k = 0; k < cracks.size(); ++k) {
+    const Vector3 &first = cracks[k].points.front(), &last = cracks[k].points.back();
+    const auto at_first = begins.find(first), at_last = begins.find(last);
+    if (at_first != begins.end()) {
+      turned[k] = at_first->second;
+    } else if (at_last != begins.end()) {
+      turned[k] = !at_last->second;
+    }
+    begins.emplace(first, turned[k] == 0);
+    begins.emplace(last, turned[k] != 0);
+  }
+  return turned;
+}
+
 std::vector<Piece> pieces_of(std::span<const Crack> cracks, int dim) {
   std::vector<Piece> pieces;
   for (std::size_t k = 0; k < cracks.size(); ++k) {
@@ -73,6 +94,11 @@ std::vector<Piece> pieces_of(std::span<const Crack> cracks, int dim) {
     for (std::size_t p = 1; dim == 2 && p < points.size(); ++p) {
       pieces.push_back(line_piece(points[p - 1], points[p], number));
     }
+  }
+  if (dim == 3) return pieces;
+  const std::vector<std::uint8_t> turned = turned_lines(cracks);
+  for (Piece& piece : pieces) {
+    if (turned[piece.crack] != 0) piece.normal = scaled(piece.normal, -1.0);
   }
   return pieces;
 }
@@ -111,15 +137,18 @@ CrackCutter::CrackCutter(std::span<const Crack> cracks, int dim, double spacing)
 /// the tolerance.
 Vector3 CrackCutter::shifted(const Vector3& particle) const {
   Vector3 shift{};
+  const Piece* first = nullptr;
   for (const Piece& piece : pieces_) {
     if (std::abs(dot(minus(particle, piece.corners[0]), piece.normal)) > tolerance_) continue;
     if (!holds(piece, particle, tolerance_)) continue;
+    if (first == nullptr) first = &piece;
     for (int axis = 0; axis < 3; ++axis) shift[axis] += piece.normal[axis];
   }
-  const double length = norm(shift);
   Vector3 position = particle;
-  // Normals that cancel: the crack was drawn there and back, and the particle stays in between.
-  if (!(length > 1e-6)) return position;
+  if (first == nullptr) return position;
+  // Normals cancel where a crack is drawn there and back: its first piece has the particle.
+  if (!(norm(shift) > 1e-6)) shift = first->normal;
+  const double length = norm(shift);
   for (int axis = 0; axis < 3; ++axis) {
     position[axis] += 3.0 * tolerance_ / length * shift[axis];
   }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "app/model/model.hpp"
@@ -29,5 +31,16 @@ Prescription collect_prescriptions(const CaseFile& input, const Model& model,
 /// share their area equally among their corners, a total is shared in proportion to the volumes.
 /// \throws InputError  for regions that catch no particle or no facet
 std::vector<double> collect_springs(const CaseFile& input, const Model& model);
+
+/// Pre-cracks may cut particles and pieces of the body off, or leave them too few bonds. Where no
+/// load of any stage acts on them, springs hold them that are too soft to change the result; a note
+/// says how many there are and where.
+/// \return per particle, whether such springs hold its part
+std::vector<std::uint8_t> hold_cut_off_parts(const CaseFile& input, Model& model,
+                                             const Prescription& prescription);
+
+/// Key of the first pre-crack that cuts a bond of these particles; empty: none does.
+std::string crack_beside(const CaseFile& input, const Model& model,
+                         std::span<const Index> particles);
 
 }  // namespace perilink
