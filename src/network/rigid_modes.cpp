@@ -276,8 +276,12 @@ std::vector<Fragment> find_loose_parts(const Network& network,
     for (std::size_t k = 0; k < parts.size(); ++k) {
       if (is_held[k]) continue;
       const int free = free_modes(parts[k], static_cast<Index>(k));
-      if (free > 0) loose.push_back({parts[k], free});
-      if (free == 0) changed = is_held[k] = 1;
+      if (free > 0) {
+        loose.push_back({parts[k], free});
+      } else {
+        is_held[k] = 1;
+        changed = true;
+      }
     }
   }
   return loose;

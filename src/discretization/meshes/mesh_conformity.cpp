@@ -128,7 +128,9 @@ Index weld_slits(Mesh& mesh) {
   std::vector<std::uint8_t> has_twin(place.size(), 0);
   bool twins = false;
   for (std::size_t i = 0; i < place.size(); ++i) {
-    if (place[i] != static_cast<Index>(i)) twins = has_twin[i] = has_twin[place[i]] = 1;
+    if (place[i] == static_cast<Index>(i)) continue;
+    has_twin[i] = has_twin[place[i]] = 1;
+    twins = true;
   }
   if (!twins) return 0;
   const std::size_t dim = mesh.dim, width = dim + 1;
