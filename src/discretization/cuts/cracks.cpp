@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "discretization/facet_geometry.hpp"
 #include "discretization/mesh_faces.hpp"
@@ -63,21 +64,31 @@ Piece polygon_piece(const Crack& crack, Index number) {
   return piece;
 }
 
-/// Whether each line runs against those before it: where two begin, or end, at one point the later
-/// one is turned, so that a particle there lies on one side of both.
+/// Whether each line has to be turned round so that lines that meet at their ends run on from the
+/// first of them: a particle there then lies on one side of all.
 std::vector<std::uint8_t> turned_lines(std::span<const Crack> cracks) {
-  std::vector<std::uint8_t> turned(cracks.size(), 0);
-  std::map<Vector3, bool> begins;  // at the ends so far: whether a line, as turned, begins there
+  std::map<Vector3, std::vector<std::size_t>> meeting;
   for (std::size_t k = 0; k < cracks.size(); ++k) {
-    const Vector3 &first = cracks[k].points.front(), &last = cracks[k].points.back();
-    const auto at_first = begins.find(first), at_last = begins.find(last);
-    if (at_first != begins.end()) {
-      turned[k] = at_first->second;
-    } else if (at_last != begins.end()) {
-      turned[k] = !at_last->second;
+    for (const Vector3& end : {cracks[k].points.front(), cracks[k].points.back()}) {
+      meeting[end].push_back(k);
     }
-    begins.emplace(first, turned[k] == 0);
-    begins.emplace(last, turned[k] != 0);
+  }
+  std::vector<std::uint8_t> turned(cracks.size(), 0), known(cracks.size(), 0);
+  for (std::size_t root = 0; root < cracks.size(); ++root) {
+    if (std::exchange(known[root], 1) != 0) continue;
+    std::vector<std::size_t> found{root};
+    for (std::size_t next = 0; next < found.size(); ++next) {
+      const std::size_t k = found[next];
+      for (const bool at_first : {true, false}) {
+        const Vector3& end = at_first ? cracks[k].points.front() : cracks[k].points.back();
+        for (const std::size_t other : meeting[end]) {
+          if (std::exchange(known[other], 1) != 0) continue;
+          const bool begins = at_first != (turned[k] != 0);
+          turned[other] = begins == (cracks[other].points.front() == end);
+          found.push_back(other);
+        }
+      }
+    }
   }
   return turned;
 }
