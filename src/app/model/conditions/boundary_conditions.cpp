@@ -281,7 +281,7 @@ void collect_sets(const CaseFile& input, Model& model) {
     Model of_stage;
     of_stage.network.particles.dim = model.network.dim();
     of_stage.network.bending = model.network.bending;
-    of_stage.network.support_stiffness = model.network.support_stiffness;
+    of_stage.network.support_stiffness = collect_springs(input, model);
     of_stage.loads = std::move(applied.loads);
     choose_axes(input, of_stage, applied, prescription, stage);
     note_borne_loads(model.network, of_stage.loads, prescription, model.notes);
