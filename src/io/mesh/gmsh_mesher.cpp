@@ -51,6 +51,7 @@ struct Gmsh {
   decltype(&gmshWrite) write = nullptr;
   decltype(&gmshOptionSetNumber) set_number = nullptr;
   decltype(&gmshModelMeshGenerate) generate = nullptr;
+  decltype(&gmshModelMeshGetElementTypes) element_types = nullptr;
   decltype(&gmshLoggerGetLastError) last_error = nullptr;
 };
 
@@ -73,6 +74,7 @@ Gmsh load_gmsh() {
   find(gmsh.write, "gmshWrite");
   find(gmsh.set_number, "gmshOptionSetNumber");
   find(gmsh.generate, "gmshModelMeshGenerate");
+  find(gmsh.element_types, "gmshModelMeshGetElementTypes");
   find(gmsh.last_error, "gmshLoggerGetLastError");
   return gmsh;
 }
@@ -115,7 +117,13 @@ class Session {
     gmsh_.open(path.c_str(), &error_);
     check();
   }
+  /// A script that meshes by itself keeps its mesh: gmsh crashes where the plugin Crack has cut it.
   void generate(int dim) {
+    int* types = nullptr;
+    std::size_t count = 0;
+    gmsh_.element_types(&types, &count, dim, -1, &error_);
+    check();
+    if (count > 0) return;
     gmsh_.generate(dim, &error_);
     check();
   }

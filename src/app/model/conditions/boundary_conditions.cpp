@@ -92,7 +92,7 @@ void refuse_cut_off(const CaseFile& input, const Model& model, std::span<const I
       "[[supports]] or [[springs]]");
 }
 
-/// \param off  per particle, whether soft springs hold its part
+/// \param off  CutOffParts::particles
 void hold_rigid_modes(const CaseFile& input, Model& model, Prescription& prescription,
                       const std::vector<std::uint8_t>& off) {
   std::vector<Fragment> fragments =
@@ -103,7 +103,8 @@ void hold_rigid_modes(const CaseFile& input, Model& model, Prescription& prescri
         fmt::format("the body consists of {} parts that no bond connects", fragments.size()));
   }
   for (Fragment& fragment : fragments) {
-    if (fragment.free_modes == 0) continue;
+    const auto is_off = [&](Index i) { return off[i] != 0; };
+    if (fragment.free_modes == 0 || std::ranges::all_of(fragment.particles, is_off)) continue;
     const int all = model.network.dim() == 2 ? 3 : 6;
     const auto x = model.network.particles.position(fragment.particles.front());
     const std::string where = fmt::format("the part of {} particles at ({})",
@@ -125,23 +126,21 @@ void hold_rigid_modes(const CaseFile& input, Model& model, Prescription& prescri
                        "support all of them, or none");
     }
     require_balance(input, model, fragment);
-    std::erase_if(fragment.particles, [&](Index i) { return off[i] != 0; });
+    std::erase_if(fragment.particles, is_off);
     pin_rigid_modes(model.network, fragment, prescription.held);
     model.notes.push_back(fmt::format("{} rigid-body modes of the free body are pinned", all));
   }
 }
 
 void refuse_loose_particles(const CaseFile& input, const Model& model,
-                            const Prescription& prescription) {
+                            const Prescription& prescription,
+                            const std::vector<std::uint8_t>& off) {
   const int dim = model.network.dim();
   for (const Index i : find_loose_particles(model.network)) {
     bool held = true;
     const std::size_t slot = static_cast<std::size_t>(i) * model.network.width();
-    const std::vector<double>& springs = model.network.support_stiffness;
-    for (int a = 0; a < dim; ++a) {
-      held &= prescription.held[slot + a] != 0 || (!springs.empty() && springs[slot + a] > 0.0);
-    }
-    if (held) continue;
+    for (int a = 0; a < dim; ++a) held &= prescription.held[slot + a] != 0;
+    if (held || off[i] != 0) continue;
     refuse_cut_off(input, model, {&i, 1});
     throw InputError(
         input.where(input.body.horizon ? "body.horizon" : "body"),
@@ -309,9 +308,13 @@ void apply_boundary_conditions(const CaseFile& input, Model& model) {
   note_borne_loads(model.network, model.loads, prescription, model.notes);
   refuse_mere_shift(input, model, prescription, first);
   model.resultant = load_resultant(model.network, model.loads);
-  const std::vector<std::uint8_t> off = hold_cut_off_parts(input, model, prescription);
-  if (!model.pattern) refuse_loose_particles(input, model, prescription);
-  hold_rigid_modes(input, model, prescription, off);
+  const CutOffParts off = find_cut_off_parts(input, model, prescription);
+  if (!model.pattern) refuse_loose_particles(input, model, prescription, off.particles);
+  hold_rigid_modes(input, model, prescription, off.particles);
+  if (!off.note.empty()) model.notes.push_back(off.note);
+  std::vector<double>& springs = model.network.support_stiffness;
+  springs.resize(off.springs.empty() ? springs.size() : off.springs.size());
+  for (std::size_t slot = 0; slot < off.springs.size(); ++slot) springs[slot] += off.springs[slot];
   model.unknowns = unknowns_of(input, model.network, prescription);
   model.gripped = std::move(prescription.gripped);
   refuse_nothing_to_solve(input, model);

@@ -317,28 +317,32 @@ std::vector<std::size_t> cracks_beside(const CaseFile& input, const Model& model
   return first;
 }
 
-/// Springs on as few components as hold the part.
-void add_springs(const Fragment& part, const std::vector<std::uint8_t>& held, double stiffness,
-                 double horizon, Network& network) {
+/// Puts springs on as few components as hold the part.
+void add_springs(const Model& model, const Fragment& part, const std::vector<std::uint8_t>& held,
+                 std::vector<double>& springs) {
+  const Network& network = model.network;
+  const double stiffest =
+      *std::max_element(network.stiffness.begin(), network.stiffness.begin() + network.first_tie);
   std::vector<std::uint8_t> pinned = held;
   pin_rigid_modes(network, part, pinned);
-  if (network.support_stiffness.empty()) network.support_stiffness.assign(held.size(), 0.0);
   const std::size_t width = network.width(), dim = network.dim();
   for (const Index i : part.particles) {
     for (std::size_t slot = i * width; slot < (i + 1) * width; ++slot) {
-      if (pinned[slot] == held[slot] || network.support_stiffness[slot] > 0.0) continue;
-      network.support_stiffness[slot] = stiffness * (slot % width < dim ? 1.0 : horizon * horizon);
+      if (pinned[slot] == held[slot]) continue;
+      const double lever = slot % width < dim ? 1.0 : model.horizon;
+      springs[slot] = softness * stiffest * lever * lever;
     }
   }
 }
 
 }  // namespace
 
-std::vector<std::uint8_t> hold_cut_off_parts(const CaseFile& input, Model& model,
-                                             const Prescription& prescription) {
+CutOffParts find_cut_off_parts(const CaseFile& input, const Model& model,
+                               const Prescription& prescription) {
   constexpr std::size_t most_places = 5;
-  Network& network = model.network;
-  std::vector<std::uint8_t> off(static_cast<std::size_t>(network.particles.size()), 0);
+  const Network& network = model.network;
+  CutOffParts off;
+  off.particles.assign(static_cast<std::size_t>(network.particles.size()), 0);
   if (input.cracks.empty() || model.pattern || network.has_states()) return off;
   std::vector<Fragment> parts = find_loose_parts(network, prescription.held);
   if (parts.empty()) return off;
@@ -347,23 +351,22 @@ std::vector<std::uint8_t> hold_cut_off_parts(const CaseFile& input, Model& model
     return std::ranges::any_of(part.particles, [&](Index i) { return loaded[i] != 0; }) ||
            crack_beside(input, model, part.particles).empty();
   });
-  const double stiffest =
-      *std::max_element(network.stiffness.begin(), network.stiffness.begin() + network.first_tie);
+  if (parts.empty()) return off;
+  off.springs.assign(prescription.held.size(), 0.0);
   std::vector<std::string> places;
   std::size_t count = 0;
   for (const Fragment& part : parts) {
-    add_springs(part, prescription.held, softness * stiffest, model.horizon, network);
-    for (const Index i : part.particles) off[i] = 1;
+    add_springs(model, part, prescription.held, off.springs);
+    for (const Index i : part.particles) off.particles[i] = 1;
     count += part.particles.size();
     const auto at = network.places().position(part.particles.front());
     if (places.size() < most_places) places.push_back(fmt::format("({})", fmt::join(at, ", ")));
   }
-  if (parts.empty()) return off;
-  model.notes.push_back(fmt::format(
+  off.note = fmt::format(
       "cracks leave {} particle{} without a hold, in {} part{} at {}{}: no load acts on them, and "
       "springs of {:.0e} times the stiffest bond hold them in place",
       count, count == 1 ? "" : "s", parts.size(), parts.size() == 1 ? "" : "s",
-      fmt::join(places, ", "), parts.size() > most_places ? ", ..." : "", softness));
+      fmt::join(places, ", "), parts.size() > most_places ? ", ..." : "", softness);
   return off;
 }
 

@@ -32,12 +32,15 @@ Prescription collect_prescriptions(const CaseFile& input, const Model& model,
 /// \throws InputError  for regions that catch no particle or no facet
 std::vector<double> collect_springs(const CaseFile& input, const Model& model);
 
-/// Pre-cracks may cut particles and pieces of the body off, or leave them too few bonds. Where no
-/// load of any stage acts on them, springs hold them that are too soft to change the result; a note
-/// says how many there are and where.
-/// \return per particle, whether such springs hold its part
-std::vector<std::uint8_t> hold_cut_off_parts(const CaseFile& input, Model& model,
-                                             const Prescription& prescription);
+/// What pre-cracks cut off, or leave too few bonds, and no load of any stage acts on.
+struct CutOffParts {
+  std::vector<std::uint8_t> particles;  ///< per particle, nonzero where it belongs to such a part
+  std::vector<double> springs;          ///< that hold the parts, too soft to change the result; as
+      ///< Network::support_stiffness; empty: there are no such parts
+  std::string note;  ///< how many there are, and where
+};
+CutOffParts find_cut_off_parts(const CaseFile& input, const Model& model,
+                               const Prescription& prescription);
 
 /// Key of the first pre-crack that cuts a bond of these particles; empty: none does.
 std::string crack_beside(const CaseFile& input, const Model& model,
