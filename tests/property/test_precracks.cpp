@@ -80,16 +80,20 @@ class Drawing {
 
   Plate plate() {
     Plate plate;
-    plate.width = whole(12, 18);
-    plate.height = whole(12, 18);
+    plate.width = whole(10, 13);
+    plate.height = whole(10, 13);
     return plate;
   }
-  /// At least a spacing long, with its middle inside.
+  /// Well inside the plate: what a crack cuts off at the surface is loaded.
   Line line(const Plate& plate, double longest) {
-    const double x = between(2.0, plate.width - 2.0), y = between(2.0, plate.height - 2.0);
-    const double angle = between(0.0, std::numbers::pi), half = 0.5 * between(2.0, longest);
-    const double a = half * std::cos(angle), b = half * std::sin(angle);
-    return {{x - a, y - b}, {x + a, y + b}};
+    const auto point = [&] {
+      return std::array{between(3.1, plate.width - 3.1), between(3.1, plate.height - 3.1)};
+    };
+    for (;;) {
+      const Line line{point(), point()};
+      const double length = std::hypot(line[1][0] - line[0][0], line[1][1] - line[0][1]);
+      if (length > 1.5 && length < longest) return line;
+    }
   }
 
  private:
@@ -198,9 +202,7 @@ TEST(ElasticPreCracks, AreClosedWhereTheyAreCompressed) {
     Drawing drawing(2000 + body);
     Plate plate = drawing.plate();
     plate.cracks.push_back(drawing.line(plate, 12.0));
-    CaseFile input = parse_case(plate.text(), "plate.toml");
-    input.tractions.clear();
-    Model model = build_model(parse_case(plate.text(), "plate.toml"));
+    Model model = plate.build();
     // Forces that balance: those of a random uniform stress.
     const double xx = drawing.between(-1.0, 1.0), yy = drawing.between(-1.0, 1.0);
     for (Index i = 0; i < model.network.particles.size(); ++i) {
@@ -223,10 +225,6 @@ TEST(ElasticPreCracks, AreClosedWhereTheyAreCompressed) {
       wrong = std::max(wrong, (is_open ? -extension : extension) / largest);
     }
     some_of_both += open > 0 && open < static_cast<int>(model.network.cut_elements.size());
-    ElasticOptions iterative;
-    iterative.solver = LinearSolver::iterative;
-    EXPECT_NEAR(run_elastic_analysis(model, iterative).strain_energy / result.strain_energy, 1.0,
-                1e-9);
   }
   EXPECT_LT(wrong, 1e-10);
   EXPECT_GT(some_of_both, num_bodies / 2);
@@ -261,17 +259,16 @@ TEST(ManyPreCracks, RunAndDoNotDependOnHowTheyAreDrawn) {
     Plate plate = drawing.plate();
     plate.pressure = body % 2 == 0 ? -1.0 : 1.0;
     plate.material = body % 3 == 0 ? "closing = true" : "closing = false";
-    const double x = drawing.whole(5, plate.width - 5), y = drawing.whole(5, plate.height - 5);
+    const double x = drawing.whole(4, plate.width - 4), y = drawing.whole(4, plate.height - 4);
     for (int arm = drawing.whole(2, 6); arm > 0; --arm) {
       const double angle = drawing.between(0.0, 2.0 * std::numbers::pi);
       const double reach = drawing.between(1.5, 4.0);
       plate.cracks.push_back({{x, y}, {x + reach * std::cos(angle), y + reach * std::sin(angle)}});
     }
-    for (int k = drawing.whole(0, 60); k > 0; --k) plate.cracks.push_back(drawing.line(plate, 5.0));
+    for (int k = drawing.whole(0, 40); k > 0; --k) plate.cracks.push_back(drawing.line(plate, 4.0));
     std::erase_if(plate.cracks, [&](const Line& line) {  // loads on what is cut off are refused
-      return std::ranges::any_of(line, [&](const auto& p) {
-        return p[0] < 3.5 || p[1] < 3.5 || p[0] > plate.width - 3.5 || p[1] > plate.height - 3.5;
-      });
+      return line[1][0] < 3.1 || line[1][1] < 3.1 || line[1][0] > plate.width - 3.1 ||
+             line[1][1] > plate.height - 3.1;
     });
     if (plate.cracks.empty()) continue;
     SCOPED_TRACE(body);
