@@ -37,6 +37,7 @@ std::string text_of(const std::vector<Line>& cracks) {
 /// A plate of the unit spacing.
 struct Plate {
   int width = 16, height = 14;
+  std::string surface = "none";
   std::string model = "model = \"bond_based\"";
   std::string material = "closing = true";
   double pressure = 1.0;  ///< on all sides
@@ -46,7 +47,7 @@ struct Plate {
     return fmt::format(R"([body]
 spacing = 1
 horizon_ratio = 3
-surface = "none"
+surface = "{}"
 {}
 [[regions]]
 name = "plate"
@@ -64,7 +65,8 @@ pressure = {}
 rigid_body_modes = "pin"
 {}
 )",
-                       model, width, height, material, pressure, text_of(cracks), analysis);
+                       surface, model, width, height, material, pressure, text_of(cracks),
+                       analysis);
   }
   Model build() const { return build_model(parse_case(text(), "plate.toml")); }
 };
@@ -169,12 +171,42 @@ TEST(StressBesidePreCracks, DoesNotCountOpenBonds) {
   RecordProperty("closed", fmt::format("{:.2e}", closed));
 }
 
+/// A crack along the pull is none: the stress is uniform. The body gets thinner, so bonds across the
+/// crack close; all others gape.
+TEST(StressBesidePreCracks, IsUniformAlongThePull) {
+  Plate plate;
+  plate.width = 40;
+  plate.height = 16;
+  plate.surface = "calibrated";
+  plate.cracks = {{{12.0, 8.5}, {28.0, 8.5}}};
+  const CaseFile input = parse_case(plate.text(), "plate.toml");
+  Model model = build_model(input);
+  for (std::size_t slot = 1; slot < model.loads.forces.size(); slot += 2) {
+    model.loads.forces[slot] = 0.0;
+  }
+  for (double& force : model.loads.forces) force = -force;
+  const ElasticResult result = run_elastic_analysis(model);
+  const std::vector<double> stress =
+      stresses(model, Secants(result.secants, result.axial), result.displacement);
+  int beside = 0;
+  for (Index i = 0; i < model.network.particles.size(); ++i) {
+    const auto x = model.network.particles.position(i);
+    if (std::abs(x[1] - 8.5) > 1.0 || std::abs(x[0] - 20.0) > 8.0) continue;
+    ++beside;
+    // One horizon away from 1 by the inhomogeneity of lattice strains at a free side.
+    EXPECT_NEAR(stress[6 * i], 1.0, 0.06) << x[0] << " " << x[1];
+    EXPECT_NEAR(stress[6 * i + 1], 0.0, 0.06) << x[0] << " " << x[1];
+  }
+  EXPECT_EQ(beside, 34);
+}
+
 /// Pressure on all sides closes every bond: the body is as stiff, and as stressed, as without cracks.
 TEST(ElasticPreCracks, UnderPressureAreNone) {
   double energy = 0.0, stress = 0.0;
   for (int body = 0; body < num_bodies; ++body) {
     Drawing drawing(1000 + body);
     Plate plate = drawing.plate();
+    if (body % 10 == 0) plate.surface = "calibrated";
     for (int k = drawing.whole(1, 3); k > 0; --k) plate.cracks.push_back(drawing.line(plate, 9.0));
     const Model cracked = plate.build();
     plate.cracks.clear();
@@ -278,10 +310,12 @@ TEST(ManyPreCracks, RunAndDoNotDependOnHowTheyAreDrawn) {
       cut_off += std::ranges::any_of(model.notes, [](const std::string& note) {
         return note.find("without a hold") != std::string::npos;
       });
-      ElasticOptions iterative;
-      iterative.solver = LinearSolver::iterative;
-      const double other = run_elastic_analysis(model, iterative).strain_energy;
-      by_iterations = std::max(by_iterations, std::abs(other / result.strain_energy - 1.0));
+      if (body % 10 < 3) {
+        ElasticOptions iterative;
+        iterative.solver = LinearSolver::iterative;
+        const double other = run_elastic_analysis(model, iterative).strain_energy;
+        by_iterations = std::max(by_iterations, std::abs(other / result.strain_energy - 1.0));
+      }
       plate.cracks = shuffled(plate.cracks, drawing);
       const double twin = run_elastic_analysis(plate.build()).strain_energy;
       difference = std::max(difference, std::abs(twin / result.strain_energy - 1.0));
