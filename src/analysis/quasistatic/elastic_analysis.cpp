@@ -7,7 +7,9 @@
 #include <cmath>
 #include <memory>
 #include <numeric>
+#include <tuple>
 
+#include "analysis/quasistatic/equilibrium/equilibrium.hpp"
 #include "analysis/quasistatic/equilibrium/mechanism.hpp"
 #include "assembly/internal_force.hpp"
 #include "assembly/stiffness.hpp"
@@ -196,26 +198,46 @@ ElasticResult solve_by_ranks(const LoadedNetwork& problem, const BoxSolverOption
 
 }  // namespace
 
+std::pair<std::vector<double>, std::vector<double>> find_closed_cracks(
+    const LoadedNetwork& problem, const ElasticOptions& options) {
+  EquilibriumOptions settling;
+  settling.threads = options.threads;
+  settling.boxes = options.boxes;
+  if (is_for_boxes(problem, options.solver, options.boxes.ranks != nullptr)) {
+    settling.solver = LinearSolver::iterative;
+  }
+  const Equilibrium settled(problem, settling);
+  const Secants secants = settled.secants();
+  std::pair<std::vector<double>, std::vector<double>> result{{secants.begin(), secants.end()}, {}};
+  for (Index e = 0; e < problem.network.num_elements(); ++e) {
+    result.second.push_back(secants.axial(e));
+  }
+  return result;
+}
+
 ElasticResult run_elastic_analysis(const LoadedNetwork& problem, const ElasticOptions& options) {
   if (problem.pattern) return solve_by_ranks(problem, options.boxes);
   const Network& network = problem.network;
   const Unknowns& unknowns = problem.unknowns;
-  const Secants intact;
+  std::pair<std::vector<double>, std::vector<double>> closed;
+  if (!network.cut_elements.empty()) closed = find_closed_cracks(problem, options);
+  const Secants secants(closed.first, closed.second);
   const InternalForceOf internal_of = [&](std::span<const double> u) {
-    return internal_force(network, intact, u);
+    return internal_force(network, secants, u);
   };
-  if (is_for_boxes(problem, options.solver, options.boxes.ranks != nullptr)) {
-    return solve_elastic(&network, unknowns, problem.loads, by_boxes([&] {
-      return std::make_shared<BoxSolver>(network, unknowns, intact, options.boxes);
-    }),
-                         internal_of);
-  }
-  return solve_elastic(
-      &network, unknowns, problem.loads,
-      by_factor(
-          unknowns, &network.particles, options.threads,
-          [&] { return assemble_stiffness(network, intact, unknowns); }, internal_of),
-      internal_of);
+  const auto solve = [&](auto prepare) {
+    return solve_elastic(&network, unknowns, problem.loads, prepare, internal_of);
+  };
+  ElasticResult result =
+      is_for_boxes(problem, options.solver, options.boxes.ranks != nullptr)
+          ? solve(by_boxes([&] {
+              return std::make_shared<BoxSolver>(network, unknowns, secants, options.boxes);
+            }))
+          : solve(by_factor(
+                unknowns, &network.particles, options.threads,
+                [&] { return assemble_stiffness(network, secants, unknowns); }, internal_of));
+  std::tie(result.secants, result.axial) = std::move(closed);
+  return result;
 }
 
 ElasticResult run_elastic_analysis(const LinearElements& elements, const Unknowns& unknowns,

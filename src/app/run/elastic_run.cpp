@@ -8,25 +8,27 @@
 #include "app/run/quasistatic.hpp"
 #include "app/run/run_kind.hpp"
 #include "app/run/run_warnings.hpp"
+#include "app/run/separated_body.hpp"
 #include "discretization/bonds.hpp"
 
 namespace perilink {
 namespace {
 
-VtuGrid make_grid(const Model& model, const Csr& families, std::span<const double> displacement,
-                  const std::optional<BarState>& bars, const FieldMoment& moment) {
+VtuGrid make_grid(const Model& model, const Csr& families, Secants secants,
+                  std::span<const double> displacement, const std::optional<BarState>& bars,
+                  const FieldMoment& moment) {
   const Network& network = model.network;
-  const Secants intact;
   VtuGrid grid = model.elements
                      ? make_element_grid(*model.elements, network.particles, displacement, moment)
-                     : make_field_grid(network, intact, displacement, moment, {}, families);
+                     : make_field_grid(network, secants, displacement, moment, {}, families);
   if (bars) add_bars(grid, *bars);
   if (model.carried) {
     add_carriers(grid, network.particles, model.carried->carriers, model.carried->whole);
   }
-  if (network.is_beam()) add_section_forces(grid, section_forces(network, intact, displacement));
+  if (network.is_beam()) add_section_forces(grid, section_forces(network, secants, displacement));
   if (network.has_sections()) return grid;
-  add_stresses(grid, particle_stresses(stress_input(model, families), displacement), network.dim());
+  add_stresses(grid, particle_stresses(stress_input(model, families, secants), displacement),
+               network.dim());
   return grid;
 }
 
@@ -78,6 +80,7 @@ class ElasticRun final : public NetworkRun {
   ElasticRun(const CaseFile& of_case, int on_threads, bool quiet)
       : NetworkRun(of_case, on_threads, quiet, ranks() != nullptr ? ranks()->count() : 1) {
     plan += fmt::format(", {} unknowns", model_.unknowns.count);
+    if (auto note = note_of_separated_body(input, model_, threads)) notes.push_back(*note);
   }
 
   void analyse() override {
@@ -87,11 +90,13 @@ class ElasticRun final : public NetworkRun {
                                                {"factorization", took.factorization},
                                                {"solve", took.solve}});
     const std::vector<double>& displacement = answer_.solution.displacement;
+    const Secants secants(answer_.solution.secants, answer_.solution.axial);
     const StepRecord& row = answer_.row;
     if (has_several_places(model_) && row.load != 0.0) {
-      places_ = place_forces(model_, row.load_factor, {}, displacement, answer_.solution.forces);
+      places_ =
+          place_forces(model_, row.load_factor, secants, displacement, answer_.solution.forces);
     }
-    ModelState state{{}, displacement};
+    ModelState state{secants, displacement};
     state.internal = answer_.solution.forces;
     const FieldMoment moment = moment_of(row, input, model_);
     const PieceInput pieces{moment, model_.problem, model_.hooke};
@@ -105,7 +110,7 @@ class ElasticRun final : public NetworkRun {
     write_reactions(row, held_places(input, model_), state);
     std::optional<BarState> bars;
     if (!model_.network.bars.bar.empty()) {
-      bars = bar_state(model_.network, {}, displacement);
+      bars = bar_state(model_.network, secants, displacement);
       files_->write_table("bars", row.step, bar_table(model_.network, *bars));
     }
     if (model_.pattern) {
@@ -118,7 +123,7 @@ class ElasticRun final : public NetworkRun {
       if (families.rows() == 0) {
         families = bonds_of_particles(model_.network.bonds, model_.network.particles.size());
       }
-      VtuGrid grid = make_grid(model_, families, displacement, bars, moment);
+      VtuGrid grid = make_grid(model_, families, secants, displacement, bars, moment);
       families = {};  // the file takes room, too
       return grid;
     });

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "analysis/quasistatic/damage_analysis.hpp"
-#include "analysis/quasistatic/equilibrium/equilibrium.hpp"
+#include "analysis/quasistatic/elastic_analysis.hpp"
 #include "app/model/from_case/configure.hpp"
 #include "base/error.hpp"
 #include "network/rigid_modes.hpp"
@@ -35,11 +35,15 @@ std::string loose_piece(const Model& model) {
 std::optional<std::string> note_of_separated_body(const CaseFile& input, const Model& model,
                                                   int threads) {
   const bool may_close = model.network.has_closing() && !model.network.cut_elements.empty();
-  if (input.analysis.type != AnalysisType::damage || !may_close) return std::nullopt;
+  if (!may_close) return std::nullopt;
   const std::string piece = loose_piece(model);
   if (piece.empty()) return std::nullopt;
   try {
-    require_held_pieces(model, damage_options(input, threads));
+    if (input.analysis.type == AnalysisType::elastic) {
+      find_closed_cracks(model, elastic_options(input, threads));
+    } else {
+      require_held_pieces(model, damage_options(input, threads));
+    }
   } catch (const SolverError&) {  // they separate it, or leave a body that resists nothing
     throw InputError(input.where(item_key("cracks", 0)),
                      fmt::format("cut {} off, and the loads pull it away: nothing but closed faces "
@@ -48,10 +52,10 @@ std::optional<std::string> note_of_separated_body(const CaseFile& input, const M
                      "end the cracks inside the body, hold the piece with [[supports]] or "
                      "[[springs]], or press the faces together in an earlier one of [[stages]]");
   }
-  return fmt::format(
-      "cracks cut {} off: nothing but their closed faces holds it, and the run ends "
-      "where the loads pull it away",
-      piece);
+  return fmt::format("cracks cut {} off: nothing but their closed faces holds it{}", piece,
+                     input.analysis.type == AnalysisType::elastic
+                         ? ""
+                         : ", and the run ends where the loads pull it away");
 }
 
 }  // namespace perilink

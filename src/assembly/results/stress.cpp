@@ -17,14 +17,20 @@ namespace {
 /// above 1e-3.
 constexpr double smallest_stress_pivot = 1e-7;
 
-/// Solid particles of the same material that are bonded to a particle, and theirs; ascending.
+/// Whether a pre-crack cuts a bond that is not closed.
+bool is_open(const StressInput& input, Index element) {
+  return input.secants.axial(element) == 0.0 && is_cut(input.network, element);
+}
+
+/// Solid particles of the same material that are bonded to a particle, and theirs; ascending. An
+/// open pre-crack hides the particles behind it.
 void find_neighbors(const StressInput& input, Index particle, std::vector<Index>& found) {
   const Network& network = input.network;
   const Particles& particles = network.particles;
   found.clear();
   const auto append = [&](Index i) {
     for (const Index e : input.families.row(i)) {
-      if (e >= network.first_tie) continue;
+      if (e >= network.first_tie || is_open(input, e)) continue;
       const Index j = network.bonds.other_end(e, i);
       if (j == particle || particles.kind[j] != ParticleKind::solid) continue;
       if (particles.material[j] == particles.material[particle]) found.push_back(j);
@@ -96,12 +102,17 @@ bool fit_gradient(std::span<const double> offsets, std::span<double> weights) {
          fit_polynomial<Dim, Dim>(offsets, size, weights);
 }
 
+/// Open bonds across a pre-crack damage no particle unless others are closed: only forces tell then
+/// what passes the crack. Closed bonds that carry moments do not shear.
 bool is_damaged(const StressInput& input, Index particle) {
   if (input.secants.size() == 0) return false;
-  const auto bonds = input.families.row(particle);
-  return std::any_of(bonds.begin(), bonds.end(), [&](Index e) {
-    return e < input.network.first_tie && input.secants.least(e) < 1.0;
-  });
+  bool open = false, closed = false;
+  for (const Index e : input.families.row(particle)) {
+    if (e >= input.network.first_tie || !(input.secants.least(e) < 1.0)) continue;
+    if (!is_cut(input.network, e)) return true;
+    (input.secants.axial(e) > 0.0 ? closed : open) = true;
+  }
+  return closed && (open || input.network.carries_moments());
 }
 
 /// Finds stresses of a block of particles.

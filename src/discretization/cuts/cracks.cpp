@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "discretization/facet_geometry.hpp"
 #include "discretization/mesh_faces.hpp"
@@ -61,6 +64,35 @@ Piece polygon_piece(const Crack& crack, Index number) {
   return piece;
 }
 
+/// Whether each line has to be turned round so that lines that meet at their ends run on from the
+/// first of them: a particle there then lies on one side of all.
+std::vector<std::uint8_t> turned_lines(std::span<const Crack> cracks) {
+  std::map<Vector3, std::vector<std::size_t>> meeting;
+  for (std::size_t k = 0; k < cracks.size(); ++k) {
+    for (const Vector3& end : {cracks[k].points.front(), cracks[k].points.back()}) {
+      meeting[end].push_back(k);
+    }
+  }
+  std::vector<std::uint8_t> turned(cracks.size(), 0), known(cracks.size(), 0);
+  for (std::size_t root = 0; root < cracks.size(); ++root) {
+    if (std::exchange(known[root], 1) != 0) continue;
+    std::vector<std::size_t> found{root};
+    for (std::size_t next = 0; next < found.size(); ++next) {
+      const std::size_t k = found[next];
+      for (const bool at_first : {true, false}) {
+        const Vector3& end = at_first ? cracks[k].points.front() : cracks[k].points.back();
+        for (const std::size_t other : meeting[end]) {
+          if (std::exchange(known[other], 1) != 0) continue;
+          const bool begins = at_first != (turned[k] != 0);
+          turned[other] = begins == (cracks[other].points.front() == end);
+          found.push_back(other);
+        }
+      }
+    }
+  }
+  return turned;
+}
+
 std::vector<Piece> pieces_of(std::span<const Crack> cracks, int dim) {
   std::vector<Piece> pieces;
   for (std::size_t k = 0; k < cracks.size(); ++k) {
@@ -73,6 +105,11 @@ std::vector<Piece> pieces_of(std::span<const Crack> cracks, int dim) {
     for (std::size_t p = 1; dim == 2 && p < points.size(); ++p) {
       pieces.push_back(line_piece(points[p - 1], points[p], number));
     }
+  }
+  if (dim == 3) return pieces;
+  const std::vector<std::uint8_t> turned = turned_lines(cracks);
+  for (Piece& piece : pieces) {
+    if (turned[piece.crack] != 0) piece.normal = scaled(piece.normal, -1.0);
   }
   return pieces;
 }
@@ -111,15 +148,18 @@ CrackCutter::CrackCutter(std::span<const Crack> cracks, int dim, double spacing)
 /// the tolerance.
 Vector3 CrackCutter::shifted(const Vector3& particle) const {
   Vector3 shift{};
+  const Piece* first = nullptr;
   for (const Piece& piece : pieces_) {
     if (std::abs(dot(minus(particle, piece.corners[0]), piece.normal)) > tolerance_) continue;
     if (!holds(piece, particle, tolerance_)) continue;
+    if (first == nullptr) first = &piece;
     for (int axis = 0; axis < 3; ++axis) shift[axis] += piece.normal[axis];
   }
-  const double length = norm(shift);
   Vector3 position = particle;
-  // Normals that cancel: the crack was drawn there and back, and the particle stays in between.
-  if (!(length > 1e-6)) return position;
+  if (first == nullptr) return position;
+  // Normals cancel where a crack is drawn there and back: its first piece has the particle.
+  if (!(norm(shift) > 1e-6)) shift = first->normal;
+  const double length = norm(shift);
   for (int axis = 0; axis < 3; ++axis) {
     position[axis] += 3.0 * tolerance_ / length * shift[axis];
   }

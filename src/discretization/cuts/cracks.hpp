@@ -30,10 +30,10 @@ struct CutBonds {
 ///         a plane
 void check_crack(const Crack& crack, int dim);
 
-/// Tells which bonds cross a crack, its ends and border included. A particle on a crack belongs to
-/// its positive side, so that a crack along a row of particles cuts too: to the left of the line in
-/// the direction of its points, or where the corners are seen to run counter-clockwise; where
-/// pieces meet, to the side of their mean normal.
+/// Finds bonds that cross a crack, its ends and border included. A particle on a crack is on its
+/// left, or where corners run counter-clockwise, so that cracks along rows cut too. A line that
+/// begins where an earlier one begins, or ends where it ends, is turned round first. Where pieces
+/// meet the mean normal counts, or where normals cancel the first.
 class CrackCutter {
  public:
   /// A straight piece of a line, or a polygon.

@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <stdexcept>
 #include <vector>
 
+#include "base/joined_parts.hpp"
 #include "discretization/facet_geometry.hpp"
 #include "discretization/mesh_faces.hpp"
 #include "discretization/neighbor_search.hpp"
@@ -66,6 +69,125 @@ void refuse_unjoined_parts(const Particles& particles, const Facets& facets) {
       }
     }
   }
+}
+
+namespace {
+
+/// Side of a cell with corners that are written twice.
+struct TwinSide {
+  std::array<Index, 3> corners{no_index, no_index, no_index};  ///< the cell lies on their left
+};
+
+/// The first of the points at the place of each point.
+std::vector<Index> first_at_place(const Mesh& mesh) {
+  const auto at = [&](Index i) { return point_of(mesh.positions, mesh.dim, i); };
+  std::vector<Index> order(static_cast<std::size_t>(mesh.num_points()));
+  std::iota(order.begin(), order.end(), 0);
+  std::vector<Index> first = order;
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return at(a) < at(b); });
+  for (std::size_t k = 1; k < order.size(); ++k) {
+    if (at(order[k]) == at(order[k - 1])) first[order[k]] = first[order[k - 1]];
+  }
+  return first;
+}
+
+/// Sides of cells with a corner that is written twice, by the places of their corners.
+std::map<std::array<Index, 3>, std::vector<TwinSide>> twin_sides(
+    const Mesh& mesh, const std::vector<Index>& place, const std::vector<std::uint8_t>& has_twin) {
+  std::map<std::array<Index, 3>, std::vector<TwinSide>> sides;
+  const int dim = mesh.dim;
+  for (Index cell = 0; cell < mesh.num_cells(); ++cell) {
+    const std::span<const Index> own(mesh.cells.data() + std::size_t(cell) * (dim + 1), dim + 1);
+    if (std::ranges::none_of(own, [&](Index i) { return has_twin[i] != 0; })) continue;
+    for (int opposite = 0; opposite <= dim; ++opposite) {
+      TwinSide side;
+      std::array<Index, 3> key{no_index, no_index, no_index};
+      for (int k = 0; k < dim; ++k) {
+        side.corners[k] = own[(opposite + 1 + k) % (dim + 1)];
+        key[k] = place[side.corners[k]];
+      }
+      const auto is_twin = [&](Index i) { return i != no_index && has_twin[i] != 0; };
+      if (std::ranges::none_of(side.corners, is_twin)) continue;
+      std::array<Index, 4> corners{side.corners[0], side.corners[1], side.corners[2],
+                                   own[opposite]};
+      if (dim == 2) corners[2] = own[opposite];
+      if (signed_volume(mesh.positions, dim, std::span(corners.data(), dim + 1)) < 0.0) {
+        std::swap(side.corners[0], side.corners[1]);
+      }
+      std::ranges::sort(key);
+      sides[key].push_back(side);
+    }
+  }
+  return sides;
+}
+
+}  // namespace
+
+Index weld_slits(Mesh& mesh) {
+  const std::vector<Index> place = first_at_place(mesh);
+  std::vector<std::uint8_t> has_twin(place.size(), 0);
+  bool twins = false;
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    if (place[i] == static_cast<Index>(i)) continue;
+    has_twin[i] = has_twin[place[i]] = 1;
+    twins = true;
+  }
+  if (!twins) return 0;
+  const std::size_t dim = mesh.dim, width = dim + 1;
+  JoinedParts parts(mesh.num_points()), flanks(mesh.num_points());
+  for (std::size_t k = 0; k < mesh.cells.size(); ++k) {
+    parts.join(mesh.cells[k], mesh.cells[k - k % width]);
+  }
+  std::vector<std::array<TwinSide, 2>> slits;
+  for (const auto& [key, sides] : twin_sides(mesh, place, has_twin)) {
+    if (sides.size() != 2) continue;
+    std::array<std::array<Index, 3>, 2> own{sides[0].corners, sides[1].corners};
+    if (parts.find(own[0][0]) != parts.find(own[1][0])) continue;
+    for (auto& corners : own) std::ranges::sort(corners);
+    if (own[0] == own[1]) continue;  // inside the body
+    slits.push_back({sides[0], sides[1]});
+  }
+  // Tips belong to both faces, all other corners of a slit to one.
+  const auto for_each_twin = [&](const TwinSide& side, auto visit) {
+    for (std::size_t k = 0; k < dim; ++k) {
+      if (has_twin[side.corners[k]] != 0) visit(side.corners[k]);
+    }
+  };
+  const auto flank_of = [&](const TwinSide& side) {
+    Index flank = no_index;
+    for_each_twin(side, [&](Index i) { flank = flanks.find(i); });
+    return flank;
+  };
+  std::vector<Index> welded(place.size());
+  std::iota(welded.begin(), welded.end(), 0);
+  for (const auto& pair : slits) {
+    for (const TwinSide& side : pair) {
+      for_each_twin(side, [&](Index i) {
+        flanks.join(i, flank_of(side));
+        welded[i] = place[i];
+      });
+    }
+  }
+  MeshGroup group{slits_of_mesh, mesh.dim - 1, {}, {}};
+  for (const auto& [one, other] : slits) {
+    const TwinSide& side = flank_of(one) < flank_of(other) ? one : other;
+    group.elements.push_back(mesh.num_facets());
+    for (std::size_t k = 0; k < dim; ++k) {
+      mesh.facets.push_back(side.corners[k]);
+      group.points.push_back(side.corners[k]);
+    }
+  }
+  if (slits.empty()) return 0;
+  mesh.groups.push_back(std::move(group));
+  for (std::vector<Index>* corners : {&mesh.cells, &mesh.facets, &mesh.lines}) {
+    for (Index& i : *corners) i = welded[i];
+  }
+  for (MeshGroup& each : mesh.groups) {
+    for (Index& i : each.points) i = welded[i];
+    std::ranges::sort(each.points);
+    each.points.erase(std::unique(each.points.begin(), each.points.end()), each.points.end());
+  }
+  return static_cast<Index>(slits.size());
 }
 
 }  // namespace perilink

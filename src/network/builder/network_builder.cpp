@@ -294,6 +294,8 @@ Network build_network(const Body& body, const NetworkInput& input) {
     soften_bonds(body, input, network);
     weaken_interfaces(body, input, even_bonds(body, input, network), network);
     for (const Index e : network.cut_elements) network.critical_stretch[e] = infinity;
+  } else if (!network.cut_elements.empty()) {
+    network.laws = {BondLaw::brittle().closing()};
   }
   for (std::vector<double>* of_ties : {&network.bending, &network.bending_ratio}) {
     if (!of_ties->empty()) of_ties->resize(network.stiffness.size(), 0.0);

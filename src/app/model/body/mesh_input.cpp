@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "discretization/meshes/mesh_body.hpp"
+#include "discretization/meshes/mesh_conformity.hpp"
 #include "io/case/case_schema.hpp"
 #include "io/case/case_words.hpp"
 #include "io/mesh/gmsh_file.hpp"
@@ -208,9 +209,14 @@ void refuse_regions_of_curves(const CaseFile& input, const Body& body) {
 }  // namespace
 
 Body read_mesh_body(const CaseFile& input, int dim, std::vector<std::string>& notes) {
-  const MeshInput read = read_mesh_input(input, dim);
+  MeshInput read = read_mesh_input(input, dim);
+  notes.insert(notes.end(), read.notes.begin(), read.notes.end());
+  const bool takes_cracks = input.body.method == BodyMethod::bonds && !input.elements &&
+                            input.body.model != BodyModel::particles;
+  if (const Index sides = takes_cracks ? weld_slits(read.mesh) : 0; sides > 0) {
+    notes.push_back(fmt::format("the mesh has slits of {} sides, which are pre-cracks", sides));
+  }
   const auto& [mesh, material, mesh_notes] = read;
-  notes.insert(notes.end(), mesh_notes.begin(), mesh_notes.end());
   const auto left_out = std::count(material.begin(), material.end(), no_index);
   if (left_out > 0) {
     notes.push_back(fmt::format("{} of the {} cells of the mesh have no material and are left out",

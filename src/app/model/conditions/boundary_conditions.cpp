@@ -78,21 +78,39 @@ void require_balance(const CaseFile& input, Model& model, const Fragment& fragme
   }
 }
 
-void hold_rigid_modes(const CaseFile& input, Model& model, Prescription& prescription) {
-  const std::vector<Fragment> fragments =
+/// Refuses what a pre-crack cuts off, or leaves too few bonds, while loads act on it.
+void refuse_cut_off(const CaseFile& input, const Model& model, std::span<const Index> particles) {
+  const std::string crack = crack_beside(input, model, particles);
+  if (crack.empty()) return;
+  const auto x = model.network.places().position(particles.front());
+  throw InputError(
+      input.where(crack),
+      fmt::format("leaves the part of {} particle{} at ({}) too few bonds to hold it, "
+                  "and loads act on it",
+                  particles.size(), particles.size() == 1 ? "" : "s", fmt::join(x, ", ")),
+      "end or move the crack, take the loads off that part, or hold it with "
+      "[[supports]] or [[springs]]");
+}
+
+/// \param off  CutOffParts::particles
+void hold_rigid_modes(const CaseFile& input, Model& model, Prescription& prescription,
+                      const std::vector<std::uint8_t>& off) {
+  std::vector<Fragment> fragments =
       find_fragments(model.network, prescription.held, model.pattern.has_value());
   const bool pin = input.analysis.rigid_body_modes == RigidBodyModes::pin;
   if (fragments.size() > 1) {
     model.notes.push_back(
         fmt::format("the body consists of {} parts that no bond connects", fragments.size()));
   }
-  for (const Fragment& fragment : fragments) {
-    if (fragment.free_modes == 0) continue;
+  for (Fragment& fragment : fragments) {
+    const auto is_off = [&](Index i) { return off[i] != 0; };
+    if (fragment.free_modes == 0 || std::ranges::all_of(fragment.particles, is_off)) continue;
     const int all = model.network.dim() == 2 ? 3 : 6;
     const auto x = model.network.particles.position(fragment.particles.front());
     const std::string where = fmt::format("the part of {} particles at ({})",
                                           fragment.particles.size(), fmt::join(x, ", "));
     if (!pin) {
+      if (fragments.size() > 1) refuse_cut_off(input, model, fragment.particles);
       throw InputError(
           input.where(input.supports.empty() ? "analysis" : "supports[1]"),
           fmt::format("{} of the {} rigid-body modes of {} are free", fragment.free_modes, all,
@@ -108,19 +126,22 @@ void hold_rigid_modes(const CaseFile& input, Model& model, Prescription& prescri
                        "support all of them, or none");
     }
     require_balance(input, model, fragment);
+    std::erase_if(fragment.particles, is_off);
     pin_rigid_modes(model.network, fragment, prescription.held);
     model.notes.push_back(fmt::format("{} rigid-body modes of the free body are pinned", all));
   }
 }
 
 void refuse_loose_particles(const CaseFile& input, const Model& model,
-                            const Prescription& prescription) {
+                            const Prescription& prescription,
+                            const std::vector<std::uint8_t>& off) {
   const int dim = model.network.dim();
   for (const Index i : find_loose_particles(model.network)) {
     bool held = true;
     const std::size_t slot = static_cast<std::size_t>(i) * model.network.width();
     for (int a = 0; a < dim; ++a) held &= prescription.held[slot + a] != 0;
-    if (held) continue;
+    if (held || off[i] != 0) continue;
+    refuse_cut_off(input, model, {&i, 1});
     throw InputError(
         input.where(input.body.horizon ? "body.horizon" : "body"),
         fmt::format("the particle at ({}) is held by bonds in fewer than {} directions",
@@ -259,7 +280,7 @@ void collect_sets(const CaseFile& input, Model& model) {
     Model of_stage;
     of_stage.network.particles.dim = model.network.dim();
     of_stage.network.bending = model.network.bending;
-    of_stage.network.support_stiffness = model.network.support_stiffness;
+    of_stage.network.support_stiffness = collect_springs(input, model);
     of_stage.loads = std::move(applied.loads);
     choose_axes(input, of_stage, applied, prescription, stage);
     note_borne_loads(model.network, of_stage.loads, prescription, model.notes);
@@ -287,8 +308,13 @@ void apply_boundary_conditions(const CaseFile& input, Model& model) {
   note_borne_loads(model.network, model.loads, prescription, model.notes);
   refuse_mere_shift(input, model, prescription, first);
   model.resultant = load_resultant(model.network, model.loads);
-  if (!model.pattern) refuse_loose_particles(input, model, prescription);
-  hold_rigid_modes(input, model, prescription);
+  const CutOffParts off = find_cut_off_parts(input, model, prescription);
+  if (!model.pattern) refuse_loose_particles(input, model, prescription, off.particles);
+  hold_rigid_modes(input, model, prescription, off.particles);
+  if (!off.note.empty()) model.notes.push_back(off.note);
+  std::vector<double>& springs = model.network.support_stiffness;
+  springs.resize(off.springs.empty() ? springs.size() : off.springs.size());
+  for (std::size_t slot = 0; slot < off.springs.size(); ++slot) springs[slot] += off.springs[slot];
   model.unknowns = unknowns_of(input, model.network, prescription);
   model.gripped = std::move(prescription.gripped);
   refuse_nothing_to_solve(input, model);

@@ -1,14 +1,21 @@
 #include "app/model/conditions/supports.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "app/model/conditions/formula_field.hpp"
+#include "app/model/conditions/loads.hpp"
 #include "app/model/model_regions.hpp"
 #include "base/error.hpp"
+#include "discretization/cuts/cracks.hpp"
+#include "discretization/mesh_faces.hpp"
+#include "discretization/neighbor_search.hpp"
 #include "io/case/case_words.hpp"
+#include "io/case/sections/case_kinds.hpp"
+#include "network/rigid_modes.hpp"
 
 namespace perilink {
 namespace {
@@ -259,6 +266,116 @@ std::vector<double> collect_springs(const CaseFile& input, const Model& model) {
     }
   }
   return stiffness;
+}
+
+namespace {
+
+/// Stiffness of the springs over that of the stiffest bond: far above the round-off of a factor, and
+/// no force beside that of a strained bond.
+constexpr double softness = 1e-7;
+
+/// Which particles loads act on, in any stage.
+std::vector<std::uint8_t> loaded_particles(const CaseFile& input, const Model& model) {
+  const std::size_t width = model.network.width();
+  std::vector<std::uint8_t> loaded(static_cast<std::size_t>(model.network.particles.size()), 0);
+  const auto mark = [&](const Loads& loads) {
+    for (std::size_t slot = 0; slot < loads.forces.size(); ++slot) {
+      if (loads.forces[slot] != 0.0) loaded[slot / width] = 1;
+    }
+  };
+  mark(model.loads);
+  for (const StageSection& stage : input.stages) {
+    mark(collect_loads(input, model, model.network.width(), stage.loads).loads);
+  }
+  return loaded;
+}
+
+/// The first pre-crack that cuts a bond of each particle, else how many pre-cracks there are.
+std::vector<std::size_t> cracks_beside(const CaseFile& input, const Model& model,
+                                       std::span<const Index> particles) {
+  const Particles& all = model.network.places();
+  std::vector<CrackCutter> cutters;
+  for (const CrackSection& section : input.cracks) {
+    const Crack crack{section.points};
+    cutters.emplace_back(std::span(&crack, 1), dimension_of(input.body), model.lattice.spacing);
+  }
+  std::vector<double> places;
+  for (const Index i : particles) {
+    const auto at = all.position(i);
+    places.insert(places.end(), at.begin(), at.end());
+  }
+  const Csr near = find_neighbors(all.positions, places, all.dim, model.horizon);
+  std::vector<std::size_t> first;
+  for (std::size_t q = 0; q < particles.size(); ++q) {
+    const Vector3 from = point_of(all.positions, all.dim, particles[q]);
+    const auto cuts = [&](const CrackCutter& cutter) {
+      return std::ranges::any_of(near.row(static_cast<Index>(q)), [&](Index j) {
+        return cutter.cuts(from, point_of(all.positions, all.dim, j));
+      });
+    };
+    first.push_back(std::ranges::find_if(cutters, cuts) - cutters.begin());
+  }
+  return first;
+}
+
+/// Puts springs on as few components as hold the part.
+void add_springs(const Model& model, const Fragment& part, const std::vector<std::uint8_t>& held,
+                 std::vector<double>& springs) {
+  const Network& network = model.network;
+  const double stiffest =
+      *std::max_element(network.stiffness.begin(), network.stiffness.begin() + network.first_tie);
+  std::vector<std::uint8_t> pinned = held;
+  pin_rigid_modes(network, part, pinned);
+  const std::size_t width = network.width(), dim = network.dim();
+  for (const Index i : part.particles) {
+    for (std::size_t slot = i * width; slot < (i + 1) * width; ++slot) {
+      if (pinned[slot] == held[slot]) continue;
+      const double lever = slot % width < dim ? 1.0 : model.horizon;
+      springs[slot] = softness * stiffest * lever * lever;
+    }
+  }
+}
+
+}  // namespace
+
+CutOffParts find_cut_off_parts(const CaseFile& input, const Model& model,
+                               const Prescription& prescription) {
+  constexpr std::size_t most_places = 5;
+  const Network& network = model.network;
+  CutOffParts off;
+  off.particles.assign(static_cast<std::size_t>(network.particles.size()), 0);
+  if (input.cracks.empty() || model.pattern || network.has_states()) return off;
+  std::vector<Fragment> parts = find_loose_parts(network, prescription.held);
+  if (parts.empty()) return off;
+  const std::vector<std::uint8_t> loaded = loaded_particles(input, model);
+  std::erase_if(parts, [&](const Fragment& part) {
+    return std::ranges::any_of(part.particles, [&](Index i) { return loaded[i] != 0; }) ||
+           crack_beside(input, model, part.particles).empty();
+  });
+  if (parts.empty()) return off;
+  off.springs.assign(prescription.held.size(), 0.0);
+  std::vector<std::string> places;
+  std::size_t count = 0;
+  for (const Fragment& part : parts) {
+    add_springs(model, part, prescription.held, off.springs);
+    for (const Index i : part.particles) off.particles[i] = 1;
+    count += part.particles.size();
+    const auto at = network.places().position(part.particles.front());
+    if (places.size() < most_places) places.push_back(fmt::format("({})", fmt::join(at, ", ")));
+  }
+  off.note = fmt::format(
+      "cracks leave {} particle{} without a hold, in {} part{} at {}{}: no load acts on them, and "
+      "springs of {:.0e} times the stiffest bond hold them in place",
+      count, count == 1 ? "" : "s", parts.size(), parts.size() == 1 ? "" : "s",
+      fmt::join(places, ", "), parts.size() > most_places ? ", ..." : "", softness);
+  return off;
+}
+
+std::string crack_beside(const CaseFile& input, const Model& model,
+                         std::span<const Index> particles) {
+  const std::vector<std::size_t> beside = cracks_beside(input, model, particles);
+  const auto first = std::ranges::find_if(beside, [&](auto k) { return k < input.cracks.size(); });
+  return first == beside.end() ? "" : item_key("cracks", *first);
 }
 
 }  // namespace perilink

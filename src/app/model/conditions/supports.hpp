@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "app/model/model.hpp"
@@ -29,5 +31,19 @@ Prescription collect_prescriptions(const CaseFile& input, const Model& model,
 /// share their area equally among their corners, a total is shared in proportion to the volumes.
 /// \throws InputError  for regions that catch no particle or no facet
 std::vector<double> collect_springs(const CaseFile& input, const Model& model);
+
+/// What pre-cracks cut off, or leave too few bonds, and no load of any stage acts on.
+struct CutOffParts {
+  std::vector<std::uint8_t> particles;  ///< per particle, nonzero where it belongs to such a part
+  std::vector<double> springs;          ///< that hold the parts, too soft to change the result; as
+      ///< Network::support_stiffness; empty: there are no such parts
+  std::string note;  ///< how many there are, and where
+};
+CutOffParts find_cut_off_parts(const CaseFile& input, const Model& model,
+                               const Prescription& prescription);
+
+/// Key of the first pre-crack that cuts a bond of these particles; empty: none does.
+std::string crack_beside(const CaseFile& input, const Model& model,
+                         std::span<const Index> particles);
 
 }  // namespace perilink

@@ -20,6 +20,8 @@
 #include "app/model/gauges.hpp"
 #include "app/results/calibration_text.hpp"
 #include "base/error.hpp"
+#include "discretization/mesh_faces.hpp"
+#include "discretization/meshes/mesh_conformity.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/laws/case_softening.hpp"
 #include "network/bond_softening.hpp"
@@ -60,7 +62,7 @@ void refuse_impossible_cracks(const CaseFile& input, int dim) {
 
 void refuse_cracks_without_bonds(const CaseFile& input, const Network& network) {
   refuse_interfaces_without_bonds(input, network);
-  for (std::size_t k = 0; k < network.cut_by_crack.size(); ++k) {
+  for (std::size_t k = 0; k < input.cracks.size(); ++k) {
     if (network.cut_by_crack[k] > 0) continue;
     throw InputError(input.where(crack_key(k, dimension_of(input.body))),
                      "crosses no bond of the body", "move the crack into the body, or delete it");
@@ -93,6 +95,7 @@ NetworkInput network_input(const CaseFile& input, Problem problem, double horizo
     network.materials.push_back({material.youngs_modulus, energy,
                                  material.poissons_ratio.value_or(0.0),
                                  network.elastic ? SofteningMaterial{} : material.softening});
+    network.materials.back().softening.closes = material.softening.closes;
   }
   for (const CrackSection& crack : input.cracks) network.cracks.push_back({crack.points});
   network.bars = bars.lines;
@@ -197,22 +200,43 @@ bool have_unlike_constants(const CaseFile& input) {
 bool can_be_made_in_parts(const CaseFile& input) {
   const BodySection& body = input.body;
   const bool is_plane = dimension_of(body) == 2;
+  const bool may_close =
+      !input.cracks.empty() &&
+      std::ranges::any_of(input.materials, [](const auto& m) { return m.softening.closes; });
   return input.analysis.type == AnalysisType::elastic &&
          input.analysis.solver != LinearSolver::direct && !body.mesh &&
          body.method == BodyMethod::bonds &&
          (body.model == BodyModel::bond_based || body.model == BodyModel::micropolar) &&
          !is_shell(body) && !is_beam(body) && !(is_plane && body.surface == Surface::calibrated) &&
-         input.interfaces.empty() && input.rebar.empty() && !input.elements &&
+         !may_close && input.interfaces.empty() && input.rebar.empty() && !input.elements &&
          (input.analysis.rigid_body_modes == RigidBodyModes::refuse ||
           input.materials.size() == 1) &&
          !have_unlike_constants(input);
 }
+
+namespace {
+
+/// Slits of the mesh are pre-cracks, too.
+void add_slits(const Body& body, NetworkInput& network) {
+  const auto dim = static_cast<std::size_t>(body.particles.dim);
+  for (const Group& group : body.groups) {
+    if (group.name != slits_of_mesh) continue;
+    for (std::size_t k = 0; k < group.sides.size(); ++k) {
+      if (k % dim == 0) network.cracks.emplace_back();
+      network.cracks.back().points.push_back(
+          point_of(body.particles.positions, body.particles.dim, group.sides[k]));
+    }
+  }
+}
+
+}  // namespace
 
 void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, Model& model) {
   const LaidBars bars = lay_bars(input, body);
   refuse_bars_outside(input, body, bars);
   model.entry_of_bar = bars.sections;
   NetworkInput network = network_input(input, model.problem, model.horizon, bars);
+  add_slits(body, network);
   network.on_search = options.on_search;
   network.interfaces = weak_interfaces(input, body);
   network.draft = network.estimates_cost = options.draft;

@@ -107,6 +107,38 @@ TEST(Cracks, AParticleAtAKinkBelongsToOneSideOnly) {
   }
 }
 
+/// In any order and direction lines that share ends are one line with a direction, that of the
+/// first; a line there and back is one, too.
+TEST(Cracks, ThatShareEndsRunOnFromTheFirst) {
+  const Particles particles = grid(2);
+  const Bonds bonds = make_bonds(particles, 2.5);
+  const std::vector<Crack> line = {{{{-2, 0, 0}, {2, 0, 0}}}};
+  const auto expected = find_cut_bonds(particles, bonds, line, 1.0).keep;
+  for (const std::vector<Crack>& pieces : std::vector<std::vector<Crack>>{
+           {{{{0, 0, 0}, {2, 0, 0}}}, {{{0, 0, 0}, {-2, 0, 0}}}},
+           {{{{-2, 0, 0}, {0, 0, 0}}}, {{{2, 0, 0}, {0, 0, 0}}}},
+           {{{{-2, 0, 0}, {-1, 0, 0}}}, {{{2, 0, 0}, {1, 0, 0}}}, {{{1, 0, 0}, {-1, 0, 0}}}},
+           {{{{-2, 0, 0}, {2, 0, 0}, {-2, 0, 0}}}}}) {
+    EXPECT_EQ(find_cut_bonds(particles, bonds, pieces, 1.0).keep, expected);
+  }
+}
+
+/// The particle in the middle of four lines lies in one of the four sectors.
+TEST(Cracks, AStarLeavesItsMiddleOnOneSide) {
+  const Particles particles = grid(2);
+  const Bonds bonds = make_bonds(particles, 1.5);
+  const Vector3 middle{0, 0, 0};
+  const std::vector<Crack> star = {
+      {{middle, {2, 0, 0}}}, {{middle, {0, 2, 0}}}, {{middle, {-2, 0, 0}}}, {{middle, {0, -2, 0}}}};
+  const CutBonds cut = find_cut_bonds(particles, bonds, star, 1.0);
+  int left = 0;
+  for (const Vector3& to :
+       {Vector3{1, 1, 0}, Vector3{-1, 1, 0}, Vector3{-1, -1, 0}, Vector3{1, -1, 0}}) {
+    left += !is_cut(particles, bonds, cut, middle, to);
+  }
+  EXPECT_EQ(left, 1);
+}
+
 TEST(Cracks, PlanesCutInSpace) {
   const Particles particles = grid(3);
   const Bonds bonds = make_bonds(particles, 1.0);
