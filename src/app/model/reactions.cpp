@@ -87,6 +87,7 @@ std::vector<std::uint8_t> held_slots(const Model& model) {
 }
 
 std::vector<double> holding_forces(const Model& model, const ModelState& state) {
+  if (!state.reactions.empty()) return {state.reactions.begin(), state.reactions.end()};
   const Network& network = model.network;
   std::vector<double> motion(state.motion.begin(), state.motion.end());
   for (double& u : motion) u *= state.scale;

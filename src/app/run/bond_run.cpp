@@ -75,6 +75,12 @@ MovingBondsRun::MovingBondsRun(const CaseFile& of_case, int on_threads, bool qui
 
 void MovingBondsRun::write_state(const ExplicitRecord& record, const BondRunState& state) {
   files_->write_fields(record.step, record.time, [&] {
+    if (const auto places = held_places(input, model_); !places.empty()) {
+      const std::vector<double> reactions = state.reactions();
+      ModelState now{{}, state.motion.displacement, 1.0, record.load_factor};
+      now.reactions = reactions;
+      files_->write_table("reactions", record.step, reaction_table(places, model_, now));
+    }
     FieldMoment moment = moment_of(record, input, model_);
     moment.time = record.time;
     const bool bonds_break = !model_.network.has_states();
@@ -105,10 +111,6 @@ void MovingBondsRun::add_forces_and_cracks(VtuGrid& grid, const ExplicitRecord& 
   if (input.analysis.strain == Strain::green) return;
   add_stresses(grid, particle_stresses(stress_input(model_, families_, secants), motion),
                model_.network.dim());
-  if (const auto places = held_places(input, model_); !places.empty()) {
-    files_->write_table("reactions", record.step,
-                        reaction_table(places, model_, {secants, motion, 1.0, record.load_factor}));
-  }
   if (model_.network.bars.bar.empty()) return;
   const BarState bars = bar_state(model_.network, secants, motion);
   add_bars(grid, bars);
