@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <utility>
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 
-#include "base/joined_parts.hpp"
+#include "network/free_bodies.hpp"
 
 namespace perilink {
 namespace {
@@ -147,50 +145,9 @@ std::vector<std::uint8_t> unbreakable_particles(const Network& network) {
 
 }  // namespace
 
-std::vector<std::uint8_t> held_components(const Network& network, const Unknowns& unknowns) {
-  std::vector<std::uint8_t> held;
-  for (std::size_t slot = 0; slot < unknowns.number.size(); ++slot) {
-    const bool is_anchor = network.is_anchor(static_cast<Index>(slot / unknowns.width));
-    held.push_back(unknowns.number[slot] == no_index && !is_anchor);
-  }
-  return held;
-}
-
-std::vector<std::uint8_t> held_or_sprung(const Network& network, std::vector<std::uint8_t> held) {
-  for (std::size_t slot = 0; slot < network.support_stiffness.size(); ++slot) {
-    if (network.support_stiffness[slot] > 0.0) held[slot] = 1;
-  }
-  return held;
-}
-
 std::vector<Fragment> find_fragments(const Network& network, const std::vector<std::uint8_t>& held,
-                                     bool in_one_piece, Secants secants) {
-  const Index num_particles = network.particles.size();
-  JoinedParts parts(num_particles);
-  for (Index i = 1; in_one_piece && i < num_particles; ++i) parts.join(0, i);
-  for (Index e = 0; e < network.num_elements(); ++e) {
-    if (!(network.stiffness[e] > 0.0) || secants[e] == 0.0) continue;
-    parts.join(network.bonds.first[e], network.bonds.second[e]);
-  }
-  for (Index k = 0; network.cells && k < network.cells->cells.size(); ++k) {
-    const auto cell = network.cells->cells.cell(k);
-    for (const Index vertex : cell) parts.join(cell.front(), vertex);
-  }
-  for (Index k = 0; k < network.anchors.size(); ++k) {
-    for (const Index i : network.anchors.particles.row(k)) {
-      parts.join(network.first_anchor() + k, i);
-    }
-  }
-  std::vector<Fragment> fragments;
-  std::vector<Index> fragment_of_root(static_cast<std::size_t>(num_particles), no_index);
-  for (Index i = 0; i < num_particles; ++i) {
-    Index& number = fragment_of_root[parts.find(i)];
-    if (number == no_index) {
-      number = static_cast<Index>(fragments.size());
-      fragments.emplace_back();
-    }
-    fragments[number].particles.push_back(i);
-  }
+                                     bool in_one_piece) {
+  std::vector<Fragment> fragments = connected_parts(network, {}, in_one_piece);
   const std::vector<std::uint8_t> rotating = rotating_particles(network);
   const std::vector<std::uint8_t> resisted = held_or_sprung(network, held);
   for (Fragment& fragment : fragments) {
@@ -222,66 +179,6 @@ std::vector<std::vector<double>> free_motions(const Network& network, const Frag
     }
   }
   return motions;
-}
-
-std::vector<std::vector<double>> free_motions(const Network& network,
-                                              const std::vector<std::uint8_t>& held) {
-  const std::vector<std::uint8_t> resisted = held_or_sprung(network, held);
-  std::vector<std::vector<double>> motions;
-  for (const Fragment& fragment : find_fragments(network, held)) {
-    if (fragment.free_modes == 0) continue;
-    for (auto& motion : free_motions(network, fragment, resisted)) {
-      motions.push_back(std::move(motion));
-    }
-  }
-  return motions;
-}
-
-double strained_motion(const Network& network, const Fragment& fragment,
-                       const std::vector<std::uint8_t>& held,
-                       const std::vector<double>& prescribed) {
-  const std::vector<std::uint8_t> rotating = rotating_particles(network);
-  const RigidModes modes(network, rotating, fragment.particles);
-  const ModeProducts products(fragment.particles, modes, held);
-  const auto sum_over_held = [&](const auto& visit) {
-    for (const Index i : fragment.particles) {
-      for (int a = 0; a < modes.components(i); ++a) {
-        const std::size_t slot = modes.slot(i, a);
-        if (held[slot]) visit(modes.row(i, a), prescribed[slot] / modes.unit_of(a));
-      }
-    }
-  };
-  ModeRow sum = ModeRow::Zero();
-  sum_over_held([&](const ModeRow& row, double value) { sum += value * row; });
-  const ModeRow nearest = products.held.completeOrthogonalDecomposition().solve(sum);
-  double largest = 0.0;
-  sum_over_held([&](const ModeRow& row, double value) {
-    largest = std::max(largest, std::abs(row.dot(nearest) - value));
-  });
-  return largest;
-}
-
-void balance_loads(const Network& network, const Fragment& fragment, std::span<const double> mass,
-                   Loads& loads) {
-  const std::vector<std::uint8_t> rotating = rotating_particles(network);
-  const RigidModes modes(network, rotating, fragment.particles);
-  const auto for_each_slot = [&](const auto& visit) {
-    for (const Index i : fragment.particles) {
-      for (int a = 0; a < modes.components(i) && !network.is_anchor(i); ++a) {
-        visit(modes.slot(i, a), modes.unit_of(a) * modes.row(i, a));
-      }
-    }
-  };
-  Gram inertia = Gram::Zero();
-  ModeRow push = ModeRow::Zero();
-  for_each_slot([&](std::size_t slot, const ModeRow& row) {
-    inertia += mass[slot] * row * row.transpose();
-    push += loads.forces[slot] * row;
-  });
-  const ModeRow acceleration = inertia.completeOrthogonalDecomposition().solve(push);
-  for_each_slot([&](std::size_t slot, const ModeRow& row) {
-    loads.forces[slot] -= mass[slot] * row.dot(acceleration);
-  });
 }
 
 LoadResultant load_resultant(const Network& network, const Loads& loads) {

@@ -1,13 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "network/loaded_network.hpp"
 #include "network/network.hpp"
-#include "network/secants.hpp"
 
 namespace perilink {
 
@@ -22,39 +20,14 @@ struct Fragment {
 /// rigid-body modes that `held` (shape (particles, width)) leaves free in each. Rotations of
 /// particles that no bond turns hold nothing.
 /// \param in_one_piece  it is known that all particles hold together
-/// \param secants  broken elements do not connect either
 std::vector<Fragment> find_fragments(const Network& network, const std::vector<std::uint8_t>& held,
-                                     bool in_one_piece = false, Secants secants = {});
-
-/// Components that are prescribed, shape (particles, width); none of anchors, which move with their
-/// particles.
-std::vector<std::uint8_t> held_components(const Network& network, const Unknowns& unknowns);
-
-/// Components that are held or that elastic supports resist, shape (particles, width).
-std::vector<std::uint8_t> held_or_sprung(const Network& network, std::vector<std::uint8_t> held);
+                                     bool in_one_piece = false);
 
 /// The rigid-body motions of a fragment that `held` leaves free, each of shape (particles, width)
 /// with zeros at other particles and at what is held; linearly independent, not scaled. Springs of
 /// supports are not looked at.
 std::vector<std::vector<double>> free_motions(const Network& network, const Fragment& fragment,
                                               const std::vector<std::uint8_t>& held);
-
-/// Rigid-body motions of all fragments that neither `held` nor elastic supports resist.
-std::vector<std::vector<double>> free_motions(const Network& network,
-                                              const std::vector<std::uint8_t>& held);
-
-/// How far the prescribed displacements of a fragment are from a rigid-body motion of it: the
-/// largest difference, zero where they do not strain it [length].
-/// \param prescribed  shape (particles, width), looked at where `held` is nonzero
-double strained_motion(const Network& network, const Fragment& fragment,
-                       const std::vector<std::uint8_t>& held,
-                       const std::vector<double>& prescribed);
-
-/// Takes the net force and the net couple out of the loads on a free fragment, by forces in
-/// proportion to the masses (inertia relief): it then keeps its momentum and spin.
-/// \param mass  shape (particles, width) [mass, mass length^2]
-void balance_loads(const Network& network, const Fragment& fragment, std::span<const double> mass,
-                   Loads& loads);
 
 /// Sums of the applied loads.
 struct LoadResultant {

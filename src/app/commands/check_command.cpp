@@ -20,6 +20,7 @@
 #include "base/error.hpp"
 #include "base/timer.hpp"
 #include "discretization/lattices/triangulate.hpp"
+#include "network/free_bodies.hpp"
 #include "solver/factor_routes.hpp"
 
 namespace perilink {
@@ -195,7 +196,7 @@ int check_moving_bonds(const std::string& case_path, const CaseFile& input) {
   print_sizes(model);
   std::fflush(stdout);
   print_period(model.network.particles.size(), [&] {
-    const auto free = free_motions(model.network, held_components(model.network, model.unknowns));
+    const auto free = free_motions(model.network, model.unknowns);
     return fundamental_period(model.network, model.unknowns, built.inertia, free);
   });
   print_steps(built.inertia.critical_time_step(), built.options,

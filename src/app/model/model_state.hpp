@@ -16,9 +16,6 @@ struct ModelState {
   std::span<const double> set_factors = {};
   /// Forces that hold the particles so, where they are known (InternalForce::forces); else empty.
   std::span<const double> internal = {};
-  /// Forces of supports on the particles, where the analysis found them, zero elsewhere; else empty:
-  /// those of equilibrium.
-  std::span<const double> reactions = {};
   /// Stresses at the particles, where they are known, shape (particles, 6); else empty.
   std::span<const double> stresses = {};
 };

@@ -44,7 +44,8 @@ std::vector<HeldPlace> held_places(const CaseFile& input, const Model& model);
 
 /// A row for each place, one for all loads and one for the sum of all, with moments about the
 /// origin in the last two; as text of a CSV.
+/// \param forces  holding_forces(), where they are known already: of bodies in motion
 std::string reaction_table(const std::vector<HeldPlace>& places, const Model& model,
-                           const ModelState& state);
+                           const ModelState& state, std::vector<double> forces = {});
 
 }  // namespace perilink

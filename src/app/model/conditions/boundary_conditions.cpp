@@ -13,6 +13,7 @@
 #include "base/error.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "network/builder/network_builder.hpp"
+#include "network/free_bodies.hpp"
 
 namespace perilink {
 namespace {

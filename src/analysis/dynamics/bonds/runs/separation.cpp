@@ -33,8 +33,8 @@ Separation::Separation(const LoadedNetwork& problem)
 }
 
 bool Separation::is_strained(Secants secants, const std::vector<std::uint8_t>& held) const {
-  const auto fragments = find_fragments(problem_.network, held_, false, secants);
-  return std::any_of(fragments.begin(), fragments.end(), [&](const Fragment& fragment) {
+  const auto pieces = connected_parts(problem_.network, secants);
+  return std::any_of(pieces.begin(), pieces.end(), [&](const Fragment& fragment) {
     return strained_motion(problem_.network, fragment, held, problem_.unknowns.prescribed) >
            straining * largest_;
   });
@@ -45,10 +45,9 @@ std::string Separation::examine(Secants secants, double fractured, bool is_loade
   const Network& network = problem_.network;
   const std::vector<double>& forces = problem_.loads.forces;
   const double on_body = sum_of_sizes(forces);
-  for (const Fragment& piece : find_fragments(network, held_, false, secants)) {
-    if (!is_loaded || piece.free_modes == 0) continue;
+  for (const Fragment& piece : connected_parts(network, secants)) {
     const double least = std::max(unbalanced * size_of_loads(piece), round_off * on_body);
-    if (!(size_of_loads(piece) > least)) continue;
+    if (!is_loaded || !(size_of_loads(piece) > least)) continue;
     for (const std::vector<double>& motion : free_motions(network, piece, resisted_)) {
       const double pull = std::inner_product(motion.begin(), motion.end(), forces.begin(), 0.0);
       if (std::abs(pull) <= least) continue;

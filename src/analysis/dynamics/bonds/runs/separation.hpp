@@ -4,9 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "network/loaded_network.hpp"
-#include "network/rigid_modes.hpp"
-#include "network/secants.hpp"
+#include "network/free_bodies.hpp"
 
 namespace perilink {
 

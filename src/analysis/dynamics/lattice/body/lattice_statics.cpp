@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "analysis/dynamics/fundamental_period.hpp"
-#include "network/rigid_modes.hpp"
+#include "network/free_bodies.hpp"
 #include "network/unknowns.hpp"
 
 namespace perilink {
@@ -38,9 +38,9 @@ double fundamental_period(const ExplicitModel& model) {
   const LatticeNetwork body = lattice_network(model);
   const Network& network = body.network;
   const std::vector<std::uint8_t> held = held_components(model, body.slots);
-  const std::vector<std::vector<double>> free = free_motions(network, held);
   const Unknowns unknowns =
       number_unknowns(network.dim(), held, std::vector<double>(held.size(), 0.0));
+  const std::vector<std::vector<double>> free = free_motions(network, unknowns);
   Inertia inertia;
   for (const Index slot : body.slots) {
     inertia.mass.insert(inertia.mass.end(), static_cast<std::size_t>(network.dim()),

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "network/loaded_network.hpp"
+#include "network/rigid_modes.hpp"
+#include "network/secants.hpp"
+
+namespace perilink {
+
+/// Parts of the network that elements connect, but for those that are broken or have no stiffness,
+/// in the order of their first particles. Their free modes are not counted.
+/// \param in_one_piece  it is known that all particles hold together
+std::vector<Fragment> connected_parts(const Network& network, Secants secants,
+                                      bool in_one_piece = false);
+
+/// Components that are prescribed, shape (particles, width); none of anchors, which move with their
+/// particles.
+std::vector<std::uint8_t> held_components(const Network& network, const Unknowns& unknowns);
+
+/// Components that are held or that elastic supports resist, shape (particles, width).
+std::vector<std::uint8_t> held_or_sprung(const Network& network, std::vector<std::uint8_t> held);
+
+/// Rigid-body motions of all fragments that neither prescribed components nor elastic supports
+/// resist, each of shape (particles, width).
+std::vector<std::vector<double>> free_motions(const Network& network, const Unknowns& unknowns);
+
+/// How far the prescribed displacements of a fragment are from a rigid-body motion of it: the
+/// largest difference, zero where they do not strain it [length].
+/// \param held  shape (particles, width): where `prescribed` counts
+double strained_motion(const Network& network, const Fragment& fragment,
+                       const std::vector<std::uint8_t>& held,
+                       const std::vector<double>& prescribed);
+
+/// Takes the net force and the net couple out of the loads on a free fragment, by forces in
+/// proportion to the masses (inertia relief): it then keeps its momentum and spin.
+/// \param mass  shape (particles, width) [mass, mass length^2]
+void balance_loads(const Network& network, const Fragment& fragment, std::span<const double> mass,
+                   Loads& loads);
+
+}  // namespace perilink
