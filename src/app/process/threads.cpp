@@ -82,19 +82,13 @@ int set_threads(int wanted) {
       wanted = static_cast<int>(std::min<double>(wanted, std::ceil(granted_processors())));
     }
   }
-  if (const int most = std::min(most_blas_threads(), most_threads); wanted > most) {
-    complain(
-        fmt::format("{} of {} threads are used, the most that the program and its linear algebra "
-                    "library (OpenBLAS) allow; the results do not depend on it",
-                    most, wanted));
-    wanted = most;
-  }
-  const int threads = threads_that_start(threads_with_room(wanted));
+  const int most = std::min(most_blas_threads(), most_threads);
+  const int threads = threads_that_start(threads_with_room(std::min(wanted, most)));
   if (threads < wanted) {
-    complain(
-        fmt::format("{} of {} threads are used: the limits on the process (ulimit -v, -d, -u) "
-                    "leave no room for more; the results do not depend on it",
-                    threads, wanted));
+    complain(fmt::format(
+        "{} of {} threads are used: {}; the results do not depend on it", threads, wanted,
+        threads < most ? "the limits on the process (ulimit -v, -d, -u) leave no room for more"
+                       : "the program and its linear algebra library (OpenBLAS) serve no more"));
   }
   omp_set_num_threads(threads);
 #pragma omp parallel  // now, while there is room: they stay

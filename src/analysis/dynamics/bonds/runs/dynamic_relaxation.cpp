@@ -149,20 +149,18 @@ class Relaxation {
   void judge(const RestSums& all) {
     const double rest = std::sqrt(all.residual);
     most_held_ = std::max(most_held_, all.held);
-    const bool is_unstrained = separation_.is_unstrained();
-    const double held = is_unstrained ? most_held_ : all.held;
+    const double held = separation_.is_unstrained() ? most_held_ : all.held;
     result_.residual = held > 0.0 ? rest / std::sqrt(held) : rest > 0.0 ? 1.0 : 0.0;
-    const bool starts = iteration_ == 0;
-    if (starts) first_rest_ = rest;
+    if (iteration_ == 0) first_rest_ = rest;
     const bool gave_way = all.fractured != fractured_;
     fractured_ = all.fractured;
     // Forces of other bonds tell nothing about the present ones.
-    next_.restart = starts || gave_way;
+    next_.restart = iteration_ == 0 || gave_way;
     damp(all);
     // What is left of the way, r'K^-2 r, against the way itself: no vibration is much slower than
-    // the one that is damped.
-    result_.error = all.push > 0.0 ? std::sqrt(all.push / all.size) / square_ : 0.0;
-    if (is_unstrained) result_.error = 0.0;  // nothing draws its pieces anywhere
+    // the one that is damped. Nothing draws pieces anywhere that resist nothing.
+    const bool moves = all.push > 0.0 && !separation_.is_unstrained();
+    result_.error = moves ? std::sqrt(all.push / all.size) / square_ : 0.0;
     next_.at_rest = !gave_way && std::max(result_.residual, result_.error) <= options_.tolerance;
     if (!next_.at_rest) look(rest);
   }
@@ -189,24 +187,24 @@ class Relaxation {
     });
   }
 
+  /// Takes part in a meeting of ranks, but for the first one.
+  bool has_followed() {
+    if (shares_.following) next_.done = !shares_.following->meet(body_);
+    return shares_.following != nullptr;
+  }
+
   /// During an iteration, by all ranks.
   void examine() {
     next_.examines = false;
-    if (shares_.following) {
-      next_.done = !shares_.following->meet(body_);
-      return;
-    }
+    if (has_followed()) return;
     if (shares_.leading) shares_.leading->collect(body_);
     observe([&] { examine_pieces(); });
     if (shares_.leading) shares_.leading->tell(!next_.done);
   }
-
   void examine_pieces() {
-    const bool is_loaded = factor_ != 0.0;
-    const std::string pulled = separation_.examine(body_.bonds->secants(), fractured_, is_loaded);
+    const auto pulled = separation_.examine(body_.bonds->secants(), fractured_, factor_ != 0.0);
     if (!pulled.empty()) collapse(pulled);
   }
-
   void collapse(const std::string& how) {
     end(Ending::collapsed,
         fmt::format("load step {} (load factor {}): {}", step_ + 1, factor_, how));
@@ -270,13 +268,10 @@ class Relaxation {
     for (Index b = first_block_; b < past_block_; ++b) {
       body_.sums[b].stored = body_.stored(body_.blocks.begin(b), body_.blocks.end(b));
     }
-    if (shares_.following) {
-      next_.done = !shares_.following->meet(body_);
-      return;
-    }
+    if (has_followed()) return;
     if (shares_.leading) {
       shares_.leading->collect(body_);
-      shares_.leading->collect_motion(body_.motion);
+      shares_.leading->collect_motion(body_);
     }
     observe([&] {
       note_row();
@@ -312,7 +307,11 @@ class Relaxation {
     if (std::abs(record_.support_reaction) > std::abs(result_.peak_load)) {
       result_.peak_load = record_.support_reaction;
     }
-    observer_.on_row(record_, body_.state());
+    observer_.on_row(record_, state());
+  }
+
+  BondRunState state() {
+    return body_.state([this] { return body_.reactions(factor_, 0.0, 0.0); });
   }
 
   void note_end() {
@@ -320,7 +319,7 @@ class Relaxation {
     result_.reason = fmt::format("{} load step{} at rest", steps, steps == 1 ? "" : "s");
     result_.residual = largest_residual_;
     result_.error = largest_error_;
-    observer_.on_end(record_, body_.state());
+    observer_.on_end(record_, state());
   }
 
   const RelaxationOptions& options_;
@@ -339,7 +338,7 @@ class Relaxation {
   double factor_ = 0.0, first_rest_ = 0.0, fractured_ = 0.0;
   double largest_residual_ = 0.0, largest_error_ = 0.0;
   double square_ = 0.0;     ///< square of the damped frequency, as last known
-  double most_held_ = 0.0;  ///< square of the largest loads and reactions so far
+  double most_held_ = 0.0;  ///< square of the largest loads and reactions
   Decision next_;
   ExplicitRecord record_;
   RelaxationResult result_;
