@@ -10,39 +10,29 @@
 namespace perilink {
 namespace {
 
-/// Least-squares parts of the rigid-body motions of a fragment in a field: those for which the sum
-/// over slots of weight (field - motion)^2 is smallest, with weight times field given.
-/// \param weight  of a slot
-Eigen::VectorXd parts_of(const std::vector<std::vector<double>>& motions,
-                         const std::vector<double>& weighted_field, const auto& weight) {
+/// The rigid-body motion of a fragment for which the sum over slots of weight times the square of
+/// its distance from a field is smallest, shape (particles, width).
+std::vector<double> nearest_motion(const Network& network, const Fragment& fragment,
+                                   const std::vector<double>& field,
+                                   const std::vector<double>& weight) {
+  const auto motions = free_motions(network, fragment, std::vector<std::uint8_t>(field.size(), 0));
   const auto count = static_cast<Eigen::Index>(motions.size());
   Eigen::MatrixXd products = Eigen::MatrixXd::Zero(count, count);
-  Eigen::VectorXd sums = Eigen::VectorXd::Zero(count);
-  for (std::size_t slot = 0; slot < weighted_field.size(); ++slot) {
+  Eigen::VectorXd parts = Eigen::VectorXd::Zero(count);
+  for (std::size_t slot = 0; slot < field.size(); ++slot) {
     for (Eigen::Index m = 0; m < count; ++m) {
-      sums[m] += motions[m][slot] * weighted_field[slot];
+      parts[m] += weight[slot] * motions[m][slot] * field[slot];
       for (Eigen::Index n = 0; n < count; ++n) {
-        products(m, n) += weight(slot) * motions[m][slot] * motions[n][slot];
+        products(m, n) += weight[slot] * motions[m][slot] * motions[n][slot];
       }
     }
   }
-  return products.completeOrthogonalDecomposition().solve(sums);
-}
-
-/// The sum of motions times their parts at a slot.
-double motion_at(const std::vector<std::vector<double>>& motions, const Eigen::VectorXd& parts,
-                 std::size_t slot) {
-  double sum = 0.0;
-  for (std::size_t m = 0; m < motions.size(); ++m) {
-    sum += parts[static_cast<Eigen::Index>(m)] * motions[m][slot];
+  parts = products.completeOrthogonalDecomposition().solve(parts).eval();
+  std::vector<double> nearest(field.size(), 0.0);
+  for (std::size_t slot = 0; slot < field.size(); ++slot) {
+    for (Eigen::Index m = 0; m < count; ++m) nearest[slot] += parts[m] * motions[m][slot];
   }
-  return sum;
-}
-
-std::vector<std::vector<double>> rigid_motions(const Network& network, const Fragment& fragment) {
-  const auto width = static_cast<std::size_t>(network.width());
-  std::vector<std::uint8_t> held(width * static_cast<std::size_t>(network.particles.size()), 0);
-  return free_motions(network, fragment, held);
+  return nearest;
 }
 
 }  // namespace
@@ -110,41 +100,33 @@ double strained_motion(const Network& network, const Fragment& fragment,
                        const std::vector<std::uint8_t>& held,
                        const std::vector<double>& prescribed) {
   const auto width = static_cast<std::size_t>(network.width());
-  const auto for_each_held = [&](const auto& visit) {
-    for (const Index i : fragment.particles) {
-      for (std::size_t slot = i * width; slot < (i + 1) * width; ++slot) {
-        if (held[slot] != 0) visit(slot);
-      }
+  std::vector<std::size_t> own;
+  for (const Index i : fragment.particles) {
+    for (std::size_t slot = i * width; slot < (i + 1) * width; ++slot) {
+      if (held[slot] != 0) own.push_back(slot);
     }
-  };
-  bool is_held = false;
-  for_each_held([&](std::size_t) { is_held = true; });
-  if (!is_held) return 0.0;
-  const auto motions = rigid_motions(network, fragment);
-  std::vector<double> field(held.size(), 0.0);
-  for_each_held([&](std::size_t slot) { field[slot] = prescribed[slot]; });
-  const Eigen::VectorXd parts =
-      parts_of(motions, field, [&](std::size_t slot) { return held[slot] != 0 ? 1.0 : 0.0; });
+  }
+  if (own.empty()) return 0.0;
+  const std::vector<double> weight(held.begin(), held.end());
+  const std::vector<double> nearest = nearest_motion(network, fragment, prescribed, weight);
   double largest = 0.0;
-  for_each_held([&](std::size_t slot) {
-    largest = std::max(largest, std::abs(motion_at(motions, parts, slot) - prescribed[slot]));
-  });
+  for (const std::size_t slot : own) {
+    largest = std::max(largest, std::abs(nearest[slot] - prescribed[slot]));
+  }
   return largest;
 }
 
-void balance_loads(const Network& network, const Fragment& fragment, std::span<const double> mass,
+void balance_loads(const Network& network, const Fragment& fragment, std::vector<double> mass,
                    Loads& loads) {
-  auto motions = rigid_motions(network, fragment);
-  const std::size_t first = static_cast<std::size_t>(network.first_anchor()) * network.width();
-  for (std::vector<double>& motion : motions) {
-    if (first < motion.size()) {
-      std::fill(motion.begin() + static_cast<std::ptrdiff_t>(first), motion.end(), 0.0);
-    }
-  }
-  const Eigen::VectorXd parts =
-      parts_of(motions, loads.forces, [&](std::size_t slot) { return mass[slot]; });
+  std::fill(mass.begin() + std::ptrdiff_t{network.first_anchor()} * network.width(), mass.end(),
+            0.0);  // anchors are moved by their particles
+  std::vector<double> acceleration(mass.size(), 0.0);
   for (std::size_t slot = 0; slot < mass.size(); ++slot) {
-    loads.forces[slot] -= mass[slot] * motion_at(motions, parts, slot);
+    if (mass[slot] > 0.0) acceleration[slot] = loads.forces[slot] / mass[slot];
+  }
+  acceleration = nearest_motion(network, fragment, acceleration, mass);
+  for (std::size_t slot = 0; slot < mass.size(); ++slot) {
+    loads.forces[slot] -= mass[slot] * acceleration[slot];
   }
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "network/loaded_network.hpp"
@@ -37,7 +36,7 @@ double strained_motion(const Network& network, const Fragment& fragment,
 /// Takes the net force and the net couple out of the loads on a free fragment, by forces in
 /// proportion to the masses (inertia relief): it then keeps its momentum and spin.
 /// \param mass  shape (particles, width) [mass, mass length^2]
-void balance_loads(const Network& network, const Fragment& fragment, std::span<const double> mass,
+void balance_loads(const Network& network, const Fragment& fragment, std::vector<double> mass,
                    Loads& loads);
 
 }  // namespace perilink

@@ -2,9 +2,11 @@
 // them, free bodies under balanced loads keep neither momentum nor spin and stay symmetric, and
 // bodies that come to rest are held by what loads them.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <random>
@@ -340,7 +342,9 @@ TEST(BodiesInMotion, TornOnesComeToNoRest) {
     const Rested run(text + rest);
     EXPECT_EQ(run.result.ending, Ending::collapsed) << text << run.result.reason;
     EXPECT_NE(run.result.reason.find("in pieces"), std::string::npos) << run.result.reason;
-    if (driven) EXPECT_NEAR(run.result.last.load, 0.0, 1e-7) << text;
+    if (driven) {
+      EXPECT_NEAR(run.result.last.load, 0.0, 1e-7) << text;
+    }
   }
 }
 

@@ -9,6 +9,7 @@
 #include "app/run/quasistatic.hpp"
 #include "app/run/run_kind.hpp"
 #include "app/run/run_warnings.hpp"
+#include "app/run/separated_body.hpp"
 #include "discretization/bonds.hpp"
 
 namespace perilink {
@@ -78,6 +79,7 @@ class ElasticRun final : public NetworkRun {
  public:
   ElasticRun(const CaseFile& of_case, int on_threads, bool quiet)
       : NetworkRun(of_case, on_threads, quiet, ranks() != nullptr ? ranks()->count() : 1) {
+    refuse_pieces_on_bars(input, model_, threads);
     plan += fmt::format(", {} unknowns", model_.unknowns.count);
   }
 
