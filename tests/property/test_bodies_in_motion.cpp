@@ -328,7 +328,7 @@ TEST(BodiesInMotion, TornOnesComeToNoRest) {
       text += body.dim == 2
                   ? fmt::format("[[cracks]]\npoints = [[-1, {0}], [9, {0}]]\n", y)
                   : fmt::format(
-                        "[[cracks]]\ncorners = [[-1, {0}, -1], [9, {0}, -1], [-1, {0}, 9]]\n", y);
+                        "[[cracks]]\ncorners = [[-1, {0}, -1], [9, {0}, -1], [9, {0}, 9]]\n", y);
     }
     if (driven) {
       text += "[[displacements]]\nregion = \"hi\"\nx = 0\ny = 1\n";

@@ -275,7 +275,7 @@ class Relaxation {
     }
     observe([&] {
       note_row();
-      if (step_ == 0 || separation_.is_due(fractured_)) examine_pieces();
+      if (separation_.is_due(fractured_)) examine_pieces();
       if (next_.done) return;
       if (separation_.is_unstrained()) {
         note_end();

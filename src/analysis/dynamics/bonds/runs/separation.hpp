@@ -15,7 +15,7 @@ class Separation {
   /// \param problem  has to outlive this
   explicit Separation(const LoadedNetwork& problem);
 
-  /// Whether bonds have broken since the pieces were examined.
+  /// Whether bonds have broken since the pieces were examined, or they never were.
   /// \param fractured  energy of broken bonds so far [force length]
   bool is_due(double fractured) const { return fractured > examined_; }
   /// \param is_loaded  the load factor is not zero
@@ -32,7 +32,7 @@ class Separation {
   const LoadedNetwork& problem_;
   std::vector<std::uint8_t> held_, resisted_;  ///< resisted: also by elastic supports
   double largest_ = 0.0;                       ///< prescribed displacement [length]
-  double examined_ = 0.0;                      ///< `fractured` of the last time [force length]
+  double examined_ = -1.0;                     ///< `fractured` of the last time [force length]
   bool is_unstrained_ = false;
 };
 
