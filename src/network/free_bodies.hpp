@@ -5,22 +5,12 @@
 
 #include "network/loaded_network.hpp"
 #include "network/rigid_modes.hpp"
-#include "network/secants.hpp"
 
 namespace perilink {
-
-/// Parts of the network that elements connect, but for those that are broken or have no stiffness,
-/// in the order of their first particles. Their free modes are not counted.
-/// \param in_one_piece  it is known that all particles hold together
-std::vector<Fragment> connected_parts(const Network& network, Secants secants,
-                                      bool in_one_piece = false);
 
 /// Components that are prescribed, shape (particles, width); none of anchors, which move with their
 /// particles.
 std::vector<std::uint8_t> held_components(const Network& network, const Unknowns& unknowns);
-
-/// Components that are held or that elastic supports resist, shape (particles, width).
-std::vector<std::uint8_t> held_or_sprung(const Network& network, std::vector<std::uint8_t> held);
 
 /// Rigid-body motions of all fragments that neither prescribed components nor elastic supports
 /// resist, each of shape (particles, width).

@@ -6,7 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "network/free_bodies.hpp"
+#include "base/joined_parts.hpp"
 
 namespace perilink {
 namespace {
@@ -144,6 +144,43 @@ std::vector<std::uint8_t> unbreakable_particles(const Network& network) {
 }
 
 }  // namespace
+
+std::vector<Fragment> connected_parts(const Network& network, Secants secants, bool in_one_piece) {
+  const Index num_particles = network.particles.size();
+  JoinedParts parts(num_particles);
+  for (Index i = 1; in_one_piece && i < num_particles; ++i) parts.join(0, i);
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    if (!(network.stiffness[e] > 0.0) || secants[e] == 0.0) continue;
+    parts.join(network.bonds.first[e], network.bonds.second[e]);
+  }
+  for (Index k = 0; network.cells && k < network.cells->cells.size(); ++k) {
+    const auto cell = network.cells->cells.cell(k);
+    for (const Index vertex : cell) parts.join(cell.front(), vertex);
+  }
+  for (Index k = 0; k < network.anchors.size(); ++k) {
+    for (const Index i : network.anchors.particles.row(k)) {
+      parts.join(network.first_anchor() + k, i);
+    }
+  }
+  std::vector<Fragment> fragments;
+  std::vector<Index> fragment_of_root(static_cast<std::size_t>(num_particles), no_index);
+  for (Index i = 0; i < num_particles; ++i) {
+    Index& number = fragment_of_root[parts.find(i)];
+    if (number == no_index) {
+      number = static_cast<Index>(fragments.size());
+      fragments.emplace_back();
+    }
+    fragments[number].particles.push_back(i);
+  }
+  return fragments;
+}
+
+std::vector<std::uint8_t> held_or_sprung(const Network& network, std::vector<std::uint8_t> held) {
+  for (std::size_t slot = 0; slot < network.support_stiffness.size(); ++slot) {
+    if (network.support_stiffness[slot] > 0.0) held[slot] = 1;
+  }
+  return held;
+}
 
 std::vector<Fragment> find_fragments(const Network& network, const std::vector<std::uint8_t>& held,
                                      bool in_one_piece) {
