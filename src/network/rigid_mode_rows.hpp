@@ -52,6 +52,11 @@ class RigidModes {
     return static_cast<std::size_t>(particle) * width_ + component;
   }
 
+  /// A component in its own unit, length or radian, per displacement at the rim.
+  double unit_of(int component) const {
+    return component < particles_.dim || radius_ == 0.0 ? 1.0 : 1.0 / radius_;
+  }
+
   ModeRow row(Index particle, int component) const {
     ModeRow modes = ModeRow::Zero();
     if (component >= particles_.dim) {

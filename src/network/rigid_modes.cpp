@@ -45,13 +45,13 @@ std::vector<std::uint8_t> unbreakable_particles(const Network& network) {
 
 }  // namespace
 
-std::vector<Fragment> find_fragments(const Network& network, const std::vector<std::uint8_t>& held,
-                                     bool in_one_piece) {
+std::vector<Fragment> connected_parts(const Network& network, Secants secants, bool in_one_piece) {
   const Index num_particles = network.particles.size();
   JoinedParts parts(num_particles);
   for (Index i = 1; in_one_piece && i < num_particles; ++i) parts.join(0, i);
   for (Index e = 0; e < network.num_elements(); ++e) {
-    if (network.stiffness[e] > 0.0) parts.join(network.bonds.first[e], network.bonds.second[e]);
+    if (!(network.stiffness[e] > 0.0) || secants[e] == 0.0) continue;
+    parts.join(network.bonds.first[e], network.bonds.second[e]);
   }
   for (Index k = 0; network.cells && k < network.cells->cells.size(); ++k) {
     const auto cell = network.cells->cells.cell(k);
@@ -72,11 +72,21 @@ std::vector<Fragment> find_fragments(const Network& network, const std::vector<s
     }
     fragments[number].particles.push_back(i);
   }
-  const std::vector<std::uint8_t> rotating = rotating_particles(network);
-  std::vector<std::uint8_t> resisted = held;
+  return fragments;
+}
+
+std::vector<std::uint8_t> held_or_sprung(const Network& network, std::vector<std::uint8_t> held) {
   for (std::size_t slot = 0; slot < network.support_stiffness.size(); ++slot) {
-    if (network.support_stiffness[slot] > 0.0) resisted[slot] = 1;
+    if (network.support_stiffness[slot] > 0.0) held[slot] = 1;
   }
+  return held;
+}
+
+std::vector<Fragment> find_fragments(const Network& network, const std::vector<std::uint8_t>& held,
+                                     bool in_one_piece) {
+  std::vector<Fragment> fragments = connected_parts(network, {}, in_one_piece);
+  const std::vector<std::uint8_t> rotating = rotating_particles(network);
+  const std::vector<std::uint8_t> resisted = held_or_sprung(network, held);
   for (Fragment& fragment : fragments) {
     const RigidModes modes(network, rotating, fragment.particles);
     const ModeProducts products(fragment.particles, modes, resisted);
@@ -101,7 +111,7 @@ std::vector<std::vector<double>> free_motions(const Network& network, const Frag
     for (const Index i : fragment.particles) {
       for (int a = 0; a < modes.components(i); ++a) {
         const std::size_t slot = modes.slot(i, a);
-        if (!held[slot]) motion[slot] = modes.row(i, a).dot(mode);
+        if (!held[slot]) motion[slot] = modes.unit_of(a) * modes.row(i, a).dot(mode);
       }
     }
   }
@@ -247,10 +257,7 @@ std::vector<Fragment> find_loose_parts(const Network& network,
   const RigidParts rigid(network);
   const std::vector<std::vector<Index>>& parts = rigid.parts();
   const std::vector<std::uint8_t> rotating = rotating_particles(network);
-  std::vector<std::uint8_t> resisted = held;
-  for (std::size_t slot = 0; slot < network.support_stiffness.size(); ++slot) {
-    if (network.support_stiffness[slot] > 0.0) resisted[slot] = 1;
-  }
+  const std::vector<std::uint8_t> resisted = held_or_sprung(network, held);
   std::vector<std::uint8_t> is_held(parts.size(), 0);
   if (rigid.begins_fixed()) is_held[0] = 1;
   const auto smaller = [](const auto& a, const auto& b) { return a.size() < b.size(); };

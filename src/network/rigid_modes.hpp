@@ -6,6 +6,7 @@
 
 #include "network/loaded_network.hpp"
 #include "network/network.hpp"
+#include "network/secants.hpp"
 
 namespace perilink {
 
@@ -15,6 +16,15 @@ struct Fragment {
   int free_modes = 0;  ///< rigid-body modes that prescribed displacements and elastic supports
                        ///< leave free
 };
+
+/// Parts of the network that elements connect, but for those that are broken or have no stiffness,
+/// in the order of their first particles. Their free modes are not counted.
+/// \param in_one_piece  it is known that all particles hold together
+std::vector<Fragment> connected_parts(const Network& network, Secants secants,
+                                      bool in_one_piece = false);
+
+/// Components that are held or that elastic supports resist, shape (particles, width).
+std::vector<std::uint8_t> held_or_sprung(const Network& network, std::vector<std::uint8_t> held);
 
 /// Connected parts of the network (elements of zero stiffness do not connect) with the number of
 /// rigid-body modes that `held` (shape (particles, width)) leaves free in each. Rotations of

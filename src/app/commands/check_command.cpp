@@ -20,6 +20,7 @@
 #include "base/error.hpp"
 #include "base/timer.hpp"
 #include "discretization/lattices/triangulate.hpp"
+#include "network/free_bodies.hpp"
 #include "solver/factor_routes.hpp"
 
 namespace perilink {
@@ -194,8 +195,10 @@ int check_moving_bonds(const std::string& case_path, const CaseFile& input) {
   print_case(case_path, input);
   print_sizes(model);
   std::fflush(stdout);
-  print_period(model.network.particles.size(),
-               [&] { return fundamental_period(model.network, model.unknowns, built.inertia); });
+  print_period(model.network.particles.size(), [&] {
+    const auto free = free_motions(model.network, model.unknowns);
+    return fundamental_period(model.network, model.unknowns, built.inertia, free);
+  });
   print_steps(built.inertia.critical_time_step(), built.options,
               changes && !calibrated ? " before bonds are calibrated" : "");
   print_set_up(set_up);

@@ -197,11 +197,11 @@ std::vector<HeldPlace> held_places(const CaseFile& input, const Model& model) {
 }
 
 ReactionTable reaction_table(const std::vector<HeldPlace>& places, const Model& model,
-                             const ModelState& state) {
+                             const ModelState& state, std::vector<double> forces) {
   const int dim = model.network.dim();
   std::string text = dim == 2 ? "place,x,y,force_x,force_y,moment\n"
                               : "place,x,y,z,force_x,force_y,force_z,moment_x,moment_y,moment_z\n";
-  const std::vector<double> forces = holding_forces(model, state);
+  if (forces.empty()) forces = holding_forces(model, state);
   std::vector<Index> everything(static_cast<std::size_t>(model.network.particles.size()));
   std::iota(everything.begin(), everything.end(), 0);
   const Reaction all = reaction_on(model, everything, present_loads(model, state));

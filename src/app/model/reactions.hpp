@@ -56,8 +56,9 @@ struct ReactionTable {
   std::string text;
   Reaction sum;  ///< sum of loads and reactions, about the middle of all particles
 };
+/// \param forces  holding_forces(), where they are known already: of bodies in motion
 ReactionTable reaction_table(const std::vector<HeldPlace>& places, const Model& model,
-                             const ModelState& state);
+                             const ModelState& state, std::vector<double> forces = {});
 
 /// Compares reactions with loads over the rows of a quasistatic run.
 class ReactionBalance {

@@ -15,12 +15,16 @@
 #include "app/process/console.hpp"
 #include "base/memory.hpp"
 #include "base/types.hpp"
+#include "solver/dense/blas_kernels.hpp"
 
 namespace perilink {
 namespace {
 
 /// Part of the address space that the stacks of threads may take; the rest is for the model.
 constexpr double most_for_stacks = 0.5;
+
+/// More are a slip of the pen, as in --threads.
+constexpr int most_threads = 1024;
 
 double stack_size() {
   pthread_attr_t attributes;
@@ -74,16 +78,17 @@ int set_threads(int wanted) {
   if (wanted <= 0) {
     wanted = omp_get_max_threads();
     const char* const asked = std::getenv("OMP_NUM_THREADS");
-    if (asked == nullptr || *asked == '\0') {
+    if (asked == nullptr || std::atoi(asked) != wanted) {  // unset, or none that OpenMP takes
       wanted = static_cast<int>(std::min<double>(wanted, std::ceil(granted_processors())));
     }
   }
-  const int threads = threads_that_start(threads_with_room(wanted));
+  const int most = std::min(most_blas_threads(), most_threads);
+  const int threads = threads_that_start(threads_with_room(std::min(wanted, most)));
   if (threads < wanted) {
-    complain(
-        fmt::format("{} of {} threads are used: the limits on the process (ulimit -v, -d, -u) "
-                    "leave no room for more; the results do not depend on it",
-                    threads, wanted));
+    complain(fmt::format(
+        "{} of {} threads are used: {}; the results do not depend on it", threads, wanted,
+        threads < most ? "the limits on the process (ulimit -v, -d, -u) leave no room for more"
+                       : "the program and its linear algebra library (OpenBLAS) serve no more"));
   }
   omp_set_num_threads(threads);
 #pragma omp parallel  // now, while there is room: they stay

@@ -14,8 +14,8 @@
 #include "app/results/bar_file.hpp"
 #include "app/run/run_warnings.hpp"
 #include "base/error.hpp"
-#include "base/joined_parts.hpp"
 #include "discretization/bonds.hpp"
+#include "network/free_bodies.hpp"
 
 namespace perilink {
 namespace {
@@ -29,25 +29,19 @@ std::vector<double> densities(const CaseFile& input) {
 /// Parts of the body, of a hundredth of its particles or more, that have no elastic supports and in
 /// which no displacement is prescribed.
 Index count_loose_pieces(const Model& model, const BondRunState& state) {
-  const Bonds& bonds = model.network.bonds;
-  const Index count = model.network.particles.size();
-  JoinedParts pieces(count);
+  const Network& network = model.network;
+  const auto width = static_cast<std::size_t>(network.width());
+  const auto held = held_or_sprung(network, held_components(network, model.unknowns));
   const std::vector<double> secants = state.bonds.secants();
-  for (Index e = 0; e < bonds.size(); ++e) {
-    if (secants[e] != 0.0) pieces.join(bonds.first[e], bonds.second[e]);
-  }
-  std::vector<Index> size(static_cast<std::size_t>(count), 0);
-  std::vector<std::uint8_t> is_held(size.size(), 0);
-  for (std::size_t slot = 0; slot < model.unknowns.number.size(); ++slot) {
-    const Index own = pieces.find(static_cast<Index>(slot / model.unknowns.width));
-    if (slot % model.unknowns.width == 0) ++size[own];
-    const bool on_spring =
-        !model.network.support_stiffness.empty() && model.network.support_stiffness[slot] > 0.0;
-    if (on_spring || model.unknowns.number[slot] == no_index) is_held[own] = 1;
-  }
   Index loose = 0;
-  for (Index i = 0; i < count; ++i) {
-    loose += is_held[i] == 0 && size[i] >= std::max(1.0, 0.01 * count);
+  for (const Fragment& piece : connected_parts(network, secants)) {
+    const bool is_held = std::any_of(piece.particles.begin(), piece.particles.end(), [&](Index i) {
+      const auto own = held.begin() + static_cast<std::ptrdiff_t>(i * width);
+      return std::find(own, own + static_cast<std::ptrdiff_t>(width), 1) !=
+             own + static_cast<std::ptrdiff_t>(width);
+    });
+    const double size = static_cast<double>(piece.particles.size());
+    loose += !is_held && size >= std::max(1.0, 0.01 * network.particles.size());
   }
   return loose;
 }
@@ -75,6 +69,11 @@ MovingBondsRun::MovingBondsRun(const CaseFile& of_case, int on_threads, bool qui
 
 void MovingBondsRun::write_state(const ExplicitRecord& record, const BondRunState& state) {
   files_->write_fields(record.step, record.time, [&] {
+    if (const auto places = held_places(input, model_); !places.empty()) {
+      const ModelState now{{}, state.motion.displacement, 1.0, record.load_factor};
+      files_->write_table("reactions", record.step,
+                          reaction_table(places, model_, now, state.reactions()).text);
+    }
     FieldMoment moment = moment_of(record, input, model_);
     moment.time = record.time;
     const bool bonds_break = !model_.network.has_states();
@@ -105,10 +104,6 @@ void MovingBondsRun::add_forces_and_cracks(VtuGrid& grid, const ExplicitRecord& 
   if (input.analysis.strain == Strain::green) return;
   add_stresses(grid, particle_stresses(stress_input(model_, families_, secants), motion),
                model_.network.dim());
-  if (const auto places = held_places(input, model_); !places.empty()) {
-    const ModelState now{secants, motion, 1.0, record.load_factor};
-    files_->write_table("reactions", record.step, reaction_table(places, model_, now).text);
-  }
   if (model_.network.bars.bar.empty()) return;
   const BarState bars = bar_state(model_.network, secants, motion);
   add_bars(grid, bars);

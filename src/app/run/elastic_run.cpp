@@ -79,6 +79,7 @@ class ElasticRun final : public NetworkRun {
  public:
   ElasticRun(const CaseFile& of_case, int on_threads, bool quiet)
       : NetworkRun(of_case, on_threads, quiet, ranks() != nullptr ? ranks()->count() : 1) {
+    refuse_pieces_on_bars(input, model_, threads);
     plan += fmt::format(", {} unknowns", model_.unknowns.count);
     if (auto note = note_of_separated_body(input, model_, threads)) notes.push_back(*note);
   }

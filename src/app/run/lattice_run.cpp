@@ -1,5 +1,8 @@
+#include <algorithm>
+
 #include "app/model/from_case/lattice_case.hpp"
 #include "app/model/gauges.hpp"
+#include "app/model/reactions.hpp"
 #include "app/process/signals.hpp"
 #include "app/results/lattice_fields.hpp"
 #include "app/run/run_kind.hpp"
@@ -67,8 +70,25 @@ class LatticeRun final : public RunKind, private ExplicitObserver {
   bool stop_requested() override { return stop_signal_received(); }
 
   void write_state(const ExplicitRecord& record, const ExplicitState& state) {
-    files_->write_fields(record.step, record.time,
-                         [&] { return make_lattice_grid(built_.model, state, record); });
+    files_->write_fields(record.step, record.time, [&] {
+      write_reactions(record, state);
+      return make_lattice_grid(built_.model, state, record);
+    });
+  }
+
+  /// Forces in the step before, as in the history.
+  void write_reactions(const ExplicitRecord& record, const ExplicitState& state) {
+    const std::vector<HeldPlace> held = held_places(input, built_.places);
+    if (held.empty()) return;
+    const LatticeRows& lattice = built_.model.lattice;
+    std::vector<double> forces;
+    for (const Index slot : lattice.particle_slot) {
+      for (int a = 0; a < lattice.dim; ++a) forces.push_back(state.holding[lattice.at(a, slot)]);
+    }
+    const double before = std::max(0.0, record.time - built_.options.time_step);
+    const ModelState then{{}, {}, 1.0, ramped_load_factor(before, built_.options.ramp)};
+    files_->write_table("reactions", record.step,
+                        reaction_table(held, built_.places, then, std::move(forces)).text);
   }
 
   ExplicitCase built_;

@@ -10,6 +10,7 @@
 #include "app/run/bond_run.hpp"
 #include "app/run/run_notes.hpp"
 #include "app/run/run_warnings.hpp"
+#include "network/free_bodies.hpp"
 
 namespace perilink {
 
@@ -26,7 +27,8 @@ RelaxationOptions relaxation_options(const CaseFile& input, int threads) {
 
 double expected_iterations(const Model& model, const RelaxationOptions& options) {
   const Inertia inertia = fictitious_inertia(model.network, options.strain);
-  const double period = fundamental_period(model.network, model.unknowns, inertia);
+  const auto free = free_motions(model.network, model.unknowns);
+  const double period = fundamental_period(model.network, model.unknowns, inertia, free);
   const double step = options.safety * inertia.critical_time_step();
   return -std::log(options.tolerance) * period / (2.0 * std::numbers::pi * step);
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include "analysis/quasistatic/damage_analysis.hpp"
@@ -15,14 +16,15 @@
 namespace perilink {
 namespace {
 
-/// The first piece that is not held when all bonds of cracks are open; empty: there is none.
-std::string loose_piece(const Model& model) {
+/// The first piece of the solid that is not held without some elements; empty: there is none.
+std::string loose_piece(const Model& model, const std::vector<Index>& without) {
   Network open = model.network;
-  for (const Index element : open.cut_elements) open.stiffness[element] = 0.0;
+  for (const Index element : without) open.stiffness[element] = 0.0;
   std::vector<std::uint8_t> held;
   for (const Index number : model.unknowns.number) held.push_back(number == no_index);
   for (const Fragment& fragment : find_fragments(open, held)) {
-    if (fragment.free_modes == 0) continue;
+    const bool is_solid = open.particles.kind[fragment.particles.front()] == ParticleKind::solid;
+    if (fragment.free_modes == 0 || !is_solid) continue;
     const auto at = open.particles.position(fragment.particles.front());
     return fmt::format("the piece of {} particles at ({})", fragment.particles.size(),
                        fmt::join(at, ", "));
@@ -32,11 +34,29 @@ std::string loose_piece(const Model& model) {
 
 }  // namespace
 
+void refuse_pieces_on_bars(const CaseFile& input, const Model& model, int threads) {
+  const Network& network = model.network;
+  if (network.bars.bar.empty()) return;
+  std::vector<Index> bars(static_cast<std::size_t>(network.num_elements() - network.first_tie));
+  std::iota(bars.begin(), bars.end(), network.first_tie);
+  const std::string piece = loose_piece(model, bars);
+  if (piece.empty()) return;
+  try {
+    require_held_pieces(model, damage_options(input, threads));
+  } catch (const SolverError& error) {
+    throw InputError(input.where(item_key("rebar", 0)),
+                     fmt::format("nothing but bars holds {}, and it moves freely on them: {}",
+                                 piece, error.what()),
+                     "hold the piece with [[supports]] or [[springs]]");
+  }
+}
+
 std::optional<std::string> note_of_separated_body(const CaseFile& input, const Model& model,
                                                   int threads) {
+  refuse_pieces_on_bars(input, model, threads);
   const bool may_close = model.network.has_closing() && !model.network.cut_elements.empty();
   if (!may_close) return std::nullopt;
-  const std::string piece = loose_piece(model);
+  const std::string piece = loose_piece(model, model.network.cut_elements);
   if (piece.empty()) return std::nullopt;
   try {
     if (input.analysis.type == AnalysisType::elastic) {

@@ -3,6 +3,8 @@
 #include <dlfcn.h>
 
 #include <cstdlib>
+#include <limits>
+#include <string>
 
 namespace perilink {
 
@@ -29,6 +31,20 @@ void use_fitting_kernels() {
   forget();
   choose();
 #endif
+}
+
+int most_blas_threads(std::string_view config) {
+  constexpr std::string_view key = "MAX_THREADS=";
+  const std::size_t at = config.find(key);
+  const int most =
+      at == config.npos ? 0 : std::atoi(std::string(config.substr(at + key.size())).c_str());
+  return most > 0 ? most : std::numeric_limits<int>::max();
+}
+
+int most_blas_threads() {
+  using Config = const char* (*)();
+  auto* config = reinterpret_cast<Config>(dlsym(RTLD_DEFAULT, "openblas_get_config"));
+  return most_blas_threads(config == nullptr ? "" : config());
 }
 
 }  // namespace perilink

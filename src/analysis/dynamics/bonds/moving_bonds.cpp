@@ -67,6 +67,20 @@ double MovingBonds::stored(Index begin, Index end) const {
   return energy;
 }
 
+std::vector<double> MovingBonds::reactions(double load_factor, double increment,
+                                           double damping) const {
+  const std::vector<double>& springs = network.support_stiffness;
+  std::vector<double> all(force.size(), 0.0);
+  for (std::size_t slot = 0; slot < all.size(); ++slot) {
+    if (is_held(slot)) {
+      const double faster = unknowns.prescribed[slot] * increment / time_step;
+      all[slot] = holding_force(slot, load_factor, faster, damping);
+    }
+    if (!springs.empty()) all[slot] -= springs[slot] * motion.displacement[slot];
+  }
+  return all;
+}
+
 void MovingBonds::add_reaction(std::size_t slot, double reaction, MotionSums& to) const {
   to.driven += reaction * unknowns.prescribed[slot];
   const bool is_support = unknowns.prescribed[slot] == 0.0;

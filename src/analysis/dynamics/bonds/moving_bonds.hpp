@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "analysis/dynamics/bonds/break_order.hpp"
@@ -21,6 +23,9 @@ struct BondRunState {
   /// Bonds that broke, or particles that cracked where bonds cannot break: in the order of time,
   /// within a step in that of their numbers.
   const std::vector<Index>& broken;
+  /// Finds the forces of supports and of what drives the body, inertia included, zero elsewhere;
+  /// shape (particles, width) [force].
+  std::function<std::vector<double>()> reactions = {};
 };
 
 using BondRunObserver = RunObserver<BondRunState>;
@@ -54,6 +59,15 @@ struct MovingBonds {
   /// Half of u_(n-1)' K u_n of the particles [begin, end) [force length].
   double stored(Index begin, Index end) const;
   bool is_held(std::size_t slot) const { return unknowns.number[slot] == no_index; }
+  /// Force on a prescribed component while its velocity becomes `faster` [force].
+  double holding_force(std::size_t slot, double load_factor, double faster, double damping) const {
+    const double v = motion.velocity[slot], m = mass[slot];
+    return m * (faster - v) / time_step + 0.5 * damping * m * (v + faster) + force[slot] -
+           load_factor * loads[slot];
+  }
+  /// BondRunState::reactions.
+  /// \param increment  of the part of the prescribed displacements that is reached, in this step
+  std::vector<double> reactions(double load_factor, double increment, double damping) const;
   /// Counts the force that holds a prescribed component [force].
   void add_reaction(std::size_t slot, double reaction, MotionSums& to) const;
   MotionSums total() const;
@@ -64,7 +78,9 @@ struct MovingBonds {
   /// \param motion_factor  part of the prescribed displacements that is reached
   void note_motion(const MotionSums& all, double motion_factor, ExplicitRecord& record);
   /// To be called by one thread between two steps.
-  BondRunState state() { return {network, motion, *bonds, broken.so_far()}; }
+  BondRunState state(std::function<std::vector<double>()> reactions_now = {}) {
+    return {network, motion, *bonds, broken.so_far(), std::move(reactions_now)};
+  }
 
   const Network& network;
   const Unknowns& unknowns;

@@ -6,12 +6,14 @@
 #include <cmath>
 #include <optional>
 
+#include "analysis/dynamics/inertia.hpp"
 #include "app/model/conditions/formula_field.hpp"
 #include "app/model/conditions/loads.hpp"
 #include "app/model/conditions/supports.hpp"
 #include "base/error.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "network/builder/network_builder.hpp"
+#include "network/free_bodies.hpp"
 
 namespace perilink {
 namespace {
@@ -49,7 +51,7 @@ Loads loads_on(const Model& model, const Fragment& fragment) {
 }
 
 /// The loads of a part that is pinned must balance by themselves; a small net couple is unavoidable
-/// where the rows of a lattice are not symmetric, and the pins take it.
+/// where the rows of a lattice are not symmetric: pins bear it, or it is taken out of the loads.
 void require_balance(const CaseFile& input, Model& model, const Fragment& fragment) {
   const LoadResultant sum = load_resultant(model.network, loads_on(model, fragment));
   double force = 0.0, moment = 0.0;
@@ -72,9 +74,12 @@ void require_balance(const CaseFile& input, Model& model, const Fragment& fragme
   }
   if (couple > couple_note) {
     model.notes.push_back(fmt::format(
-        "the loads leave a net couple of {:.3g}, which the pinned displacements take: {:.2g} of "
-        "the sum of forces times the body's size",
-        moment, couple));
+        "the loads leave a net couple of {:.3g}, which {}: {:.2g} of the sum of forces times the "
+        "body's size",
+        moment,
+        is_quasistatic(input.analysis.type) ? "the pinned displacements take"
+                                            : "is taken out of them",
+        couple));
   }
 }
 
@@ -92,43 +97,77 @@ void refuse_cut_off(const CaseFile& input, const Model& model, std::span<const I
       "[[supports]] or [[springs]]");
 }
 
+/// A body that is pinned is held at some components where it stands still. In motion that would
+/// hold single particles, so its loads are balanced instead.
+/// \param off  CutOffParts::particles
+void pin(const CaseFile& input, Model& model, Fragment fragment, Prescription& prescription,
+         const std::vector<std::uint8_t>& off) {
+  require_balance(input, model, fragment);
+  if (is_quasistatic(input.analysis.type)) {
+    std::erase_if(fragment.particles, [&](Index i) { return off[i] != 0; });
+    pin_rigid_modes(model.network, fragment, prescription.held);
+    model.notes.push_back(
+        fmt::format("{} rigid-body modes of the free body are pinned", fragment.free_modes));
+    return;
+  }
+  const bool weighs = input.analysis.type == AnalysisType::explicit_;
+  std::vector<double> density;
+  for (const MaterialSection& material : input.materials) {
+    density.push_back(weighs ? *material.density : 1.0);
+  }
+  const Inertia inertia = lumped_inertia(model.network, density, input.analysis.masses);
+  balance_loads(model.network, fragment, inertia.mass, model.loads);
+  model.notes.push_back(
+      "what is left of the net force and couple of the loads is taken out of them, so that the "
+      "free body neither moves nor turns as a whole; no particle is held");
+}
+
 /// \param off  CutOffParts::particles
 void hold_rigid_modes(const CaseFile& input, Model& model, Prescription& prescription,
                       const std::vector<std::uint8_t>& off) {
-  std::vector<Fragment> fragments =
+  const std::vector<Fragment> fragments =
       find_fragments(model.network, prescription.held, model.pattern.has_value());
-  const bool pin = input.analysis.rigid_body_modes == RigidBodyModes::pin;
+  const bool pins = input.analysis.rigid_body_modes == RigidBodyModes::pin;
+  const bool moves = input.analysis.type == AnalysisType::explicit_;
   if (fragments.size() > 1) {
     model.notes.push_back(
         fmt::format("the body consists of {} parts that no bond connects", fragments.size()));
   }
-  for (Fragment& fragment : fragments) {
+  int free = 0;
+  for (const Fragment& fragment : fragments) {
     const auto is_off = [&](Index i) { return off[i] != 0; };
     if (fragment.free_modes == 0 || std::ranges::all_of(fragment.particles, is_off)) continue;
     const int all = model.network.dim() == 2 ? 3 : 6;
     const auto x = model.network.particles.position(fragment.particles.front());
     const std::string where = fmt::format("the part of {} particles at ({})",
                                           fragment.particles.size(), fmt::join(x, ", "));
-    if (!pin) {
+    free += fragment.free_modes;
+    if (!pins && moves) continue;
+    if (!pins) {
       if (fragments.size() > 1) refuse_cut_off(input, model, fragment.particles);
       throw InputError(
           input.where(input.supports.empty() ? "analysis" : "supports[1]"),
           fmt::format("{} of the {} rigid-body modes of {} are free", fragment.free_modes, all,
                       fragments.size() == 1 ? "the body" : where),
-          "hold the body with [[supports]], [[symmetry]] or [[springs]], or, when the loads "
-          "balance by themselves, set analysis.rigid_body_modes = \"pin\"");
+          fmt::format("hold the body with [[supports]], [[symmetry]] or [[springs]]{}",
+                      fragment.free_modes < all ? ""
+                                                : ", or, when the loads balance by themselves, set "
+                                                  "analysis.rigid_body_modes = \"pin\""));
     }
     if (fragment.free_modes != all) {
-      throw InputError(input.where("analysis.rigid_body_modes"),
-                       fmt::format("is \"pin\", but {} is partly supported: {} of {} rigid-body "
-                                   "modes are free",
-                                   where, fragment.free_modes, all),
-                       "support all of them, or none");
+      throw InputError(
+          input.where("analysis.rigid_body_modes"),
+          fmt::format("is \"pin\", but {} is partly supported: {} of {} rigid-body "
+                      "modes are free",
+                      where, fragment.free_modes, all),
+          moves ? "leave it out: inertia resists what is free" : "support all of them, or none");
     }
-    require_balance(input, model, fragment);
-    std::erase_if(fragment.particles, is_off);
-    pin_rigid_modes(model.network, fragment, prescription.held);
-    model.notes.push_back(fmt::format("{} rigid-body modes of the free body are pinned", all));
+    pin(input, model, fragment, prescription, off);
+  }
+  if (free > 0 && !pins) {
+    model.notes.push_back(
+        fmt::format("nothing but inertia resists {} rigid-body mode{} of the body", free,
+                    free == 1 ? "" : "s"));
   }
 }
 

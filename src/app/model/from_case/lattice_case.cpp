@@ -23,8 +23,9 @@ namespace {
 constexpr double most_steps = 2e9;  ///< steps have 32-bit numbers
 
 /// Supports and driven displacements. \return what stands for all that are driven [length]
-double prescribe_motions(const CaseFile& input, const Model& places, ExplicitModel& model) {
+double prescribe_motions(const CaseFile& input, Model& places, ExplicitModel& model) {
   const Prescription prescription = collect_prescriptions(input, places);
+  places.unknowns = number_unknowns(model.lattice.dim, prescription.held, prescription.value);
   const std::size_t dim = model.lattice.dim;
   std::vector<PrescribedMotion> motions;
   for (std::size_t slot = 0; slot < prescription.held.size(); ++slot) {
@@ -38,9 +39,9 @@ double prescribe_motions(const CaseFile& input, const Model& places, ExplicitMod
 }
 
 /// Forces on the particles. \return the reference load [force]; zero: none
-double load_particles(const CaseFile& input, const Model& places, ExplicitCase& built) {
+double load_particles(const CaseFile& input, ExplicitCase& built) {
   const LatticeRows& lattice = built.model.lattice;
-  const AppliedLoads applied = collect_loads(input, places, lattice.dim);
+  const AppliedLoads applied = collect_loads(input, built.places, lattice.dim);
   const std::size_t dim = lattice.dim;
   std::vector<AppliedForce> forces;
   for (std::size_t slot = 0; slot < applied.loads.forces.size(); ++slot) {
@@ -49,15 +50,16 @@ double load_particles(const CaseFile& input, const Model& places, ExplicitCase& 
                       applied.loads.forces[slot]});
   }
   if (!forces.empty()) apply_forces(built.model, forces);
+  built.places.loads = applied.loads;
   built.notes.insert(built.notes.end(), applied.notes.begin(), applied.notes.end());
   return total_load(applied.places);
 }
 
 /// What moves the body, and what is measured.
 void load_body(const CaseFile& input, const LatticeShape& shape, ExplicitCase& built) {
-  const Model places = lattice_places(input, shape, built.model, built.model.lattice.particle_slot);
-  const double driven = prescribe_motions(input, places, built.model);
-  const double loaded = load_particles(input, places, built);
+  built.places = lattice_places(input, shape, built.model, built.model.lattice.particle_slot);
+  const double driven = prescribe_motions(input, built.places, built.model);
+  const double loaded = load_particles(input, built);
   built.options.driven = driven > 0.0;
   built.options.reference = built.options.driven ? driven : loaded;
   if (!(built.options.reference >= smallest_load)) {
@@ -66,7 +68,7 @@ void load_body(const CaseFile& input, const LatticeShape& shape, ExplicitCase& b
                      "small to compute with",
                      "change a formula, or the region that it is for");
   }
-  built.gauges = build_gauges(input, places, built.notes);
+  built.gauges = build_gauges(input, built.places, built.notes);
 }
 
 /// External damping of a material that does not say what the fundamental period is.

@@ -18,7 +18,9 @@ struct ExplicitCase {
   /// The period to which external damping refers, given or computed; 0: not asked for [time].
   double fundamental_period = 0.0;
   Index bonds = 0;
-  std::vector<Gauge> gauges;       ///< their particles are numbered in the order of their slots
+  /// Particles in the order of their slots, with what is prescribed for them and loads them.
+  Model places;
+  std::vector<Gauge> gauges;
   std::vector<std::string> notes;  ///< what the user should know: what holes take, point loads
                                    ///< that had to move
 };

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
+#include "solver/dense/blas_kernels.hpp"
 #include "support/process.hpp"
 #include "support/temporary_directory.hpp"
 
@@ -31,6 +33,12 @@ TEST(Threads, ContainersGrantProcessors) {
 TEST(Threads, AreAsManyAsAreWanted) {
   EXPECT_EQ(set_threads(1), 1);
   EXPECT_GE(set_threads(0), 1);
+}
+
+/// Beyond what the linear algebra library serves it would destroy the heap.
+TEST(Threads, AreNoMoreThanTheLibrariesServe) {
+  EXPECT_LE(set_threads(100000), std::min(1024, most_blas_threads()));
+  set_threads(1);
 }
 
 }  // namespace

@@ -43,5 +43,32 @@ TEST(SeparatedBody, OneWithALigamentIsNone) {
   EXPECT_FALSE(note_of_separated_body(input, draft_model(input), 1));
 }
 
+/// A straight bar resists the opening of a cut, not the slip along it or the turn of the part above.
+TEST(SeparatedBody, IsRefusedWhereItSlidesAcrossABar) {
+  for (const AnalysisType type : {AnalysisType::elastic, AnalysisType::damage}) {
+    CaseFile input = cracked_strip(-10.0, 12.0);
+    input.analysis.type = type;
+    input.materials[0].softening.closes = false;
+    RebarSection bar;
+    bar.points = {{20.0, 5.0, 0.0}, {20.0, 75.0, 0.0}};
+    bar.bond = RebarBond::concrete;
+    bar.youngs_modulus = 29000.0;
+    bar.area = 1.0;
+    input.rebar.push_back(bar);
+    const Model model = draft_model(input);
+    try {
+      refuse_pieces_on_bars(input, model, 1);
+      FAIL() << "accepted";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("nothing but bars holds the piece of 20"));
+    }
+    SupportSection roller;
+    roller.region = "upper end";
+    roller.fix = {true, false, false};
+    input.supports.push_back(roller);
+    EXPECT_NO_THROW(refuse_pieces_on_bars(input, draft_model(input), 1));
+  }
+}
+
 }  // namespace
 }  // namespace perilink

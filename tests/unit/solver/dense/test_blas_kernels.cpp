@@ -54,5 +54,11 @@ TEST(BlasKernels, AreTakenInPlaceOfThoseOf2004) {
 #endif
 }
 
+TEST(BlasKernels, SayHowManyThreadsTheyServe) {
+  EXPECT_EQ(most_blas_threads("OpenBLAS 0.3.21 DYNAMIC_ARCH Haswell MAX_THREADS=64"), 64);
+  EXPECT_GT(most_blas_threads("OpenBLAS 0.3.21 SINGLE_THREADED"), 1000000);
+  EXPECT_GT(most_blas_threads(), 1);
+}
+
 }  // namespace
 }  // namespace perilink

@@ -121,8 +121,7 @@ class BondRun {
     const double dt = body_.time_step, mass = body_.mass[slot];
     const double applied = factor * body_.loads[slot];
     const double faster = body_.unknowns.prescribed[slot] * increment / dt, twice = v + faster;
-    const double reaction =
-        mass * (faster - v) / dt + 0.5 * rate_ * mass * twice + body_.force[slot] - applied;
+    const double reaction = body_.holding_force(slot, factor, faster, rate_);
     body_.add_reaction(slot, reaction, sums);
     sums.work.external += 0.5 * dt * (applied + reaction) * twice;
     sums.work.damping += 0.25 * dt * rate_ * mass * twice * twice;
@@ -159,9 +158,13 @@ class BondRun {
     const MotionSums all = body_.total();
     record_.energy = {all.kinetic,      all.stored,    0.0,
                       all.work.damping, all.fractured, all.work.external};
-    loop_.look(step, record_, observer_, body_.state(), [&](ExplicitRecord& record) {
+    const auto reactions = [&] {
+      const double increment = motion_factor(step + 1) - motion_factor(step);
+      return body_.reactions(loop_.load_factor(step), increment, rate_);
+    };
+    loop_.look(step, record_, observer_, body_.state(reactions), [&](ExplicitRecord& record) {
       body_.note_motion(all, motion_factor(step), record);
-      if (shares_.leading) shares_.leading->collect_motion(body_.motion);
+      if (shares_.leading) shares_.leading->collect_motion(body_);
     });
     if (shares_.leading) shares_.leading->tell(!loop_.is_done());
   }

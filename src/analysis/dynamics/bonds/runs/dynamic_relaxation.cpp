@@ -10,7 +10,9 @@
 #include <utility>
 
 #include "analysis/dynamics/bonds/bond_forces.hpp"
+#include "analysis/dynamics/bonds/runs/rest_sums.hpp"
 #include "analysis/dynamics/bonds/runs/run_share.hpp"
+#include "analysis/dynamics/bonds/runs/separation.hpp"
 #include "base/memory.hpp"
 #include "base/thread_choice.hpp"
 
@@ -24,34 +26,6 @@ constexpr int iterations_of_a_round = 4;
 
 /// A residual that has grown so much since the first one will not shrink any more.
 constexpr double largest_growth = 1e12;
-
-/// Sums over the particles of a block, or of all blocks, in an iteration.
-struct RestSums {
-  double push = 0.0, size = 0.0;       // squares r'M^-1 r and u'M u
-  double residual = 0.0, held = 0.0;   // squares of residual forces, of loads and reactions
-  double stiffness = 0.0, mass = 0.0;  // over the motion since the load step began
-  double last_stiffness = 0.0, last_mass = 0.0;  // over the last step
-  double fractured = 0.0;                        // since the beginning
-
-  void operator+=(const RestSums& other) {
-    push += other.push;
-    size += other.size;
-    residual += other.residual;
-    held += other.held;
-    stiffness += other.stiffness;
-    mass += other.mass;
-    last_stiffness += other.last_stiffness;
-    last_mass += other.last_mass;
-    fractured += other.fractured;
-  }
-};
-
-/// What comes behind the forces of an iteration.
-struct Decision {
-  double keep = 1.0, lose = 1.0;  ///< factors of velocities, for their damping
-  bool restart = true;            ///< the damping is to be measured from here
-  bool at_rest = false, done = false;
-};
 
 class Relaxation {
  public:
@@ -68,6 +42,7 @@ class Relaxation {
         first_(body_.force),
         first_force_(body_.force),
         rest_(body_.sums.size()),
+        separation_(problem),
         threads_(shares.own() ? 1 : body_.blocks.threads(options.threads)) {
     for (std::size_t slot = 0; slot < body_.force.size(); ++slot) {
       // Moments become forces of like energy.
@@ -101,7 +76,6 @@ class Relaxation {
       u = body_.is_held(slot) ? factor * body_.unknowns.prescribed[slot] : growth * u;
       body_.motion.velocity[slot] = 0.0;
     }
-    starts_ = true;
     iteration_ = 0;
     next_.at_rest = false;
   }
@@ -166,7 +140,7 @@ class Relaxation {
       for (const RestSums& block : own) all += block;
       judge(all);
     }
-    starts_ = false;
+    if (next_.examines) examine();
     ++iteration_;
     ++result_.iterations;
   }
@@ -174,35 +148,66 @@ class Relaxation {
   /// Is the body at rest, and how is it damped?
   void judge(const RestSums& all) {
     const double rest = std::sqrt(all.residual);
-    result_.residual = all.held > 0.0 ? rest / std::sqrt(all.held) : rest > 0.0 ? 1.0 : 0.0;
-    if (starts_) first_rest_ = rest;
+    most_held_ = std::max(most_held_, all.held);
+    const double held = separation_.is_unstrained() ? most_held_ : all.held;
+    result_.residual = held > 0.0 ? rest / std::sqrt(held) : rest > 0.0 ? 1.0 : 0.0;
+    if (iteration_ == 0) first_rest_ = rest;
     const bool gave_way = all.fractured != fractured_;
     fractured_ = all.fractured;
     // Forces of other bonds tell nothing about the present ones.
-    next_.restart = starts_ || gave_way;
+    next_.restart = iteration_ == 0 || gave_way;
     damp(all);
     // What is left of the way, r'K^-2 r, against the way itself: no vibration is much slower than
-    // the one that is damped.
-    result_.error = all.push > 0.0 ? std::sqrt(all.push / all.size) / square_ : 0.0;
+    // the one that is damped. Nothing draws pieces anywhere that resist nothing.
+    const bool moves = all.push > 0.0 && !separation_.is_unstrained();
+    result_.error = moves ? std::sqrt(all.push / all.size) / square_ : 0.0;
     next_.at_rest = !gave_way && std::max(result_.residual, result_.error) <= options_.tolerance;
     if (!next_.at_rest) look(rest);
   }
 
   void look(double rest) {
     const bool grows = !(rest <= largest_growth * std::max(first_rest_, 1e-290));
-    if (grows || iteration_ >= options_.most_iterations) {
+    const bool ends = iteration_ >= options_.most_iterations;
+    const bool is_due = separation_.is_due(fractured_);
+    if (grows || (ends && !is_due)) {
       end(Ending::failed,
           fmt::format("load step {} (load factor {}): {} after {} iterations; the residual force "
                       "is {:.2e} of the loads and reactions, what is left of the way {:.2e}; the "
                       "tolerance of both is {:.2e}",
-                      step_ + 1, factor_, grows ? "the motion grows" : "not at rest", iteration_,
-                      result_.residual, result_.error, options_.tolerance));
+                      step_ + 1, factor_, grows ? "the motion grows" : "not at rest",
+                      std::min(iteration_, options_.most_iterations), result_.residual,
+                      result_.error, options_.tolerance));
     }
-    if (iteration_ % iterations_between_checks != 0 || next_.done) return;
+    const bool checks = iteration_ % iterations_between_checks == 0;
+    next_.examines = !next_.done && is_due && (ends || checks);
+    if (!checks || next_.done) return;
     observe([&] {
       observer_.on_iteration(static_cast<Index>(step_) + 1, iteration_, result_.residual);
       if (observer_.stop_requested()) end(Ending::interrupted, "interrupted");
     });
+  }
+
+  /// Takes part in a meeting of ranks, but for the first one.
+  bool has_followed() {
+    if (shares_.following) next_.done = !shares_.following->meet(body_);
+    return shares_.following != nullptr;
+  }
+
+  /// During an iteration, by all ranks.
+  void examine() {
+    next_.examines = false;
+    if (has_followed()) return;
+    if (shares_.leading) shares_.leading->collect(body_);
+    observe([&] { examine_pieces(); });
+    if (shares_.leading) shares_.leading->tell(!next_.done);
+  }
+  void examine_pieces() {
+    const auto pulled = separation_.examine(body_.bonds->secants(), fractured_, factor_ != 0.0);
+    if (!pulled.empty()) collapse(pulled);
+  }
+  void collapse(const std::string& how) {
+    end(Ending::collapsed,
+        fmt::format("load step {} (load factor {}): {}", step_ + 1, factor_, how));
   }
 
   /// What an observer throws ends the run with all that was found so far; nothing may leave a
@@ -263,16 +268,19 @@ class Relaxation {
     for (Index b = first_block_; b < past_block_; ++b) {
       body_.sums[b].stored = body_.stored(body_.blocks.begin(b), body_.blocks.end(b));
     }
-    if (shares_.following) {
-      next_.done = !shares_.following->meet(body_);
-      return;
-    }
+    if (has_followed()) return;
     if (shares_.leading) {
       shares_.leading->collect(body_);
-      shares_.leading->collect_motion(body_.motion);
+      shares_.leading->collect_motion(body_);
     }
     observe([&] {
       note_row();
+      if (separation_.is_due(fractured_)) examine_pieces();
+      if (next_.done) return;
+      if (separation_.is_unstrained()) {
+        note_end();
+        return collapse("the body is in pieces and no longer resists the displacements");
+      }
       if (step_ + 1 == options_.load_factors.size()) return note_end();
       // Load steps may be at rest from the beginning.
       if (observer_.stop_requested()) end(Ending::interrupted, "interrupted");
@@ -299,7 +307,11 @@ class Relaxation {
     if (std::abs(record_.support_reaction) > std::abs(result_.peak_load)) {
       result_.peak_load = record_.support_reaction;
     }
-    observer_.on_row(record_, body_.state());
+    observer_.on_row(record_, state());
+  }
+
+  BondRunState state() {
+    return body_.state([this] { return body_.reactions(factor_, 0.0, 0.0); });
   }
 
   void note_end() {
@@ -307,7 +319,7 @@ class Relaxation {
     result_.reason = fmt::format("{} load step{} at rest", steps, steps == 1 ? "" : "s");
     result_.residual = largest_residual_;
     result_.error = largest_error_;
-    observer_.on_end(record_, body_.state());
+    observer_.on_end(record_, state());
   }
 
   const RelaxationOptions& options_;
@@ -319,13 +331,14 @@ class Relaxation {
   std::vector<double> first_, first_force_;  ///< where the damping began to be measured
   std::vector<double> weight_;  ///< factors of squares of forces and moments, per component
   std::vector<RestSums> rest_;  ///< per block
+  Separation separation_;
   ThreadChoice threads_;
   std::size_t step_ = 0;
   Index iteration_ = 0;
   double factor_ = 0.0, first_rest_ = 0.0, fractured_ = 0.0;
   double largest_residual_ = 0.0, largest_error_ = 0.0;
-  double square_ = 0.0;  ///< square of the damped frequency, as last known
-  bool starts_ = true;
+  double square_ = 0.0;     ///< square of the damped frequency, as last known
+  double most_held_ = 0.0;  ///< square of the largest loads and reactions
   Decision next_;
   ExplicitRecord record_;
   RelaxationResult result_;

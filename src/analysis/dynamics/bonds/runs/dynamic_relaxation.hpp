@@ -54,6 +54,9 @@ Inertia fictitious_inertia(const Network& network, Strain strain);
 /// A row is one load step: its `step` counts iterations, its `time` load steps; work is that of the
 /// load over its displacement between rows (trapezoidal rule), and what of it is neither stored nor
 /// fractured was damped.
+/// Ends as collapsed where broken bonds have left the body in pieces that the loads pull apart, or
+/// that no prescribed displacement strains; the last row of a driven body then shows it without
+/// resistance.
 /// \returns ending = failed where a load step needs more iterations than it may have, or the motion
 /// grows without bound; interrupted where the observer asked for it
 RelaxationResult run_dynamic_relaxation(const LoadedNetwork& problem,

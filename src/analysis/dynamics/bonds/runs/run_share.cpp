@@ -81,8 +81,9 @@ std::vector<double> LeadingShare::collect(MovingBonds& body) {
   });
 }
 
-void LeadingShare::collect_motion(BondMotion& motion) {
-  collect_fields(Wish::motion, width_, {&motion.displacement, &motion.velocity});
+void LeadingShare::collect_motion(MovingBonds& body) {
+  collect_fields(Wish::motion, width_,
+                 {&body.motion.displacement, &body.motion.velocity, &body.force});
 }
 
 void LeadingShare::collect_fields(Wish wish, int width,
@@ -149,6 +150,7 @@ bool FollowingShare::meet(MovingBonds& body) {
     } else {
       put(parcel, body.motion.displacement, width_);
       put(parcel, body.motion.velocity, width_);
+      put(parcel, body.force, width_);
     }
   });
 }

@@ -92,8 +92,8 @@ class LeadingShare final : public RunShare {
   /// Begins a meeting, or comes after the last step: takes sums and what broke into `body`.
   /// \return reactions of supports in each step since the last time [force]
   std::vector<double> collect(MovingBonds& body);
-  /// During a meeting: the motion of all particles.
-  void collect_motion(BondMotion& motion);
+  /// During a meeting: the motion of all particles and the forces on them.
+  void collect_motion(MovingBonds& body);
   /// During a meeting. \param secants  of all elements; those of other ranks are overwritten
   void collect_secants(std::span<double> secants);
   /// During a meeting. \param damage  of all particles; that of other ranks is overwritten

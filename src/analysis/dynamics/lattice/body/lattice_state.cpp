@@ -60,7 +60,7 @@ ExplicitState::ExplicitState(const ExplicitModel& model)
   const LatticeRows& lattice = model.lattice;
   const auto slots = static_cast<std::size_t>(lattice.slots);
   const std::size_t own = lattice.bonds.size(), dim = lattice.dim, rows = lattice.rows.size();
-  for (auto* array : {&displacement, &velocity}) array->assign(dim * slots, 0.0);
+  for (auto* array : {&displacement, &velocity, &holding}) array->assign(dim * slots, 0.0);
   rate.assign(own * slots, 0.0);
   damage.assign(slots, 0.0);
   sums.resize(rows);

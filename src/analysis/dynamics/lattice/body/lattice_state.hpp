@@ -116,6 +116,8 @@ struct ExplicitState {
   LatticeFlow flow;
   std::vector<RowSums> sums;  ///< per row
   std::vector<RowReactions> reactions;
+  std::vector<double> holding;  ///< force on prescribed components in the last step, zero
+                                ///< elsewhere, shape (dim, slots) [force]
   std::vector<double> fastest;  ///< per row: largest change of an elastic stretch in a step
   std::vector<double> slack;    ///< per row: change of stretches that alters nothing yet
   std::vector<double> path;     ///< per row: sum of all changes of stretches near it

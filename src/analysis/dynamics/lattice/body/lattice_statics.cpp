@@ -1,11 +1,10 @@
 #include "analysis/dynamics/lattice/body/lattice_statics.hpp"
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "analysis/dynamics/fundamental_period.hpp"
-#include "network/rigid_modes.hpp"
+#include "network/free_bodies.hpp"
 #include "network/unknowns.hpp"
 
 namespace perilink {
@@ -39,12 +38,9 @@ double fundamental_period(const ExplicitModel& model) {
   const LatticeNetwork body = lattice_network(model);
   const Network& network = body.network;
   const std::vector<std::uint8_t> held = held_components(model, body.slots);
-  std::vector<std::vector<double>> free;
-  for (const Fragment& fragment : find_fragments(network, held)) {
-    for (auto& motion : free_motions(network, fragment, held)) free.push_back(std::move(motion));
-  }
   const Unknowns unknowns =
       number_unknowns(network.dim(), held, std::vector<double>(held.size(), 0.0));
+  const std::vector<std::vector<double>> free = free_motions(network, unknowns);
   Inertia inertia;
   for (const Index slot : body.slots) {
     inertia.mass.insert(inertia.mass.end(), static_cast<std::size_t>(network.dim()),

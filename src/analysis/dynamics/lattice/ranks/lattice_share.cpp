@@ -59,7 +59,7 @@ void visit_fields(const ExplicitModel& model, State& state, RowRange rows, const
   const auto visit_all = [&](auto&... fields) {
     visit_slots(lattice.slots, slots_of(lattice, rows), visit, fields...);
   };
-  visit_all(state.displacement, state.velocity);
+  visit_all(state.displacement, state.velocity, state.holding);
   if (model.material.breakable) {
     visit_all(state.damage, state.cracked_in);
   } else {  // stresses

@@ -381,6 +381,7 @@ void advance(const ExplicitModel& model, ExplicitState& state, Index r, double t
       const double reaction = mass[i] * (wanted - speed[i]) / time_step;
       speed[i] = wanted;
       state.sums[r].external_work += 0.5 * time_step * reaction * (wanted + velocity[i]);
+      state.holding[lattice.at(c, motion.slot)] = reaction;
       reactions.driven += reaction * motion.amplitude;
       if (motion.amplitude == 0.0 && c == model.load_component) reactions.supports += reaction;
     }

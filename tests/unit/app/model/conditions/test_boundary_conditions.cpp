@@ -204,6 +204,34 @@ TEST(BoundaryConditions, FreeBodiesAreRefusedUnlessTheyMayBePinned) {
   expect_refused(input, "analysis.rigid_body_modes", "partly supported");
 }
 
+/// In motion nothing holds a free body but its inertia, and pins would hold particles.
+TEST(BoundaryConditions, BodiesInMotionAreHeldByTheirInertia) {
+  CaseFile input = free_strip_case();
+  input.analysis.type = AnalysisType::explicit_;
+  input.materials[0].density = 2.0;
+  input.regions[2].box.lower[0] = 10.0;  // the pull is off the axis
+  const Model pinned = build_model(input);
+  EXPECT_EQ(pinned.unknowns.count, 2 * 45);
+  EXPECT_THAT(pinned.notes, testing::Contains(testing::HasSubstr("no particle is held")));
+  EXPECT_THAT(pinned.notes, testing::Contains(testing::HasSubstr("is taken out of them")));
+  const LoadResultant sum = load_resultant(pinned.network, pinned.loads);
+  EXPECT_NEAR(sum.force[0], 0.0, 1e-13);
+  EXPECT_NEAR(sum.force[1], 0.0, 1e-13);
+  EXPECT_NEAR(sum.moment[0], 0.0, 1e-12);
+  input.analysis.rigid_body_modes = RigidBodyModes::refuse;
+  const Model free = build_model(input);
+  EXPECT_THAT(free.notes, testing::Contains(testing::HasSubstr("resists 3 rigid-body modes")));
+  EXPECT_GT(std::abs(load_resultant(free.network, free.loads).moment[0]), 1.0);
+  SupportSection roller;
+  roller.region = "lower end";
+  roller.fix = {false, true, false};
+  input.supports.push_back(roller);
+  EXPECT_THAT(build_model(input).notes,
+              testing::Contains(testing::HasSubstr("resists 1 rigid-body mode of the body")));
+  input.analysis.rigid_body_modes = RigidBodyModes::pin;
+  expect_refused(input, "analysis.rigid_body_modes", "leave it out");
+}
+
 TEST(BoundaryConditions, PinnedBodiesNeedBalancedLoads) {
   CaseFile input = free_strip_case();
   input.loads[1].force = Vector3{0.0, -11.9, 0.0};

@@ -218,8 +218,8 @@ TEST(DynamicRelaxation, GreenStrainsOfAChain) {
   EXPECT_NEAR(outcome.result.last.energy.stored, 2.0 * 6.0 * 0.5 * 10.0 * 0.625 * 0.625, 1e-7);
 }
 
-/// Springs in series hold to their limit and carry nothing behind it; all that they had stored is
-/// fractured or damped.
+/// Springs in series hold to their limit and carry nothing behind it, which ends the run; all that
+/// they had stored is fractured or damped.
 TEST(DynamicRelaxation, BondsBreakBetweenLoadSteps) {
   const double stiffness = 10.0, limit = 0.01;
   const AnalysisBody body = make_chains(6, 2, true, stiffness, limit);
@@ -228,7 +228,9 @@ TEST(DynamicRelaxation, BondsBreakBetweenLoadSteps) {
   options.load_factors.erase(options.load_factors.begin());  // the default
   options.tolerance = 1e-8;
   const Relaxed outcome = relax(body, options);
-  ASSERT_EQ(outcome.result.ending, Ending::completed) << outcome.result.reason;
+  ASSERT_EQ(outcome.result.ending, Ending::collapsed) << outcome.result.reason;
+  EXPECT_THAT(outcome.result.reason, testing::HasSubstr("no longer resists the displacements"));
+  EXPECT_EQ(outcome.recorder.ends, 1);
   double peak = 0.0;
   for (const ExplicitRecord& row : outcome.recorder.rows) peak = std::max(peak, row.load);
   // Load steps of a sixtieth of what the chain bears; the motion between them overshoots.
@@ -237,6 +239,29 @@ TEST(DynamicRelaxation, BondsBreakBetweenLoadSteps) {
   EXPECT_NEAR(outcome.result.last.load, 0.0, 1e-6);
   EXPECT_GT(outcome.result.last.energy.fractured, 0.0);
   EXPECT_GT(outcome.result.last.energy.external_damping, 0.0);
+}
+
+/// A chain that is pulled beyond its limit flies apart, for one process and for several.
+TEST(DynamicRelaxation, LoadsPullPiecesAway) {
+  const AnalysisBody body = make_chains(200, 20, false, 10.0, 0.15);
+  RelaxationOptions options;
+  options.load_factors = {0.5, 1.0, 2.0};
+  options.most_iterations = 20000;
+  const Relaxed outcome = relax(body, options);
+  EXPECT_EQ(outcome.result.ending, Ending::collapsed) << outcome.result.reason;
+  EXPECT_THAT(outcome.result.reason, testing::HasSubstr("load step 3 (load factor 2)"));
+  EXPECT_THAT(outcome.result.reason, testing::HasSubstr("the loads pull away"));
+  EXPECT_EQ(outcome.recorder.rows.size(), 2U);
+  with_thread_ranks(
+      2,
+      [&](Ranks& ranks) {
+        options.ranks = &ranks;
+        const Relaxed found = relax(body, options);
+        dismiss(ranks);
+        EXPECT_EQ(found.result.ranks, 2);
+        expect_the_same(found, outcome);
+      },
+      serve);
 }
 
 TEST(DynamicRelaxation, AnIterationLimitIsNoSuccess) {

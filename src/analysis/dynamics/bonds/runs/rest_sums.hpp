@@ -1,0 +1,34 @@
+#pragma once
+
+namespace perilink {
+
+/// Sums over the particles of a block, or of all blocks, in an iteration of a dynamic relaxation.
+struct RestSums {
+  double push = 0.0, size = 0.0;       // squares r'M^-1 r and u'M u
+  double residual = 0.0, held = 0.0;   // squares of residual forces, of loads and reactions
+  double stiffness = 0.0, mass = 0.0;  // over the motion since the load step began
+  double last_stiffness = 0.0, last_mass = 0.0;  // over the last step
+  double fractured = 0.0;                        // since the beginning
+
+  void operator+=(const RestSums& other) {
+    push += other.push;
+    size += other.size;
+    residual += other.residual;
+    held += other.held;
+    stiffness += other.stiffness;
+    mass += other.mass;
+    last_stiffness += other.last_stiffness;
+    last_mass += other.last_mass;
+    fractured += other.fractured;
+  }
+};
+
+/// How a dynamic relaxation goes on after the forces of an iteration.
+struct Decision {
+  double keep = 1.0, lose = 1.0;  ///< factors of velocities, for their damping
+  bool restart = true;            ///< the damping is to be measured from here
+  bool at_rest = false, done = false;
+  bool examines = false;  ///< whether the body is in pieces
+};
+
+}  // namespace perilink

@@ -1,0 +1,79 @@
+#include "analysis/dynamics/bonds/runs/separation.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace perilink {
+namespace {
+
+/// Part of the loads on a piece that may be out of balance, as numbers of few digits are ...
+constexpr double unbalanced = 1e-6;
+/// ... and of those on the body, which is round-off.
+constexpr double round_off = 1e-12;
+/// Part of the prescribed displacements that strains a piece.
+constexpr double straining = 1e-9;
+
+double sum_of_sizes(const std::vector<double>& forces) {
+  return std::accumulate(forces.begin(), forces.end(), 0.0,
+                         [](double sum, double force) { return sum + std::abs(force); });
+}
+
+}  // namespace
+
+Separation::Separation(const LoadedNetwork& problem)
+    : problem_(problem),
+      held_(held_components(problem.network, problem.unknowns)),
+      resisted_(held_or_sprung(problem.network, held_)) {
+  for (const double value : problem.unknowns.prescribed) {
+    largest_ = std::max(largest_, std::abs(value));
+  }
+}
+
+bool Separation::is_strained(Secants secants, const std::vector<std::uint8_t>& held) const {
+  const auto pieces = connected_parts(problem_.network, secants);
+  return std::any_of(pieces.begin(), pieces.end(), [&](const Fragment& fragment) {
+    return strained_motion(problem_.network, fragment, held, problem_.unknowns.prescribed) >
+           straining * largest_;
+  });
+}
+
+std::string Separation::examine(Secants secants, double fractured, bool is_loaded) {
+  examined_ = fractured;
+  const Network& network = problem_.network;
+  const std::vector<double>& forces = problem_.loads.forces;
+  const double on_body = sum_of_sizes(forces);
+  for (const Fragment& piece : connected_parts(network, secants)) {
+    const double least = std::max(unbalanced * size_of_loads(piece), round_off * on_body);
+    if (!is_loaded || !(size_of_loads(piece) > least)) continue;
+    for (const std::vector<double>& motion : free_motions(network, piece, resisted_)) {
+      const double pull = std::inner_product(motion.begin(), motion.end(), forces.begin(), 0.0);
+      if (std::abs(pull) <= least) continue;
+      return fmt::format(
+          "the body is in pieces, and the loads pull away that of {} particles at ({:.6g})",
+          piece.particles.size(),
+          fmt::join(network.particles.position(piece.particles.front()), ", "));
+    }
+  }
+  if (!(largest_ > 0.0)) return "";
+  // Elastic supports count where the body is driven against nothing else.
+  const bool was_strained = is_strained({}, held_);
+  is_unstrained_ =
+      (was_strained || on_body == 0.0) && !is_strained(secants, was_strained ? held_ : resisted_);
+  return "";
+}
+
+double Separation::size_of_loads(const Fragment& piece) const {
+  const auto width = static_cast<std::size_t>(problem_.network.width());
+  double sum = 0.0;
+  for (const Index i : piece.particles) {
+    for (std::size_t slot = i * width; slot < (i + 1) * width; ++slot) {
+      sum += std::abs(problem_.loads.forces[slot]);
+    }
+  }
+  return sum;
+}
+
+}  // namespace perilink
