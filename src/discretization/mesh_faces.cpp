@@ -1,4 +1,5 @@
 #include "discretization/mesh_faces.hpp"
+#include "base/joined_text.hpp"
 
 #include <fmt/format.h>
 
@@ -71,7 +72,7 @@ std::string place_of(const CellSide& side, int dim, std::span<const double> posi
     const Vector3 x = point_of(positions, dim, side.key[corner]);
     for (int axis = 0; axis < dim; ++axis) centre[axis] += x[axis] / dim;
   }
-  return fmt::format("({:.6g})", fmt::join(centre.begin(), centre.begin() + dim, ", "));
+  return fmt::format("({})", joined({centre.data(), static_cast<std::size_t>(dim)}));
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 #include "app/commands/check_sizes.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <span>
 
+#include "base/joined_text.hpp"
 #include "discretization/lattices/triangulate.hpp"
 
 namespace perilink {
@@ -129,7 +129,7 @@ void print_spacing(const Model& model) {
 std::string vector_text(const Vector3& vector, int dim) {
   std::vector<double> components;
   for (int a = 0; a < dim; ++a) components.push_back(vector[a] + 0.0);  // no -0
-  return fmt::format("({:.6g})", fmt::join(components, ", "));
+  return fmt::format("({})", joined(components));
 }
 
 /// Force and moment of a place.
@@ -158,7 +158,7 @@ std::string motion_text(const DrivenPlace& place, int dim) {
     parts.push_back(low == high ? fmt::format("{} = {:.6g}", name, low)
                                 : fmt::format("{} from {:.6g} to {:.6g}", name, low, high));
   }
-  return fmt::format("{}", fmt::join(parts, ", "));
+  return fmt::format("{}", joined(parts));
 }
 
 /// What loads each place, at load factor 1; stages load places in turn.

@@ -207,24 +207,23 @@ Comparison compare_results(const RunResult& a, const RunResult& b) {
 std::string comparison_report(const RunResult& a, const RunResult& b,
                               const Comparison& comparison) {
   std::string text;
-  const auto out = std::back_inserter(text);
   for (const auto& [letter, result] : {std::pair('A', &a), std::pair('B', &b)}) {
-    fmt::format_to(out, "{}  {}: {}{}\n", letter, result->directory, result->labels.title,
-                   result->status.empty() ? "" : " (" + result->status + ")");
+    text += fmt::format("{}  {}: {}{}\n", letter, result->directory, result->labels.title,
+                        result->status.empty() ? "" : " (" + result->status + ")");
   }
-  fmt::format_to(out, "\n{:<34}{:>14}{:>14}{:>14}\n", "", "A", "B", "difference");
+  text += fmt::format("\n{:<34}{:>14}{:>14}{:>14}\n", "", "A", "B", "difference");
   for (const ComparedQuantity& q : comparison.quantities) {
     const std::string name = with_unit(spaced(q.name), q.unit == "%" ? "" : q.unit);
     const std::string blanks(std::max<std::size_t>(34, shown_length(name) + 1) - shown_length(name),
                              ' ');
     if (!std::isnan(q.between)) {
-      fmt::format_to(out, "{}{}{:>40.2f} %\n", name, blanks, q.between);
+      text += fmt::format("{}{}{:>40.2f} %\n", name, blanks, q.between);
       continue;
     }
-    fmt::format_to(out, "{}{}{}{}{}\n", name, blanks, cell(q.a), cell(q.b),
-                   percent_cell(q.difference_percent()));
+    text += fmt::format("{}{}{}{}{}\n", name, blanks, cell(q.a), cell(q.b),
+                        percent_cell(q.difference_percent()));
   }
-  for (const std::string& note : comparison.notes) fmt::format_to(out, "note: {}\n", note);
+  for (const std::string& note : comparison.notes) text += fmt::format("note: {}\n", note);
   return text;
 }
 

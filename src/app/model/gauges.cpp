@@ -1,7 +1,6 @@
 #include "app/model/gauges.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include "app/model/model_regions.hpp"
 #include "app/results/history_file.hpp"
 #include "base/error.hpp"
+#include "base/joined_text.hpp"
 #include "discretization/bonds.hpp"
 
 namespace perilink {
@@ -31,7 +31,7 @@ Vector3 place_of(const Particles& particles, std::span<const Gauge::Term> terms)
 std::string point_text(const Vector3& point, int dim) {
   std::vector<double> components;
   for (int a = 0; a < dim; ++a) components.push_back(point[a] + 0.0);  // no -0
-  return fmt::format("({:.6g})", fmt::join(components, ", "));
+  return fmt::format("({})", joined(components));
 }
 
 /// Particles with an intact bond to one, nearest to a point first; where bonds are not known, those
@@ -122,7 +122,7 @@ std::vector<Gauge::Term> terms_at(const CaseFile& input, const Model& model, con
   if (!(nearest.distance <= spacing)) {
     throw InputError(
         input.where(key),
-        fmt::format("the point ({}) is {:.6g} from the nearest particle", fmt::join(at, ", "),
+        fmt::format("the point ({}) is {:.6g} from the nearest particle", joined(at),
                     nearest.distance),
         fmt::format("particles are {:.6g} apart; a point of a gauge must lie within that of one",
                     spacing));
@@ -139,7 +139,7 @@ std::vector<Gauge::Term> terms_at(const CaseFile& input, const Model& model, con
       "no particle lies at the point {} of the gauge \"{}\": it measures at {}, linearly between "
       "the particles at {}",
       point_text(point, particles.dim), gauge.name,
-      point_text(place_of(particles, terms), particles.dim), fmt::join(texts, ", ")));
+      point_text(place_of(particles, terms), particles.dim), joined(texts)));
   return terms;
 }
 

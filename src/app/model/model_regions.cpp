@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/joined_text.hpp"
 #include "discretization/facet_geometry.hpp"
 #include "discretization/mesh_faces.hpp"
 #include "discretization/meshes/cell_search.hpp"
@@ -159,8 +160,8 @@ std::string nearest_text(const Particles& particles, const Region* region) {
     }
   }
   if (nearest == no_index) return "";
-  return fmt::format("the nearest one is {:.4g} outside, at ({:.6g}); ", least,
-                     fmt::join(particles.position(nearest), ", "));
+  return fmt::format("the nearest one is {:.4g} outside, at ({}); ", least,
+                     joined(particles.position(nearest)));
 }
 
 [[noreturn]] void refuse_without_facets(const CaseFile& input, const Model& model,
@@ -190,7 +191,7 @@ std::string nearest_text(const Particles& particles, const Region* region) {
                   "in that region",
                   region.name),
       fmt::format("the nearest facet has its centre at ({})",
-                  fmt::join(nearest.begin(), nearest.begin() + model.facets.dim, ", ")));
+                  joined({nearest.data(), static_cast<std::size_t>(model.facets.dim)})));
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ void append_hundredths(std::string& text, long value) {
   }
   const long whole = value / 100;
   const long rest = value % 100;
-  if (whole > 0 || rest == 0) fmt::format_to(std::back_inserter(text), "{}", whole);
+  if (whole > 0 || rest == 0) text += std::to_string(whole);
   if (rest == 0) return;
   text += '.';
   text += static_cast<char>('0' + rest / 10);

@@ -1,7 +1,6 @@
 #include "app/results/bar_file.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <iterator>
 
@@ -18,13 +17,12 @@ std::string bar_table(const Network& network, const BarState& state) {
     distance = network.bars.continues(s) ? distance : 0.0;
     const auto first = network.particles.position(network.bonds.first[e]);
     const auto second = network.particles.position(network.bonds.second[e]);
-    auto out = std::back_inserter(text);
-    fmt::format_to(out, "{},{}", network.bars.bar[s] + 1, distance + 0.5 * length);
+    text += fmt::format("{},{}", network.bars.bar[s] + 1, distance + 0.5 * length);
     for (std::size_t a = 0; a < first.size(); ++a) {
-      fmt::format_to(out, ",{}", 0.5 * (first[a] + second[a]));
+      text += fmt::format(",{}", 0.5 * (first[a] + second[a]));
     }
-    fmt::format_to(out, ",{},{},{},{},{}\n", state.strain[s], state.stress[s], state.force[s],
-                   state.slip[s], state.bond_stress[s]);
+    text += fmt::format(",{},{},{},{},{}\n", state.strain[s], state.stress[s], state.force[s],
+                        state.slip[s], state.bond_stress[s]);
     distance += length;
   }
   return text;

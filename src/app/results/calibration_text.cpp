@@ -1,7 +1,7 @@
 #include "app/results/calibration_text.hpp"
+#include "base/joined_text.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -31,8 +31,8 @@ std::optional<std::string> calibration_shortfall(const Network& network) {
   const double worst = std::max(report.residual_after, report.moment_after);
   std::string text = fmt::format(
       "uniform strains leave {} particles out of balance, most (by {:.1e} of the force on a face "
-      "of its cell) the one at ({:.6g})",
-      report.unmet, worst, fmt::join(network.particles.position(report.worst_particle), ", "));
+      "of its cell) the one at ({})",
+      report.unmet, worst, joined(network.particles.position(report.worst_particle)));
   if (worst > harmful) {
     text +=
         "; WARNING: strains around it are wrong by about as much, so mesh that place more evenly "

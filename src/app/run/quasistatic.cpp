@@ -1,13 +1,12 @@
 #include "app/run/quasistatic.hpp"
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "app/model/reactions.hpp"
 #include "app/run/run_warnings.hpp"
 #include "assembly/internal_force.hpp"
+#include "base/joined_text.hpp"
 
 namespace perilink {
 namespace {
@@ -131,7 +130,7 @@ void tell_equilibria(Summary& summary, const CaseFile& input, const Equilibria& 
   }
   for (const PlaceForce& place : found.places) {
     summary.json["places"].push_back({{"name", place.name}, {"force", place.force}});
-    summary.line("", "({:.6g}) by {}", fmt::join(place.force, ", "), place.name);
+    summary.line("", "({}) by {}", joined(place.force), place.name);
   }
   summary.add("initial_stiffness", found.initial_stiffness);
   summary.add("steps", last.step);

@@ -1,7 +1,5 @@
 #include "app/run/separated_body.hpp"
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
@@ -11,6 +9,7 @@
 #include "analysis/quasistatic/elastic_analysis.hpp"
 #include "app/model/from_case/configure.hpp"
 #include "base/error.hpp"
+#include "base/joined_text.hpp"
 #include "network/rigid_modes.hpp"
 
 namespace perilink {
@@ -26,8 +25,7 @@ std::string loose_piece(const Model& model, const std::vector<Index>& without) {
     const bool is_solid = open.particles.kind[fragment.particles.front()] == ParticleKind::solid;
     if (fragment.free_modes == 0 || !is_solid) continue;
     const auto at = open.particles.position(fragment.particles.front());
-    return fmt::format("the piece of {} particles at ({})", fragment.particles.size(),
-                       fmt::join(at, ", "));
+    return fmt::format("the piece of {} particles at ({})", fragment.particles.size(), joined(at));
   }
   return "";
 }

@@ -1,6 +1,5 @@
 #include "app/run/summary.hpp"
 
-#include <fmt/ranges.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include "app/model/body/particle_model.hpp"
 #include "app/results/calibration_text.hpp"
 #include "app/run/run_notes.hpp"
+#include "base/joined_text.hpp"
 #include "io/case/sections/case_kinds.hpp"
 
 namespace perilink {
@@ -130,10 +130,9 @@ void tell_cracks(Summary& summary, const std::vector<ToldCrack>& cracks) {
   }
   if (cracks.empty()) return;
   const ToldCrack& first = cracks.front();
-  summary.line("cracks",
-               "the largest has {} damaged bond{} and is open by {:.4g} at most, at ({:.6g})",
+  summary.line("cracks", "the largest has {} damaged bond{} and is open by {:.4g} at most, at ({})",
                first.state.bonds, first.state.bonds == 1 ? "" : "s", first.state.largest,
-               fmt::join(first.at, ", "));
+               joined(first.at));
 }
 
 void tell_body(Summary& summary, const Model& model, const std::string& more) {

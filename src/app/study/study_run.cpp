@@ -15,6 +15,7 @@
 #include "app/run/run_notes.hpp"
 #include "app/study/convergence.hpp"
 #include "assembly/fields.hpp"
+#include "base/joined_text.hpp"
 #include "base/memory.hpp"
 #include "base/timer.hpp"
 #include "io/case/case_overrides.hpp"
@@ -340,7 +341,7 @@ double field_error(const ErrorSection& error, const Particles& particles,
       const double value = formula.at(x);
       if (!std::isfinite(value)) {
         throw InputError(where_of_field(error),
-                         fmt::format("gives {} at the particle at ({})", value, fmt::join(x, ", ")),
+                         fmt::format("gives {} at the particle at ({})", value, joined(x)),
                          "write a formula that is finite everywhere in the body");
       }
       exact[static_cast<std::size_t>(i) * particles.dim + axis] = value;

@@ -101,7 +101,7 @@ class Report {
  private:
   template <class... Arguments>
   void append(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-    fmt::format_to(std::back_inserter(text_), format, std::forward<Arguments>(arguments)...);
+    text_ += fmt::vformat(format, fmt::make_format_args(arguments...));
   }
   static int width_of(const ErrorSection& error) {
     return std::max(10, static_cast<int>(error.name.size()) + 9);

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <span>
 #include <stdexcept>
 
+#include "base/joined_text.hpp"
 #include "discretization/facet_geometry.hpp"
 #include "discretization/mesh_faces.hpp"
 #include "discretization/region.hpp"
@@ -47,9 +47,9 @@ struct CellCorners {
 
   [[noreturn]] void refuse_flat() const {
     const int dim = count - 1;
-    throw std::invalid_argument(fmt::format(
-        "the cell with a corner at ({:.6g}) is flat: it has no {}",
-        fmt::join(at[0].begin(), at[0].begin() + dim, ", "), dim == 2 ? "area" : "volume"));
+    throw std::invalid_argument(fmt::format("the cell with a corner at ({}) is flat: it has no {}",
+                                            joined({at[0].data(), static_cast<std::size_t>(dim)}),
+                                            dim == 2 ? "area" : "volume"));
   }
 };
 

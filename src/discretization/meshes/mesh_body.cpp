@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/joined_text.hpp"
 #include "discretization/facet_geometry.hpp"
 #include "discretization/lattices/triangulate.hpp"
 #include "discretization/mesh_faces.hpp"
@@ -122,8 +123,8 @@ struct Numbering {
   Vector3 x =
       point_of(mesh.positions, mesh.dim, mesh.facets[static_cast<std::size_t>(element) * mesh.dim]);
   throw std::invalid_argument(
-      fmt::format("an element of the group \"{}\" with a corner at ({:.6g}) is no side of a cell",
-                  group.name, fmt::join(x.begin(), x.begin() + mesh.dim, ", ")));
+      fmt::format("an element of the group \"{}\" with a corner at ({}) is no side of a cell",
+                  group.name, joined({x.data(), static_cast<std::size_t>(mesh.dim)})));
 }
 
 void refuse_overlap(const Mesh& mesh, const CellFaces& faces, const Numbering& numbering,
@@ -140,10 +141,10 @@ void refuse_overlap(const Mesh& mesh, const CellFaces& faces, const Numbering& n
     for (int axis = 0; axis < mesh.dim; ++axis) centre[axis] += x[axis] / (mesh.dim + 1);
   }
   throw std::invalid_argument(fmt::format(
-      "the elements {} and {} overlap at ({:.6g}), so their material would count twice; join the "
+      "the elements {} and {} overlap at ({}), so their material would count twice; join the "
       "parts of the geometry before they are meshed: BooleanFragments or Coherence in gmsh",
       tag_of((*overlap)[0]), tag_of((*overlap)[1]),
-      fmt::join(centre.begin(), centre.begin() + mesh.dim, ", ")));
+      joined({centre.data(), static_cast<std::size_t>(mesh.dim)})));
 }
 
 /// Facets of the surface that a group of facets names. Those between cells are not on the surface,

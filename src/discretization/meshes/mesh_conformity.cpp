@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/joined_parts.hpp"
+#include "base/joined_text.hpp"
 #include "discretization/facet_geometry.hpp"
 #include "discretization/mesh_faces.hpp"
 #include "discretization/neighbor_search.hpp"
@@ -63,9 +64,9 @@ void refuse_unjoined_parts(const Particles& particles, const Facets& facets) {
         const Vector3 x = point_of(particles.positions, dim, i);
         if (!lies_on(facet, x)) continue;
         throw std::invalid_argument(fmt::format(
-            "the vertex at ({:.6g}) lies on the side of a cell without being its corner: parts of "
+            "the vertex at ({}) lies on the side of a cell without being its corner: parts of "
             "the mesh touch and are not joined",
-            fmt::join(x.begin(), x.begin() + dim, ", ")));
+            joined({x.data(), static_cast<std::size_t>(dim)})));
       }
     }
   }

@@ -49,7 +49,7 @@ class TomlWriter {
  private:
   template <class... Arguments>
   void append(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-    fmt::format_to(std::back_inserter(text_), format, std::forward<Arguments>(arguments)...);
+    text_ += fmt::vformat(format, fmt::make_format_args(arguments...));
   }
 
   static std::string text(std::string_view value) {

@@ -1,7 +1,6 @@
 #include "analysis/dynamics/bonds/state_particles.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "analysis/dynamics/bonds/particle_fit.hpp"
+#include "base/joined_text.hpp"
 #include "material/principal_values.hpp"
 #include "solver/ranks.hpp"
 
@@ -330,7 +330,7 @@ void check_bands(const Particles& particles, std::span<const StateMaterial> mate
         fmt::format("the particle at ({}) stands for a band {:.4g} wide, too wide for the "
                     "softening: a crack would release more energy than its opening dissipates; "
                     "place particles less than {:.4g} apart",
-                    fmt::join(particles.position(i), ", "), band, limit));
+                    joined(particles.position(i)), band, limit));
   }
 }
 

@@ -1,7 +1,6 @@
 #include "analysis/quasistatic/equilibrium/mechanism.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/joined_text.hpp"
 #include "solver/not_positive_definite.hpp"
 
 namespace perilink {
@@ -23,7 +23,7 @@ std::string place_of(Index unknown, const Unknowns& unknowns, const Particles* p
   for (std::size_t slot = 0; particles && slot < unknowns.number.size(); ++slot) {
     if (unknowns.number[slot] != unknown) continue;
     const Index particle = static_cast<Index>(slot) / unknowns.width;
-    return fmt::format(", at ({:.6g})", fmt::join(particles->position(particle), ", "));
+    return fmt::format(", at ({})", joined(particles->position(particle)));
   }
   return {};
 }

@@ -1,7 +1,6 @@
 #include "app/model/body/bar_layout.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 
 #include "app/model/body/solid_boxes.hpp"
 #include "base/error.hpp"
+#include "base/joined_text.hpp"
 #include "discretization/facet_geometry.hpp"
 #include "discretization/meshes/cell_search.hpp"
 #include "discretization/meshes/mesh_curves.hpp"
@@ -313,8 +313,8 @@ void refuse_bars_outside(const CaseFile& input, const Body& body, const LaidBars
     if (!point) continue;
     throw InputError(
         input.where(item_key("rebar", k)),
-        fmt::format("leaves the body at ({:.6g})",
-                    fmt::join(point->begin(), point->begin() + body.particles.dim, ", ")),
+        fmt::format("leaves the body at ({})",
+                    joined({point->data(), static_cast<std::size_t>(body.particles.dim)})),
         section.across_gaps
             ? "set bends = true: without bending stiffness nothing keeps a bar in line in the air"
             : "move the bar into the body, or set across_gaps = true for one that runs through "

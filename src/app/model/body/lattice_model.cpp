@@ -13,6 +13,7 @@
 
 #include "analysis/dynamics/lattice/body/lattice_statics.hpp"
 #include "base/error.hpp"
+#include "base/joined_text.hpp"
 #include "io/case/sections/case_kinds.hpp"
 
 namespace perilink {
@@ -29,11 +30,11 @@ void refuse_size(const CaseFile& input, const LatticeCut& cut, int dim) {
     const double away =
         std::max(std::abs(cut.lower[a] - cut.origin[a]), std::abs(cut.upper[a] - cut.origin[a]));
     if (away <= farthest_offset * cut.spacing) continue;
-    throw InputError(input.where("body.offset"),
-                     fmt::format("the body reaches {:.3g} spacings from the lattice point at ({})",
-                                 away / cut.spacing,
-                                 fmt::join(cut.origin.begin(), cut.origin.begin() + dim, ", ")),
-                     "give a lattice point near the body, or a larger spacing");
+    throw InputError(
+        input.where("body.offset"),
+        fmt::format("the body reaches {:.3g} spacings from the lattice point at ({})",
+                    away / cut.spacing, joined({cut.origin.data(), static_cast<std::size_t>(dim)})),
+        "give a lattice point near the body, or a larger spacing");
   }
   if (count <= most_lattice_particles) return;
   throw InputError(

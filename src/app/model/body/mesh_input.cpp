@@ -1,13 +1,13 @@
 #include "app/model/body/mesh_input.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <stdexcept>
 #include <string_view>
 
 #include "base/error.hpp"
+#include "base/joined_text.hpp"
 #include "discretization/meshes/mesh_body.hpp"
 #include "discretization/meshes/mesh_conformity.hpp"
 #include "io/case/case_schema.hpp"
@@ -84,10 +84,10 @@ void add_notes(const CaseFile& input, MeshInput& read) {
   }
   const bool step = std::string_view("sS").find(path.extension().string()[1]) != std::string::npos;
   read.notes.push_back(fmt::format(
-      "{}: {}; the mesh goes from ({:.6g}) to ({:.6g})", path.string(),
+      "{}: {}; the mesh goes from ({}) to ({})", path.string(),
       step ? "lengths are in millimetres, to which gmsh converts STEP files from any unit"
            : "BREP files state no unit, so lengths are taken as they stand in the file",
-      fmt::join(lower, ", "), fmt::join(upper, ", ")));
+      joined(lower), joined(upper)));
 }
 
 /// Regions of the materials with the material of each, in the order in which they count.
@@ -119,8 +119,8 @@ void refuse_loose_lines(const CaseFile& input, const std::string& key, const Bod
   if (!group.loose) return;
   throw InputError(
       input.where(key),
-      fmt::format("is {}, a line of which, at ({:.6g}), is no side of a cell", quoted(group.name),
-                  fmt::join(group.loose->begin(), group.loose->begin() + body.particles.dim, ", ")),
+      fmt::format("is {}, a line of which, at ({}), is no side of a cell", quoted(group.name),
+                  joined({group.loose->data(), static_cast<std::size_t>(body.particles.dim)})),
       "join it with the body before it is meshed (BooleanFragments or Coherence in gmsh); where it "
       "is for bars, give intervals");
 }

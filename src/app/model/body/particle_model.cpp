@@ -1,7 +1,6 @@
 #include "app/model/body/particle_model.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <stdexcept>
 #include <utility>
@@ -9,6 +8,7 @@
 
 #include "app/model/body/lattice_model.hpp"
 #include "base/error.hpp"
+#include "base/joined_text.hpp"
 #include "discretization/lattices/triangulate.hpp"
 
 namespace perilink {
@@ -61,8 +61,8 @@ std::string fit_text(const ParticleFitReport& report, const Particles& particles
       "by {:.2g} in the mean",
       particles.size(), report.exact, report.mean_residual);
   if (report.largest_residual > 0.0 && report.worst != no_index) {
-    text += fmt::format(", {:.2g} at most, at ({:.6g})", report.largest_residual,
-                        fmt::join(particles.position(report.worst), ", "));
+    text += fmt::format(", {:.2g} at most, at ({})", report.largest_residual,
+                        joined(particles.position(report.worst)));
   }
   if (report.enlarged > 0) {
     text += fmt::format("; {} needed more than their nearest neighbours", report.enlarged);

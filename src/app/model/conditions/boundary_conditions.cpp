@@ -11,6 +11,7 @@
 #include "app/model/conditions/loads.hpp"
 #include "app/model/conditions/supports.hpp"
 #include "base/error.hpp"
+#include "base/joined_text.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "network/builder/network_builder.hpp"
 #include "network/free_bodies.hpp"
@@ -61,7 +62,7 @@ void require_balance(const CaseFile& input, Model& model, const Fragment& fragme
     throw InputError(input.where("analysis.rigid_body_modes"),
                      fmt::format("is \"pin\", but the loads of the free body are not in balance: "
                                  "their sum is ({})",
-                                 fmt::join(sum.force, ", ")),
+                                 joined(sum.force)),
                      "balance the loads or hold the body with [[supports]]");
   }
   const double couple = moment / (sum.scale * size_of_body(model.network.particles));
@@ -88,13 +89,12 @@ void refuse_cut_off(const CaseFile& input, const Model& model, std::span<const I
   const std::string crack = crack_beside(input, model, particles);
   if (crack.empty()) return;
   const auto x = model.network.places().position(particles.front());
-  throw InputError(
-      input.where(crack),
-      fmt::format("leaves the part of {} particle{} at ({}) too few bonds to hold it, "
-                  "and loads act on it",
-                  particles.size(), particles.size() == 1 ? "" : "s", fmt::join(x, ", ")),
-      "end or move the crack, take the loads off that part, or hold it with "
-      "[[supports]] or [[springs]]");
+  throw InputError(input.where(crack),
+                   fmt::format("leaves the part of {} particle{} at ({}) too few bonds to hold it, "
+                               "and loads act on it",
+                               particles.size(), particles.size() == 1 ? "" : "s", joined(x)),
+                   "end or move the crack, take the loads off that part, or hold it with "
+                   "[[supports]] or [[springs]]");
 }
 
 /// A body that is pinned is held at some components where it stands still. In motion that would
@@ -139,8 +139,8 @@ void hold_rigid_modes(const CaseFile& input, Model& model, Prescription& prescri
     if (fragment.free_modes == 0 || std::ranges::all_of(fragment.particles, is_off)) continue;
     const int all = model.network.dim() == 2 ? 3 : 6;
     const auto x = model.network.particles.position(fragment.particles.front());
-    const std::string where = fmt::format("the part of {} particles at ({})",
-                                          fragment.particles.size(), fmt::join(x, ", "));
+    const std::string where =
+        fmt::format("the part of {} particles at ({})", fragment.particles.size(), joined(x));
     free += fragment.free_modes;
     if (!pins && moves) continue;
     if (!pins) {
@@ -184,7 +184,7 @@ void refuse_loose_particles(const CaseFile& input, const Model& model,
     throw InputError(
         input.where(input.body.horizon ? "body.horizon" : "body"),
         fmt::format("the particle at ({}) is held by bonds in fewer than {} directions",
-                    fmt::join(model.network.particles.position(i), ", "), dim),
+                    joined(model.network.particles.position(i)), dim),
         is_particles(input.body)
             ? "its neighbours lie in one line: grade the mesh less, or refine it"
             : "enlarge the horizon or refine the spacing so that every particle has enough "

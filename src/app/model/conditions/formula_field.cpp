@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/joined_text.hpp"
 #include "io/case/sections/case_kinds.hpp"
 
 namespace perilink {
@@ -23,8 +24,7 @@ Vector3 PositionField::at(std::span<const double> position) const {
     values[k] = formulas_[k].at(position);
     if (std::abs(values[k]) <= largest_value) continue;
     throw InputError(
-        input_.where(key_),
-        fmt::format("is {} at the position ({})", values[k], fmt::join(position, ", ")),
+        input_.where(key_), fmt::format("is {} at the position ({})", values[k], joined(position)),
         fmt::format("write a formula that is finite and below {:.0e} wherever it is used",
                     largest_value));
   }

@@ -9,6 +9,7 @@
 #include "app/model/model_regions.hpp"
 #include "assembly/distributed_loads.hpp"
 #include "base/error.hpp"
+#include "base/joined_text.hpp"
 #include "network/loaded_network.hpp"
 
 namespace perilink {
@@ -124,14 +125,12 @@ void add_point_load(const CaseFile& input, const Model& model, std::size_t k, Ap
   if (nearest.distance > spacing) {
     throw InputError(
         input.where(item_key("point_loads", k, "at")),
-        fmt::format("is ({}), {:.6g} from the nearest particle", fmt::join(at, ", "),
-                    nearest.distance),
+        fmt::format("is ({}), {:.6g} from the nearest particle", joined(at), nearest.distance),
         fmt::format("particles are {:.6g} apart; the load must lie within that of one", spacing));
   }
   if (nearest.distance > moved * spacing) {
     all.notes.push_back(fmt::format("the point load at ({}) acts on the particle at ({})",
-                                    fmt::join(at, ", "),
-                                    fmt::join(particles.position(nearest.particle), ", ")));
+                                    joined(at), joined(particles.position(nearest.particle))));
   }
   if (section.moment != Vector3{} && !resists_rotation(model.network, nearest.particle)) {
     if (!model.network.hinged.empty()) {
@@ -148,8 +147,7 @@ void add_point_load(const CaseFile& input, const Model& model, std::size_t k, Ap
   for (int a = 0; a < dim; ++a) force[a] += section.force[a];
   for (std::size_t a = dim; a < width; ++a) force[a] += section.moment[dim == 2 ? 2 : a - dim];
   LoadedPlace& place = place_named(
-      all.places,
-      fmt::format("particle at ({})", fmt::join(particles.position(nearest.particle), ", ")));
+      all.places, fmt::format("particle at ({})", joined(particles.position(nearest.particle))));
   for (int a = 0; a < 3; ++a) {
     place.force[a] += section.force[a];
     place.moment[a] += section.moment[a];

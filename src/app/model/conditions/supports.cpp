@@ -1,7 +1,6 @@
 #include "app/model/conditions/supports.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include "app/model/conditions/loads.hpp"
 #include "app/model/model_regions.hpp"
 #include "base/error.hpp"
+#include "base/joined_text.hpp"
 #include "discretization/cuts/cracks.hpp"
 #include "discretization/mesh_faces.hpp"
 #include "discretization/neighbor_search.hpp"
@@ -52,7 +52,7 @@ void prescribe(const CaseFile& input, const Model& model, Prescription& prescrip
           input.where(key),
           fmt::format(
               "sets the {} of the particle at ({}) to {}, where another entry sets it to {}",
-              name_of_component(model.network, component), fmt::join(x, ", "), value, before),
+              name_of_component(model.network, component), joined(x), value, before),
           "let the regions of [[supports]], [[symmetry]], [[displacements]] and [[velocities]] not "
           "overlap");
     }
@@ -361,13 +361,13 @@ CutOffParts find_cut_off_parts(const CaseFile& input, const Model& model,
     for (const Index i : part.particles) off.particles[i] = 1;
     count += part.particles.size();
     const auto at = network.places().position(part.particles.front());
-    if (places.size() < most_places) places.push_back(fmt::format("({})", fmt::join(at, ", ")));
+    if (places.size() < most_places) places.push_back(fmt::format("({})", joined(at)));
   }
   off.note = fmt::format(
       "cracks leave {} particle{} without a hold, in {} part{} at {}{}: no load acts on them, and "
       "springs of {:.0e} times the stiffest bond hold them in place",
-      count, count == 1 ? "" : "s", parts.size(), parts.size() == 1 ? "" : "s",
-      fmt::join(places, ", "), parts.size() > most_places ? ", ..." : "", softness);
+      count, count == 1 ? "" : "s", parts.size(), parts.size() == 1 ? "" : "s", joined(places),
+      parts.size() > most_places ? ", ..." : "", softness);
   return off;
 }
 

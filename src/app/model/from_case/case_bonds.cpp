@@ -1,7 +1,6 @@
 #include "app/model/from_case/case_bonds.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -250,12 +249,14 @@ void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, 
     model.network.particles = std::move(body.particles);
     model.network.all_turn = model.pattern->sample.carries_moments();
     model.network.calibration = model.pattern->sample.calibration;
+    std::string steps;
+    for (int a = 0; a < body.particles.dim; ++a) {
+      steps += (a > 0 ? " by " : "") + std::to_string(model.pattern->small.count[a]);
+    }
     model.notes.push_back(
         fmt::format("each of {} processes makes its own part of the body: its bonds are like those "
                     "of a box of {} steps, in which they were calibrated or made{}",
-                    options.parts,
-                    fmt::join(model.pattern->small.count.begin(),
-                              model.pattern->small.count.begin() + body.particles.dim, " by "),
+                    options.parts, steps,
                     input.cracks.empty()
                         ? ""
                         : fmt::format(", but for {:.0f} that cracks cut", model.pattern->num_cut)));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/joined_text.hpp"
 #include "io/case/case_keys.hpp"
 #include "io/case/sections/case_kinds.hpp"
 
@@ -53,7 +54,7 @@ std::vector<std::string> find_unused(const TomlValue& document, const CaseFile& 
 std::optional<std::string> note_of_unused(const CaseFile& input) {
   if (input.unused.empty()) return std::nullopt;
   return fmt::format("not used by type = \"{}\": {}", word_of(input.analysis.type),
-                     fmt::join(input.unused, ", "));
+                     joined(input.unused));
 }
 
 }  // namespace perilink

@@ -1,6 +1,5 @@
 #include "analysis/dynamics/bonds/runs/separation.hpp"
-
-#include <fmt/ranges.h>
+#include "base/joined_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -52,9 +51,8 @@ std::string Separation::examine(Secants secants, double fractured, bool is_loade
       const double pull = std::inner_product(motion.begin(), motion.end(), forces.begin(), 0.0);
       if (std::abs(pull) <= least) continue;
       return fmt::format(
-          "the body is in pieces, and the loads pull away that of {} particles at ({:.6g})",
-          piece.particles.size(),
-          fmt::join(network.particles.position(piece.particles.front()), ", "));
+          "the body is in pieces, and the loads pull away that of {} particles at ({})",
+          piece.particles.size(), joined(network.particles.position(piece.particles.front())));
     }
   }
   if (!(largest_ > 0.0)) return "";
