@@ -135,11 +135,14 @@ std::vector<Gauge::Term> terms_at(const CaseFile& input, const Model& model, con
     const Gauge::Term alone{term.particle, 1.0};
     texts.push_back(point_text(place_of(particles, {&alone, 1}), particles.dim));
   }
-  notes.push_back(fmt::format(
-      "no particle lies at the point {} of the gauge \"{}\": it measures at {}, linearly between "
-      "the particles at {}",
-      point_text(point, particles.dim), gauge.name,
-      point_text(place_of(particles, terms), particles.dim), joined(texts)));
+  const std::string between =
+      terms.size() == 1
+          ? ""
+          : fmt::format(", linearly between the particles at {}", joined(texts));
+  notes.push_back(
+      fmt::format("no particle lies at the point {} of the gauge \"{}\": it measures at {}{}",
+                  point_text(point, particles.dim), gauge.name,
+                  point_text(place_of(particles, terms), particles.dim), between));
   return terms;
 }
 

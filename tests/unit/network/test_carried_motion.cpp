@@ -111,8 +111,8 @@ TEST(CarriedMotion, ParticlesBetweenElementsGoWithTheWholeOne) {
   EXPECT_EQ(motion.at(1, 0), 1) << "free particles keep their order";
 }
 
-/// Any forces on all particles: their sum and moment stay, less what is out of balance at nodes that
-/// move, and free particles of elements keep their loads alone.
+/// Any forces on all particles: their sum and moment stay, less what is out of balance at nodes
+/// that move, and free particles of elements keep their loads alone.
 TEST(CarriedMotion, ForcesOutOfBalancePassToHeldParticles) {
   TwoElements two(6, 0.0, 6);
   for (std::size_t slot = 0; slot < two.body.free.number.size(); slot += 18) {
