@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "network/loaded_network.hpp"
@@ -33,11 +35,12 @@ std::vector<std::uint8_t> held_or_sprung(const Network& network, std::vector<std
 std::vector<Fragment> find_fragments(const Network& network, const std::vector<std::uint8_t>& held,
                                      bool in_one_piece = false);
 
-/// Parts of a body that shift or turn freely while all pre-cracks are open: particles and pieces
-/// that cracks cut off, and those that too few bonds hold to the rest. The largest rigid part counts
-/// as held, as do vertices of finite elements and anchors of bars.
-std::vector<Fragment> find_loose_parts(const Network& network,
-                                       const std::vector<std::uint8_t>& held);
+/// Number of rigid-body modes of some particles that `held` and bonds to what stands still leave
+/// free.
+/// \param bonds  the particle and the number of each
+int free_modes(const Network& network, const std::vector<Index>& particles,
+               const std::vector<std::uint8_t>& held,
+               std::span<const std::pair<Index, Index>> bonds);
 
 /// The rigid-body motions of a fragment that `held` leaves free, each of shape (particles, width)
 /// with zeros at other particles and at what is held; linearly independent, not scaled. Springs of

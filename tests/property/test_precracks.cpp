@@ -171,8 +171,8 @@ TEST(StressBesidePreCracks, DoesNotCountOpenBonds) {
   RecordProperty("closed", fmt::format("{:.2e}", closed));
 }
 
-/// A crack along the pull is none: the stress is uniform. The body gets thinner, so bonds across the
-/// crack close; all others gape.
+/// A crack along the pull is none: the stress is uniform. The body gets thinner, so bonds across
+/// the crack close; all others gape.
 TEST(StressBesidePreCracks, IsUniformAlongThePull) {
   Plate plate;
   plate.width = 40;
@@ -200,7 +200,7 @@ TEST(StressBesidePreCracks, IsUniformAlongThePull) {
   EXPECT_EQ(beside, 34);
 }
 
-/// Pressure on all sides closes every bond: the body is as stiff, and as stressed, as without cracks.
+/// Pressure on all sides closes every bond: the body is as stiff, and as stressed, as a whole one.
 TEST(ElasticPreCracks, UnderPressureAreNone) {
   // Where cracks cut something off, soft springs hold it: 1e-7 of a bond's stiffness.
   double energy[2] = {}, stress[2] = {};
@@ -230,8 +230,8 @@ TEST(ElasticPreCracks, UnderPressureAreNone) {
   RecordProperty("stress", fmt::format("{:.2e} {:.2e}", stress[0], stress[1]));
 }
 
-/// The energy is convex: an equilibrium in which closed bonds are shorter and open ones longer is the
-/// only one.
+/// The energy is convex: an equilibrium in which closed bonds are shorter and open ones longer is
+/// the only one.
 TEST(ElasticPreCracks, AreClosedWhereTheyAreCompressed) {
   int some_of_both = 0;
   double wrong = 0.0;

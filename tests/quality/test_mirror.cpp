@@ -35,7 +35,6 @@ const std::map<std::string, std::string>& tested_elsewhere() {
       {"discretization/lattices/lattice_hexagonal.cpp", "a part of make_body: test_make_body.cpp"},
       {"discretization/lattices/lattice_parts.cpp", "parts of make_body: test_make_body.cpp"},
       {"discretization/mesh_faces.cpp", "a part of make_mesh_body: test_mesh_body.cpp"},
-      {"discretization/meshes/mesh_conformity.cpp", "a part of make_mesh_body: test_mesh_body.cpp"},
       {"io/mesh/gmsh_cursor.cpp", "a part of parse_gmsh: test_gmsh_file.cpp"},
       {"io/mesh/gmsh_sections.cpp", "a part of parse_gmsh: test_gmsh_file.cpp"},
       {"solver/cholmod_support.cpp", "what the routes share: test_factor_routes.cpp runs them"},

@@ -136,9 +136,7 @@ std::vector<Gauge::Term> terms_at(const CaseFile& input, const Model& model, con
     texts.push_back(point_text(place_of(particles, {&alone, 1}), particles.dim));
   }
   const std::string between =
-      terms.size() == 1
-          ? ""
-          : fmt::format(", linearly between the particles at {}", joined(texts));
+      terms.size() == 1 ? "" : fmt::format(", linearly between the particles at {}", joined(texts));
   notes.push_back(
       fmt::format("no particle lies at the point {} of the gauge \"{}\": it measures at {}{}",
                   point_text(point, particles.dim), gauge.name,

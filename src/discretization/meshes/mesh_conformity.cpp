@@ -122,6 +122,25 @@ std::map<std::array<Index, 3>, std::vector<TwinSide>> twin_sides(
   return sides;
 }
 
+/// Pairs of sides at one place, of cells that hang together elsewhere.
+std::vector<std::array<TwinSide, 2>> find_slits(const Mesh& mesh, const std::vector<Index>& place,
+                                                const std::vector<std::uint8_t>& has_twin) {
+  const std::size_t width = mesh.dim + 1;
+  JoinedParts parts(mesh.num_points());
+  for (std::size_t k = 0; k < mesh.cells.size(); ++k) {
+    parts.join(mesh.cells[k], mesh.cells[k - k % width]);
+  }
+  std::vector<std::array<TwinSide, 2>> slits;
+  for (const auto& [key, sides] : twin_sides(mesh, place, has_twin)) {
+    if (sides.size() != 2) continue;
+    std::array<std::array<Index, 3>, 2> own{sides[0].corners, sides[1].corners};
+    if (parts.find(own[0][0]) != parts.find(own[1][0])) continue;
+    for (auto& corners : own) std::ranges::sort(corners);
+    if (own[0] != own[1]) slits.push_back({sides[0], sides[1]});  // else inside the body
+  }
+  return slits;
+}
+
 }  // namespace
 
 Index weld_slits(Mesh& mesh) {
@@ -134,20 +153,10 @@ Index weld_slits(Mesh& mesh) {
     twins = true;
   }
   if (!twins) return 0;
-  const std::size_t dim = mesh.dim, width = dim + 1;
-  JoinedParts parts(mesh.num_points()), flanks(mesh.num_points());
-  for (std::size_t k = 0; k < mesh.cells.size(); ++k) {
-    parts.join(mesh.cells[k], mesh.cells[k - k % width]);
-  }
-  std::vector<std::array<TwinSide, 2>> slits;
-  for (const auto& [key, sides] : twin_sides(mesh, place, has_twin)) {
-    if (sides.size() != 2) continue;
-    std::array<std::array<Index, 3>, 2> own{sides[0].corners, sides[1].corners};
-    if (parts.find(own[0][0]) != parts.find(own[1][0])) continue;
-    for (auto& corners : own) std::ranges::sort(corners);
-    if (own[0] == own[1]) continue;  // inside the body
-    slits.push_back({sides[0], sides[1]});
-  }
+  const std::size_t dim = mesh.dim;
+  JoinedParts flanks(mesh.num_points());
+  const std::vector<std::array<TwinSide, 2>> slits = find_slits(mesh, place, has_twin);
+  if (slits.empty()) return 0;
   // Tips belong to both faces, all other corners of a slit to one.
   const auto for_each_twin = [&](const TwinSide& side, auto visit) {
     for (std::size_t k = 0; k < dim; ++k) {
@@ -178,7 +187,6 @@ Index weld_slits(Mesh& mesh) {
       group.points.push_back(side.corners[k]);
     }
   }
-  if (slits.empty()) return 0;
   mesh.groups.push_back(std::move(group));
   for (std::vector<Index>* corners : {&mesh.cells, &mesh.facets, &mesh.lines}) {
     for (Index& i : *corners) i = welded[i];

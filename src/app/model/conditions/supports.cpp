@@ -15,6 +15,7 @@
 #include "discretization/neighbor_search.hpp"
 #include "io/case/case_words.hpp"
 #include "io/case/sections/case_kinds.hpp"
+#include "network/builder/loose_parts.hpp"
 #include "network/rigid_modes.hpp"
 
 namespace perilink {
@@ -270,8 +271,8 @@ std::vector<double> collect_springs(const CaseFile& input, const Model& model) {
 
 namespace {
 
-/// Stiffness of the springs over that of the stiffest bond: far above the round-off of a factor, and
-/// no force beside that of a strained bond.
+/// Stiffness of the springs over that of the stiffest bond: far above the round-off of a factor,
+/// and no force beside that of a strained bond.
 constexpr double softness = 1e-7;
 
 /// Which particles loads act on, in any stage.
