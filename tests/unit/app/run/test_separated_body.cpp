@@ -43,7 +43,8 @@ TEST(SeparatedBody, OneWithALigamentIsNone) {
   EXPECT_FALSE(note_of_separated_body(input, draft_model(input), 1));
 }
 
-/// A straight bar resists the opening of a cut, not the slip along it or the turn of the part above.
+/// A straight bar resists the opening of a cut, not the slip along it or the turn of the part
+/// above.
 TEST(SeparatedBody, IsRefusedWhereItSlidesAcrossABar) {
   for (const AnalysisType type : {AnalysisType::elastic, AnalysisType::damage}) {
     CaseFile input = cracked_strip(-10.0, 12.0);
