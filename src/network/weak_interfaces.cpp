@@ -51,14 +51,6 @@ Vector3 direction_of(const Network& network, Index bond) {
   return n;
 }
 
-/// Materials at the ends of a bond: a ghost, the second end, has that of the solid particle.
-std::array<Index, 2> materials_at(const Network& network, Index bond) {
-  const std::vector<Index>& material = network.particles.material;
-  const Index first = material[network.bonds.first[bond]];
-  const Index second = material[network.bonds.second[bond]];
-  return {first, second == no_index ? first : second};
-}
-
 double cosine_between(const Vector3& a, const Vector3& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
@@ -88,8 +80,8 @@ std::vector<double> parts_of_materials(const Body& body, const NetworkInput& inp
                                        const Network& network, std::span<const Index> crossing) {
   std::vector<double> ends(input.materials.size(), 0.0), gap = ends;
   for (const Index e : crossing) {
-    for (const Index m : materials_at(network, e)) {
-      ends[m] += 0.5 / static_cast<double>(crossing.size());
+    for (const Index i : {network.bonds.first[e], network.bonds.second[e]}) {
+      ends[network.particles.material[i]] += 0.5 / static_cast<double>(crossing.size());
     }
   }
   if (input.draft || body.lattice.surface != Surface::calibrated) return ends;
@@ -124,9 +116,11 @@ void mix(const NetworkInput& input, const Network& network, std::span<const Inde
   const double part = 1.0 / static_cast<double>(crossing.size());
   for (const Index e : crossing) {
     const bool along = cosine_between(face.axis, direction_of(network, e)) > 0.0;
-    const auto [first, second] = materials_at(network, e);
-    face.moduli[along ? 0 : 1] += part * input.materials[first].youngs_modulus;
-    face.moduli[along ? 1 : 0] += part * input.materials[second].youngs_modulus;
+    const auto modulus = [&](Index i) {
+      return input.materials[network.particles.material[i]].youngs_modulus;
+    };
+    face.moduli[along ? 0 : 1] += part * modulus(network.bonds.first[e]);
+    face.moduli[along ? 1 : 0] += part * modulus(network.bonds.second[e]);
   }
   for (std::size_t m = 0; m < parts.size(); ++m) {
     face.material.youngs_modulus += parts[m] * input.materials[m].youngs_modulus;
