@@ -47,7 +47,7 @@ InterfaceSection read_interface(const CaseTable& table, int dim) {
 
 void check_interfaces(const CaseFile& input) {
   if (input.interfaces.empty()) return;
-  if (input.body.surface == Surface::ghost) {
+  if (input.body.surface == Surface::ghost && input.analysis.type != AnalysisType::elastic) {
     throw InputError(input.where("body.surface"),
                      "is \"ghost\", but ghosts, which have no material, would bridge the ends of "
                      "[[interfaces]]",
