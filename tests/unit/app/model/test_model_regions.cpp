@@ -129,10 +129,11 @@ TEST_P(RegionsOfGroups, HoldTheBarNodesThatIntervalsWould) {
   for (int bar = 0; bar < 100; ++bar) {
     text += "[[rebar]]\nyoungs_modulus = 1000\narea = 1\npoints = [";
     const std::array<double, 3> from = {0.0, place(random), place(random)};
-    std::array<double, 3> to = {side, from[1], from[2]};
-    if (bar % 3 == 0) to = {place(random), place(random), place(random)};
-    for (const auto& end : {from, to}) {
-      const auto x = test::turned(dim == 2 ? std::array<double, 3>{end[0], end[1]} : end, dim);
+    const std::array<double, 3> middle = {0.5 * side, place(random), place(random)};
+    std::array<double, 3> to = {side, place(random), place(random)};
+    if (bar % 3 == 0) to[0] = place(random);
+    for (const auto& point : {from, middle, to}) {
+      const auto x = test::turned(dim == 2 ? std::array{point[0], point[1], 0.0} : point, dim);
       text += fmt::format("[{}], ", fmt::join(x.begin(), x.begin() + dim, ", "));
     }
     text += bar % 2 == 0 ? "]\nbond = \"concrete\"\n" : "]\n";

@@ -47,6 +47,12 @@ InterfaceSection read_interface(const CaseTable& table, int dim) {
 
 void check_interfaces(const CaseFile& input) {
   if (input.interfaces.empty()) return;
+  if (input.body.surface == Surface::ghost && input.analysis.type != AnalysisType::elastic) {
+    throw InputError(input.where("body.surface"),
+                     "is \"ghost\", but ghosts, which have no material, would bridge the ends of "
+                     "[[interfaces]]",
+                     "set surface = \"calibrated\" or \"none\", or delete the interfaces");
+  }
   for (std::size_t k = 0; k < input.interfaces.size(); ++k) {
     if (input.interfaces[k].group.empty() || input.body.mesh) continue;
     throw InputError(input.where(item_key("interfaces", k, "group")),
