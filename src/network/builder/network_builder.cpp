@@ -265,8 +265,8 @@ EvenBonds even_bonds(const Body& body, const NetworkInput& input, const Network&
                                            : build_bonds_and_cells(body, even, constants);
   EvenBonds bonds{std::vector<double>(static_cast<std::size_t>(network.num_bonds()), 0.0)};
   if (!whole.bending.empty()) bonds.bending = bonds.stiffness;
-  const auto ends = [](const Bonds& bonds, Index b) {
-    return std::pair(bonds.first[b], bonds.second[b]);
+  const auto ends = [](const Bonds& all, Index b) {
+    return std::pair(all.first[b], all.second[b]);
   };
   const Index count = whole.bonds.size() - whole.num_edges_of_cells();
   Index at = 0;  // both are sorted by their ends
