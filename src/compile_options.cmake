@@ -74,7 +74,7 @@ function(perilink_reuse_headers)
   add_library(perilink_headers OBJECT ${CMAKE_CURRENT_BINARY_DIR}/headers.cpp)
   target_link_libraries(perilink_headers PRIVATE perilink::options fmt::fmt Eigen3::Eigen)
   target_precompile_headers(perilink_headers PRIVATE
-    <algorithm> <array> <cmath> <filesystem> <functional> <map> <memory> <optional> <span> <string>
+    <algorithm> <array> <cmath> <functional> <map> <memory> <optional> <span> <string>
     <string_view> <vector> <Eigen/Dense> <Eigen/SparseCore> <fmt/format.h>)
   foreach(target ${ARGN})
     target_precompile_headers(${target} REUSE_FROM perilink_headers)

@@ -51,7 +51,6 @@ struct Gmsh {
   decltype(&gmshModelGetEntities) entities = nullptr;
   decltype(&gmshModelMeshGetElementTypes) element_types = nullptr;
   decltype(&gmshModelMeshGenerate) generate = nullptr;
-  decltype(&gmshModelMeshGetElementTypes) element_types = nullptr;
   decltype(&gmshLoggerGetLastError) last_error = nullptr;
 };
 
@@ -76,7 +75,6 @@ Gmsh load_gmsh() {
   find(gmsh.entities, "gmshModelGetEntities");
   find(gmsh.element_types, "gmshModelMeshGetElementTypes");
   find(gmsh.generate, "gmshModelMeshGenerate");
-  find(gmsh.element_types, "gmshModelMeshGetElementTypes");
   find(gmsh.last_error, "gmshLoggerGetLastError");
   return gmsh;
 }
@@ -116,13 +114,7 @@ class Session {
     gmsh_.open(path.c_str(), &error_);
     check();
   }
-  /// A script that meshes by itself keeps its mesh: gmsh crashes where the plugin Crack has cut it.
   void generate(int dim) {
-    int* types = nullptr;
-    std::size_t count = 0;
-    gmsh_.element_types(&types, &count, dim, -1, &error_);
-    check();
-    if (count > 0) return;
     gmsh_.generate(dim, &error_);
     check();
   }

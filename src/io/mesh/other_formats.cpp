@@ -65,7 +65,7 @@ std::string conversion_to_first_order(const std::string& path) {
 }
 
 std::pair<std::string, std::string> other_format(std::string_view bytes, const std::string& path) {
-  std::string ending = " " + std::filesystem::path(path).extension().string() + " ";
+  std::string ending = fmt::format(" {} ", std::filesystem::path(path).extension().string());
   for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   const Format* found = nullptr;
   for (const Format& format : formats) {

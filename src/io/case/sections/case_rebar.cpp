@@ -305,7 +305,8 @@ void write_rebar(TomlWriter& out, const RebarSection& bar, int dim) {
     out.write("cover", layout.cover);
     out.write("spacing", layout.spacing);
     if (layout.face) {
-      out.write("face", (*layout.face < 3 ? "-" : "+") + std::string(axis_names[*layout.face % 3]));
+      out.write("face",
+                fmt::format("{}{}", *layout.face < 3 ? "-" : "+", axis_names[*layout.face % 3]));
       out.write("number", layout.number);
     }
   } else if (!bar.group.empty()) {

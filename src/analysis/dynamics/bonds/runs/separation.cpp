@@ -1,9 +1,12 @@
 #include "analysis/dynamics/bonds/runs/separation.hpp"
-#include "base/joined_text.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+
+#include "base/joined_text.hpp"
 
 namespace perilink {
 namespace {
