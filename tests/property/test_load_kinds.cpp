@@ -59,8 +59,8 @@ const std::string springs =
     "[[springs]]\nregion = \"surface\"\nstiffness = [0.5, 0]\n";
 
 /// Keeps rows and, when asked, looks at the state at every row as field output does.
-struct Recorder final : StepObserver {
-  explicit Recorder(bool look_at_state = false) : look(look_at_state) {}
+struct RowRecorder final : StepObserver {
+  explicit RowRecorder(bool look_at_state = false) : look(look_at_state) {}
   void on_step(const StepRecord& record, StateSource& source) override {
     rows.push_back(record);
     if (look) {
@@ -71,7 +71,7 @@ struct Recorder final : StepObserver {
   std::vector<StepRecord> rows;
 };
 
-DamageResult run(const Model& model, const DamageOptions& options, Recorder& recorder) {
+DamageResult run_rows(const Model& model, const DamageOptions& options, RowRecorder& recorder) {
   return run_damage_analysis(model, options, recorder);
 }
 
@@ -80,11 +80,11 @@ class LoadKind : public testing::TestWithParam<std::string> {};
 TEST_P(LoadKind, FirstRowIsTheElasticAnswerAndEnergyBalances) {
   const Model model = block(GetParam());
   const ElasticResult elastic = run_elastic_analysis(model);
-  Recorder recorder;
+  RowRecorder recorder;
   DamageOptions options;
   options.stop.broken_bonds = 60;
 
-  const DamageResult result = run(model, options, recorder);
+  const DamageResult result = run_rows(model, options, recorder);
 
   const StepRecord& first = recorder.rows.front();
   const double expected = first.load_factor * first.load_factor * elastic.strain_energy;
@@ -98,10 +98,10 @@ TEST_P(LoadKind, LookingAtTheStateChangesNoRow) {
   const Model model = block(GetParam());
   DamageOptions options;
   options.stop.broken_bonds = 40;
-  Recorder blind, watching(true);
+  RowRecorder blind, watching(true);
 
-  run(model, options, blind);
-  run(model, options, watching);
+  run_rows(model, options, blind);
+  run_rows(model, options, watching);
 
   ASSERT_EQ(blind.rows.size(), watching.rows.size());
   for (std::size_t k = 0; k < blind.rows.size(); ++k) {
@@ -223,10 +223,10 @@ TEST(DrivenRotation, NeedsTheMomentThatMakesIt) {
 TEST(DrivenBody, ItsDisplacementIsTheDrivenOne) {
   for (const std::string& loading : {driven, driven + weight}) {
     const Model model = block(loading);
-    Recorder recorder;
+    RowRecorder recorder;
     DamageOptions options;
     options.stop.broken_bonds = 20;
-    run(model, options, recorder);
+    run_rows(model, options, recorder);
     for (const StepRecord& row : recorder.rows) {
       EXPECT_DOUBLE_EQ(row.displacement, row.load_factor);  // driven by 1 at load factor 1
     }
@@ -235,11 +235,11 @@ TEST(DrivenBody, ItsDisplacementIsTheDrivenOne) {
 
 TEST(DrivenBody, LoadFractionLooksAtTheLoad) {
   const Model model = block(driven);
-  Recorder recorder;
+  RowRecorder recorder;
   DamageOptions options;
   options.stop.load_fraction = 0.5;
 
-  const DamageResult result = run(model, options, recorder);
+  const DamageResult result = run_rows(model, options, recorder);
 
   ASSERT_EQ(result.ending, Ending::completed);
   // The last ten rows in turn lie below, the one before them does not.
@@ -253,12 +253,12 @@ TEST(DrivenBody, LoadFractionLooksAtTheLoad) {
 
 TEST(LoadSteps, StopWithinAStepAtTheNumberOfBrokenBonds) {
   const Model model = block(driven);
-  Recorder recorder;
+  RowRecorder recorder;
   DamageOptions options;
   options.load_factors = {1.0};  // far beyond what the body bears
   options.stop.broken_bonds = 25;
 
-  const DamageResult result = run(model, options, recorder);
+  const DamageResult result = run_rows(model, options, recorder);
 
   EXPECT_EQ(result.ending, Ending::completed);
   EXPECT_EQ(result.broken_bonds, 25);
@@ -268,9 +268,9 @@ TEST(YieldingBar, EndsAsAPlasticMechanism) {
   const Model model = block(pulled,
                             "[[rebar]]\nfrom = [50, 0]\nto = [50, 100]\nyoungs_modulus = 29000.0\n"
                             "area = 0.05\nyield_strength = 60.0\n");
-  Recorder recorder;
+  RowRecorder recorder;
 
-  const DamageResult result = run(model, DamageOptions{}, recorder);
+  const DamageResult result = run_rows(model, DamageOptions{}, recorder);
 
   EXPECT_EQ(result.ending, Ending::collapsed) << result.reason;
   EXPECT_LT(result.largest_residual, 1e-6);

@@ -151,7 +151,8 @@ TEST(StressBesidePreCracks, DoesNotCountOpenBonds) {
       const auto x = closing.network.particles.position(i);
       part.push_back(body % 2 == 0 ? 0.0 : drawing.between(0.0, 1.0));
       for (std::size_t a = 0; a < width; ++a) {
-        motion.push_back(1e-3 * std::sin(0.3 * x[0] + a) * std::cos(0.2 * x[1]));
+        motion.push_back(1e-3 * std::sin(0.3 * x[0] + static_cast<double>(a)) *
+                         std::cos(0.2 * x[1]));
       }
     }
     const std::vector<double> secants = damaged(closing.network, part);

@@ -19,7 +19,9 @@ void expect_same(const MeshBody& body, double stiffness, double peak) {
     SCOPED_TRACE(static_cast<int>(change));
     const ChangedBody other = run_changed(body, change, broken, work.path());
     EXPECT_LT(stiffness_difference(body, plain.model, other.model, change), stiffness);
-    if (broken > 0) EXPECT_LT(std::abs(other.peak / plain.peak - 1.0), peak);
+    if (broken > 0) {
+      EXPECT_LT(std::abs(other.peak / plain.peak - 1.0), peak);
+    }
   }
 }
 

@@ -134,7 +134,8 @@ TEST(DirectionSearch, KeptDirectionsEndItAsInExactArithmetic) {
     DirectionSearch search = search_for(right, 1e-3);
     search.keeps_directions = keeps;
     const auto product = [](const Vector& x, Vector& result) {
-      for (std::size_t k = 0; k < size; ++k) result[k] = std::pow(10.0, -0.15 * k) * x[k];
+      for (std::size_t k = 0; k < size; ++k)
+        result[k] = std::pow(10.0, -0.15 * static_cast<double>(k)) * x[k];
     };
     EXPECT_TRUE(descend(search, 1000, product, product, [](const Vector& r, Vector& z) { z = r; }));
     return search.iterations;
