@@ -1,5 +1,5 @@
 #include "discretization/mesh_faces.hpp"
-#include "base/joined_text.hpp"
+#include "base/plain_text.hpp"
 
 #include <fmt/format.h>
 

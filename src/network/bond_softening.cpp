@@ -189,8 +189,8 @@ bool softens(const SolidMaterial& material) {
   return material.softening.shape.kind != Softening::brittle;
 }
 
-/// Of two materials the mean constants, the smaller strength and energy and the shape of the weaker
-/// one; stretches of one of them count beside a strength.
+/// For two materials the mean constants, the smaller strength and energy and the shape of the
+/// weaker one; stretches of one of them count beside a strength.
 SolidMaterial mean_of(const SolidMaterial& a, const SolidMaterial& b) {
   const auto strength = [](const SolidMaterial& material) {
     return std::pair(material.softening.tensile_strength, material.softening.stretches[0]);

@@ -19,8 +19,8 @@ namespace perilink {
 /// round-off decides where its secants leave the curve.
 constexpr double most_softening = 1e10;
 
-/// At the strength of a material a bond holds more energy than the fracture energy pays for, or less
-/// than a part 1 / most_softening of it.
+/// At the strength of a material a bond holds more energy than the fracture energy pays for, or
+/// less than a part 1 / most_softening of it.
 class TooStrong : public std::invalid_argument {
  public:
   TooStrong(Index material, double share);

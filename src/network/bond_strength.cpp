@@ -105,7 +105,7 @@ bool is_joint(const NetworkInput& input, const Facets& facets, Index facet) {
          strength_of(inside) != strength_of(outside);
 }
 
-/// Of a facet's two materials the one that a direction from its plane leads into; in the plane the
+/// The one of a facet's two materials that a direction from its plane leads into; in the plane the
 /// weaker one.
 Index material_entered(const NetworkInput& input, const Facets& facets, Index facet,
                        std::span<const double> direction, double sign) {

@@ -22,7 +22,7 @@ constexpr double spacing = 5.0, strength = 3.0, energy = 1.0;
 
 struct Block {
   int columns, rows;
-  double level;             ///< of the face, in rows
+  double level;             ///< height of the face, in rows
   std::array<int, 2> x, y;  ///< sides of the inclusion, in spacings
   double stiffer;           ///< modulus of the inclusion over that of the block
   bool micropolar;
@@ -64,8 +64,8 @@ std::string case_of(const Block& block) {
   return text + "[[displacements]]\nregion = \"upper\"\ny = 1\n[stop]\nload_fraction = 1e-4\n";
 }
 
-/// Such short blocks of one material carry 3 to 8 % more than their strength, by their saw-teeth (up
-/// to 5 %) and the contraction that their ends hold. Where an inclusion is not as stiff as the
+/// Such short blocks of one material carry 3 to 8 % more than their strength, by their saw-teeth
+/// (up to 5 %) and the contraction that their ends hold. Where an inclusion is not as stiff as the
 /// block, places of the face soften one after another, and it carries less.
 TEST(FacesBesideInclusions, KeepTheirStrengthAndEnergy) {
   std::mt19937 random(54);

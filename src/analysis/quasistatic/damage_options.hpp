@@ -40,7 +40,7 @@ struct StageResult {
   Ending ending = Ending::completed;
   std::string reason;
   StepRecord last;     ///< row at its end
-  CurvePoint peak;     ///< of its loads so far (DamageResult::peak_load)
+  CurvePoint peak;     ///< highest row of its loads so far, see DamageResult::peak_load
   CurvePoint largest;  ///< |load| of them
   std::optional<double> smoothed_peak_load;
 };

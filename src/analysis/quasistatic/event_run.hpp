@@ -115,7 +115,7 @@ class EventRun {
   Index broken_bonds_ = 0;
   Index yield_events_ = 0;
   StepRecord row_;
-  std::vector<StepRecord> rows_;  ///< of the present loads, under control by events
+  std::vector<StepRecord> rows_;  ///< rows of the present loads, under control by events
   DamageResult result_;
 };
 

@@ -104,9 +104,13 @@ void find_peaks(const Network& network, std::span<const StepRecord> rows, Damage
   const bool stages = !rows.empty() && rows.front().stage > 0;
   const std::vector<CurvePoint> path = stages ? stage_path(rows) : event_path(rows);
   PeakWatch& peaks = result.peaks;
-  std::size_t before = rows_before_residual(path, bars);
+  // Bars carry the load on where the solid cracks, bonds that crush where others split; a beam of
+  // brittle bonds may lose its outer ones before its section fails.
+  const bool goes_on =
+      bars || network.has_crushing() || std::ranges::all_of(network.laws, &BondLaw::is_brittle);
+  std::size_t before = rows_before_residual(path, goes_on);
   if (before == path.size()) before = rows.size();
-  if (!bars && !rows.empty()) {
+  if (!goes_on && !rows.empty()) {
     const std::size_t through = rows_before_through_crack(network, rows);
     const double first = std::abs(highest(rows.first(through)).load);
     if (std::abs(peaks.highest().load) > (1.0 + residual_climb) * first) {

@@ -20,7 +20,7 @@
 #include "base/error.hpp"
 #include "base/timer.hpp"
 #include "discretization/lattices/triangulate.hpp"
-#include "network/free_bodies.hpp"
+#include "network/builder/free_bodies.hpp"
 #include "solver/factor_routes.hpp"
 
 namespace perilink {

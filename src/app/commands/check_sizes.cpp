@@ -6,7 +6,7 @@
 #include <cmath>
 #include <span>
 
-#include "base/joined_text.hpp"
+#include "base/plain_text.hpp"
 #include "discretization/lattices/triangulate.hpp"
 
 namespace perilink {

@@ -11,7 +11,7 @@
 #include "app/model/model_regions.hpp"
 #include "app/results/history_file.hpp"
 #include "base/error.hpp"
-#include "base/joined_text.hpp"
+#include "base/plain_text.hpp"
 #include "discretization/bonds.hpp"
 
 namespace perilink {

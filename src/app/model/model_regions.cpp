@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "base/joined_text.hpp"
+#include "base/plain_text.hpp"
 #include "discretization/facet_geometry.hpp"
 #include "discretization/mesh_faces.hpp"
 #include "discretization/meshes/cell_search.hpp"

@@ -10,9 +10,9 @@ namespace perilink {
 /// The physical group of the mesh with a name; build_model() has seen that it exists.
 const Group& group_named(const Model& model, const std::string& name);
 
-/// Solid particles and bar nodes inside a region, ascending. A physical group holds the particles of
-/// its mesh and the bar nodes on its points, lines, sides or in its cells; "surface" the corners of
-/// all facets of the surface and the bar nodes on these; "body" everything.
+/// Solid particles and bar nodes inside a region, ascending. A physical group holds the particles
+/// of its mesh and the bar nodes on its points, lines, sides or in its cells; "surface" the corners
+/// of all facets of the surface and the bar nodes on these; "body" everything.
 /// \param key  place in the case, for messages
 /// \throws InputError when there is none
 std::vector<Index> particles_of_region(const CaseFile& input, const Model& model,

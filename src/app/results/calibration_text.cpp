@@ -1,5 +1,5 @@
 #include "app/results/calibration_text.hpp"
-#include "base/joined_text.hpp"
+#include "base/plain_text.hpp"
 
 #include <fmt/format.h>
 

@@ -15,7 +15,7 @@
 #include "app/run/run_warnings.hpp"
 #include "base/error.hpp"
 #include "discretization/bonds.hpp"
-#include "network/free_bodies.hpp"
+#include "network/builder/free_bodies.hpp"
 
 namespace perilink {
 namespace {

@@ -6,7 +6,7 @@
 #include "app/model/reactions.hpp"
 #include "app/run/run_warnings.hpp"
 #include "assembly/internal_force.hpp"
-#include "base/joined_text.hpp"
+#include "base/plain_text.hpp"
 
 namespace perilink {
 namespace {

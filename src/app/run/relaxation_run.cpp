@@ -10,7 +10,7 @@
 #include "app/run/bond_run.hpp"
 #include "app/run/run_notes.hpp"
 #include "app/run/run_warnings.hpp"
-#include "network/free_bodies.hpp"
+#include "network/builder/free_bodies.hpp"
 
 namespace perilink {
 

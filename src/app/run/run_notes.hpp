@@ -19,7 +19,8 @@ std::optional<std::string> note_of_grips(const Model& model, std::span<const Ind
 /// \param bars  reinforce the body: the larger load is its peak
 std::optional<std::string> text_of_peaks(const PeakWatch& peaks, bool bars);
 
-/// The peaks of a damage run, and how many of the bonds that broke after the first one end at grips.
+/// The peaks of a damage run, and how many of the bonds that broke after the first one end at
+/// grips.
 /// \param broken  elements in the order in which they broke
 std::optional<std::string> text_of_peaks(const DamageResult& result, const Model& model,
                                          std::span<const Index> broken);

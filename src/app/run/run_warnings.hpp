@@ -75,7 +75,7 @@ struct Compression {
   double times = 0.0;   ///< that over the tensile strength [-]
 };
 
-/// Of particles whose material can break in tension only.
+/// Compression of particles whose material can break in tension only.
 /// \param principal  stresses, shape (particles, 3)
 Compression largest_compression(const Network& network, std::span<const double> principal);
 

@@ -9,7 +9,7 @@
 #include "analysis/quasistatic/elastic_analysis.hpp"
 #include "app/model/from_case/configure.hpp"
 #include "base/error.hpp"
-#include "base/joined_text.hpp"
+#include "base/plain_text.hpp"
 #include "network/rigid_modes.hpp"
 
 namespace perilink {

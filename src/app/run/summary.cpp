@@ -8,7 +8,7 @@
 #include "app/model/body/particle_model.hpp"
 #include "app/results/calibration_text.hpp"
 #include "app/run/run_notes.hpp"
-#include "base/joined_text.hpp"
+#include "base/plain_text.hpp"
 #include "io/case/sections/case_kinds.hpp"
 
 namespace perilink {

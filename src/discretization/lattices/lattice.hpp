@@ -67,8 +67,8 @@ struct Group {
   std::string name;
   std::vector<Index> particles;  ///< ascending
   std::vector<Index> facets;     ///< those on the surface that belong to the group, ascending
-  /// Groups of points and of lines: points [length], shape (points, 3), and the ends of lines, shape
-  /// (lines, 2).
+  /// Groups of points and of lines: points [length], shape (points, 3), and the ends of lines,
+  /// shape (lines, 2).
   std::vector<double> line_points = {};
   std::vector<Index> lines = {};
   /// An end of a line that is no edge of the body: a curve for bars alone.

@@ -7,7 +7,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "base/joined_text.hpp"
+#include "base/plain_text.hpp"
 #include "discretization/facet_geometry.hpp"
 #include "discretization/mesh_faces.hpp"
 #include "discretization/region.hpp"

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "base/joined_text.hpp"
+#include "base/plain_text.hpp"
 #include "discretization/facet_geometry.hpp"
 #include "discretization/lattices/triangulate.hpp"
 #include "discretization/mesh_faces.hpp"

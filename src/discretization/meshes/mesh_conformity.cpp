@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/joined_parts.hpp"
-#include "base/joined_text.hpp"
+#include "base/plain_text.hpp"
 #include "discretization/facet_geometry.hpp"
 #include "discretization/mesh_faces.hpp"
 #include "discretization/neighbor_search.hpp"

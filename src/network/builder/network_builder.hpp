@@ -12,7 +12,8 @@ namespace perilink {
 /// surface option asks (correct_surfaces).
 /// - Bond: k = c V_i V_j / xi with the mean c of its ends; a ghost's c is zero, hence half
 ///   stiffness (Gerstle, Sau & Silling 2005, section 4). It breaks at the critical stretch of the
-///   smaller fracture energy and mean micromodulus of its ends; a bond to a ghost at that of its solid
+/// smaller fracture energy and mean micromodulus of its ends; a bond to a ghost at that of its
+/// solid
 ///   end. It cannot break where either end is unbreakable.
 /// - Micropolar bond: the same, and the bending stiffness 12 d V_i V_j / xi^3 with the mean d of
 ///   its ends. Ties and segments carry no moments.

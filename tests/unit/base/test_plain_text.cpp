@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <string>
+#include <vector>
+
 namespace perilink {
 namespace {
 
@@ -30,6 +34,16 @@ TEST(PlainText, WhatIsNoUtf8IsWrittenOut) {
   EXPECT_EQ(printable("\xc0\xaf"), "\\xc0\\xaf") << "longer than need be";
   EXPECT_EQ(printable("\xed\xa0\x80"), "\\xed\\xa0\\x80") << "half a character of UTF-16";
   EXPECT_EQ(printable("\xef\xbf\xbf"), "\\uffff") << "XML allows none";
+}
+
+TEST(JoinedText, SeparatesNumbersOfSixDigits) {
+  const std::array<double, 3> numbers = {0.1 + 0.2, -1234567.0, 2.0};
+  EXPECT_EQ(joined(numbers), "0.3, -1.23457e+06, 2");
+}
+
+TEST(JoinedText, SeparatesTexts) {
+  EXPECT_EQ(joined(std::vector<std::string>{"a", "b"}), "a, b");
+  EXPECT_EQ(joined(std::vector<std::string>{}), "");
 }
 
 }  // namespace

@@ -213,8 +213,8 @@ TEST(Teeth, AreMoreWhereTheyMayRiseLess) {
 
 /// The force is constant up to the end; every tooth but the last takes what lies between its
 /// unloading lines, sqrt(S_k S_(k+1)) its limit, and all together take the area.
-/// Up to 1e10 times the elastic energy all curves have secants; where round-off hides their fall the
-/// search for these ends by a refusal.
+/// Up to 1e10 times the elastic energy all curves have secants; where round-off hides their fall
+/// the search for these ends by a refusal.
 TEST(Teeth, EndForLongCurvesToo) {
   for (const Softening kind : {Softening::linear, Softening::bilinear, Softening::exponential}) {
     SofteningShape shape;

@@ -88,7 +88,7 @@ std::string range(const Vector3& lower, const Vector3& upper, int dim) {
   return text;
 }
 
-/// \param unit  of length, over that of the mesh
+/// \param unit  length unit over that of the mesh
 std::string case_text(const MeshBody& body, const Mesh& mesh, double unit, int broken) {
   const int dim = mesh.dim, last = dim - 1;
   const Extent extent = extent_of(mesh);

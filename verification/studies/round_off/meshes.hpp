@@ -23,9 +23,9 @@ struct MeshBody {
   std::string name;
   Mesh mesh;
   double horizon_ratio = 3.0;
-  double poissons_ratio = 0.0;  ///< of micropolar bonds; 0: bonds without moments
+  double poissons_ratio = 0.0;  ///< Poisson's ratio with micropolar bonds; 0: bonds without moments
   double stiffer = 1.0;         ///< modulus of the right half over that of the left
-  double strength = 0.0;        ///< of softening bonds [force/length^2]; 0: brittle bonds
+  double strength = 0.0;  ///< strength with softening bonds [force/length^2]; 0: brittle bonds
 };
 
 /// A body after a change.

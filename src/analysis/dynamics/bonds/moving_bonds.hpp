@@ -66,7 +66,7 @@ struct MovingBonds {
            load_factor * loads[slot];
   }
   /// BondRunState::reactions.
-  /// \param increment  of the part of the prescribed displacements that is reached, in this step
+  /// \param increment  part of the prescribed displacements that this step adds
   std::vector<double> reactions(double load_factor, double increment, double damping) const;
   /// Counts the force that holds a prescribed component [force].
   void add_reaction(std::size_t slot, double reaction, MotionSums& to) const;

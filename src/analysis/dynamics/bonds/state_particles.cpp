@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "analysis/dynamics/bonds/particle_fit.hpp"
-#include "base/joined_text.hpp"
+#include "base/plain_text.hpp"
 #include "material/principal_values.hpp"
 #include "solver/ranks.hpp"
 

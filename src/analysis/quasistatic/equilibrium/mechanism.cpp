@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "base/joined_text.hpp"
+#include "base/plain_text.hpp"
 #include "solver/not_positive_definite.hpp"
 
 namespace perilink {

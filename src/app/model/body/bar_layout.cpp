@@ -10,7 +10,7 @@
 
 #include "app/model/body/solid_boxes.hpp"
 #include "base/error.hpp"
-#include "base/joined_text.hpp"
+#include "base/plain_text.hpp"
 #include "discretization/facet_geometry.hpp"
 #include "discretization/meshes/cell_search.hpp"
 #include "discretization/meshes/mesh_curves.hpp"

@@ -13,7 +13,7 @@
 
 #include "analysis/dynamics/lattice/body/lattice_statics.hpp"
 #include "base/error.hpp"
-#include "base/joined_text.hpp"
+#include "base/plain_text.hpp"
 #include "io/case/sections/case_kinds.hpp"
 
 namespace perilink {

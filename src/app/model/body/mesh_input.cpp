@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "base/error.hpp"
-#include "base/joined_text.hpp"
+#include "base/plain_text.hpp"
 #include "discretization/meshes/mesh_body.hpp"
 #include "discretization/meshes/mesh_conformity.hpp"
 #include "io/case/case_schema.hpp"

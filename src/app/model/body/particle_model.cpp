@@ -8,7 +8,7 @@
 
 #include "app/model/body/lattice_model.hpp"
 #include "base/error.hpp"
-#include "base/joined_text.hpp"
+#include "base/plain_text.hpp"
 #include "discretization/lattices/triangulate.hpp"
 
 namespace perilink {

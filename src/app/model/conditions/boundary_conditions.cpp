@@ -11,10 +11,10 @@
 #include "app/model/conditions/loads.hpp"
 #include "app/model/conditions/supports.hpp"
 #include "base/error.hpp"
-#include "base/joined_text.hpp"
+#include "base/plain_text.hpp"
 #include "io/case/sections/case_kinds.hpp"
+#include "network/builder/free_bodies.hpp"
 #include "network/builder/network_builder.hpp"
-#include "network/free_bodies.hpp"
 
 namespace perilink {
 namespace {

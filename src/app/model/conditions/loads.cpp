@@ -9,7 +9,7 @@
 #include "app/model/model_regions.hpp"
 #include "assembly/distributed_loads.hpp"
 #include "base/error.hpp"
-#include "base/joined_text.hpp"
+#include "base/plain_text.hpp"
 #include "network/loaded_network.hpp"
 
 namespace perilink {

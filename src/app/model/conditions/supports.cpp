@@ -9,7 +9,7 @@
 #include "app/model/conditions/loads.hpp"
 #include "app/model/model_regions.hpp"
 #include "base/error.hpp"
-#include "base/joined_text.hpp"
+#include "base/plain_text.hpp"
 #include "discretization/cuts/cracks.hpp"
 #include "discretization/mesh_faces.hpp"
 #include "discretization/neighbor_search.hpp"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "base/joined_text.hpp"
+#include "base/plain_text.hpp"
 #include "io/case/case_keys.hpp"
 #include "io/case/sections/case_kinds.hpp"
 

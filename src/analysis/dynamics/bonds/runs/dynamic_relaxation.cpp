@@ -24,9 +24,6 @@ constexpr Index iterations_between_checks = 200;
 /// By the same number of threads.
 constexpr int iterations_of_a_round = 4;
 
-/// A residual that has grown so much since the first one will not shrink any more.
-constexpr double largest_growth = 1e12;
-
 class Relaxation {
  public:
   Relaxation(const LoadedNetwork& problem, const Inertia& inertia,
@@ -43,6 +40,7 @@ class Relaxation {
         first_force_(body_.force),
         rest_(body_.sums.size()),
         separation_(problem),
+        farthest_(largest_motion(problem.network.particles.positions, body_.mass)),
         threads_(shares.own() ? 1 : body_.blocks.threads(options.threads)) {
     for (std::size_t slot = 0; slot < body_.force.size(); ++slot) {
       // Moments become forces of like energy.
@@ -154,15 +152,17 @@ class Relaxation {
     if (iteration_ == 0) first_rest_ = rest;
     const bool gave_way = all.fractured != fractured_;
     fractured_ = all.fractured;
-    // Forces of other bonds tell nothing about the present ones.
     next_.restart = iteration_ == 0 || gave_way;
     damp(all);
-    // What is left of the way, r'K^-2 r, against the way itself: no vibration is much slower than
-    // the one that is damped. Nothing draws pieces anywhere that resist nothing.
+    // The way left, r'K^-2 r, over the way itself: no vibration is much slower than the damped one.
     const bool moves = all.push > 0.0 && !separation_.is_unstrained();
     result_.error = moves ? std::sqrt(all.push / all.size) / square_ : 0.0;
     next_.at_rest = !gave_way && std::max(result_.residual, result_.error) <= options_.tolerance;
-    if (!next_.at_rest) look(rest);
+    if (next_.at_rest) return;
+    if (fractured_ > 0.0 && all.size > farthest_) {
+      return collapse("the body is in pieces, and the loads move a part of it without limit");
+    }
+    look(rest);
   }
 
   void look(double rest) {
@@ -332,6 +332,7 @@ class Relaxation {
   std::vector<double> weight_;  ///< factors of squares of forces and moments, per component
   std::vector<RestSums> rest_;  ///< per block
   Separation separation_;
+  double farthest_;  ///< see largest_motion()
   ThreadChoice threads_;
   std::size_t step_ = 0;
   Index iteration_ = 0;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/joined_text.hpp"
+#include "base/plain_text.hpp"
 
 namespace perilink {
 namespace {

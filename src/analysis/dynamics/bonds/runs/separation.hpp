@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "network/free_bodies.hpp"
+#include "network/builder/free_bodies.hpp"
 
 namespace perilink {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "analysis/dynamics/fundamental_period.hpp"
-#include "network/free_bodies.hpp"
+#include "network/builder/free_bodies.hpp"
 #include "network/unknowns.hpp"
 
 namespace perilink {

@@ -1,4 +1,4 @@
-#include "network/free_bodies.hpp"
+#include "network/builder/free_bodies.hpp"
 
 #include <gtest/gtest.h>
 
