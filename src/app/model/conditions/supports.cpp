@@ -348,7 +348,12 @@ CutOffParts find_cut_off_parts(const CaseFile& input, const Model& model,
   if (input.cracks.empty() || model.pattern || network.has_states()) return off;
   std::vector<Fragment> parts = find_loose_parts(network, prescription.held);
   if (parts.empty()) return off;
-  const std::vector<std::uint8_t> loaded = loaded_particles(input, model);
+  std::vector<std::uint8_t> loaded = loaded_particles(input, model);
+  for (std::size_t slot = 0; slot < prescription.held.size(); ++slot) {
+    if (prescription.held[slot] != 0 && prescription.value[slot] != 0.0) {
+      loaded[slot / network.width()] = 1;
+    }
+  }
   std::erase_if(parts, [&](const Fragment& part) {
     return std::ranges::any_of(part.particles, [&](Index i) { return loaded[i] != 0; }) ||
            crack_beside(input, model, part.particles).empty();

@@ -40,7 +40,6 @@ class Relaxation {
         first_force_(body_.force),
         rest_(body_.sums.size()),
         separation_(problem),
-        farthest_(largest_motion(problem.network.particles.positions, body_.mass)),
         threads_(shares.own() ? 1 : body_.blocks.threads(options.threads)) {
     for (std::size_t slot = 0; slot < body_.force.size(); ++slot) {
       // Moments become forces of like energy.
@@ -158,11 +157,7 @@ class Relaxation {
     const bool moves = all.push > 0.0 && !separation_.is_unstrained();
     result_.error = moves ? std::sqrt(all.push / all.size) / square_ : 0.0;
     next_.at_rest = !gave_way && std::max(result_.residual, result_.error) <= options_.tolerance;
-    if (next_.at_rest) return;
-    if (fractured_ > 0.0 && all.size > farthest_) {
-      return collapse("the body is in pieces, and the loads move a part of it without limit");
-    }
-    look(rest);
+    if (!next_.at_rest) look(rest);
   }
 
   void look(double rest) {
@@ -332,7 +327,6 @@ class Relaxation {
   std::vector<double> weight_;  ///< factors of squares of forces and moments, per component
   std::vector<RestSums> rest_;  ///< per block
   Separation separation_;
-  double farthest_;  ///< see largest_motion()
   ThreadChoice threads_;
   std::size_t step_ = 0;
   Index iteration_ = 0;

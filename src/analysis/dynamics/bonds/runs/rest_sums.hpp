@@ -1,9 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <numeric>
-#include <vector>
-
 namespace perilink {
 
 /// Sums over the particles of a block, or of all blocks, in an iteration of a dynamic relaxation.
@@ -37,16 +33,5 @@ struct Decision {
 
 /// A residual that has grown so much since the first one will not shrink any more.
 inline constexpr double largest_growth = 1e12;
-
-/// u'Mu of a body that has moved by a thousand times its size [mass length^2]. Beyond that, a part
-/// of a body whose bonds have broken is held by nothing: bonds of small displacements do not turn,
-/// and a part on one of them shifts freely.
-inline double largest_motion(const std::vector<double>& positions,
-                             const std::vector<double>& mass) {
-  constexpr double farthest = 1e3;
-  const auto [low, high] = std::minmax_element(positions.begin(), positions.end());
-  const double way = farthest * (*high - *low);
-  return std::accumulate(mass.begin(), mass.end(), 0.0) * way * way;
-}
 
 }  // namespace perilink
