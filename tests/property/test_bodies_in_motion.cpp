@@ -327,10 +327,11 @@ TEST(BodiesInMotion, TornOnesComeToNoRest) {
     text += fmt::format("[[supports]]\nregion = \"lo\"\nfix = [{}]\n", along[body.dim - 2]);
     if (cut) {
       const double y = std::floor(0.5 * body.size[1]) + 0.5;
-      text += body.dim == 2
-                  ? fmt::format("[[cracks]]\npoints = [[-1, {0}], [9, {0}]]\n", y)
-                  : fmt::format(
-                        "[[cracks]]\ncorners = [[-1, {0}, -1], [9, {0}, -1], [9, {0}, 9]]\n", y);
+      text += body.dim == 2 ? fmt::format("[[cracks]]\npoints = [[-1, {0}], [9, {0}]]\n", y)
+                            : fmt::format(
+                                  "[[cracks]]\ncorners = [[-1, {0}, -1], [9, {0}, -1], [9, {0}, "
+                                  "9], [-1, {0}, 9]]\n",
+                                  y);
     }
     text += "[[displacements]]\nregion = \"hi\"\nx = 0\ny = 1\n";
     if (body.dim == 3) text += "z = 0\n";
