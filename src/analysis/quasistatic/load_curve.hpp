@@ -73,7 +73,7 @@ class PeakWatch {
   /// \param intact  nothing is damaged yet: whatever the load does the body has not given way
   void add(const CurvePoint& row, bool intact = false);
 
-  /// What comes after this first peak is residual strength.
+  /// Ends the search for the first peak: later loads are residual strength.
   void end_with(const CurvePoint& first) {
     gave_way_ = true;
     first_ = first;

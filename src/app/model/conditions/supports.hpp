@@ -32,7 +32,7 @@ Prescription collect_prescriptions(const CaseFile& input, const Model& model,
 /// \throws InputError  for regions that catch no particle or no facet
 std::vector<double> collect_springs(const CaseFile& input, const Model& model);
 
-/// What pre-cracks cut off, or leave too few bonds, and no load of any stage acts on.
+/// Parts that pre-cracks cut off, or leave too few bonds, and that no load of any stage acts on.
 struct CutOffParts {
   std::vector<std::uint8_t> particles;  ///< per particle, nonzero where it belongs to such a part
   std::vector<double> springs;          ///< that hold the parts, too soft to change the result; as
