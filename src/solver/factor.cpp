@@ -1,5 +1,6 @@
 #include "solver/factor.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace perilink {
@@ -8,6 +9,29 @@ double Factor::pivot(const SparseVector& x) {
   double removed = 0.0;
   compliance({&x, 1}, {&removed, 1});
   return 1.0 - removed;
+}
+
+double Factor::downdate_together(std::span<const SparseVector> x) {
+  constexpr double no_load_change = 0.0;
+  double smallest = 1.0;
+  for (const SparseVector& vector : x) {
+    const double left = pivot(vector);
+    if (!(left > 0.0)) return 0.0;
+    downdate({&vector, 1}, {&no_load_change, 1}, {&left, 1}, {});
+    smallest = std::min(smallest, left);
+  }
+  return smallest;
+}
+
+double Factor::path_of(std::span<const SparseVector> x) const {
+  return static_cast<double>(x.size()) * statistics().entries;
+}
+
+void Factor::add_solution(const SparseVector& b, std::span<double> solution) {
+  std::vector<double> change(solution.size(), 0.0);
+  for (int k = 0; k < b.size(); ++k) change[b.rows[k]] = b.values[k];
+  solve(change, change);
+  for (std::size_t k = 0; k < change.size(); ++k) solution[k] += change[k];
 }
 
 void Factor::solve_all(std::span<double> columns) {

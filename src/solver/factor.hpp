@@ -74,6 +74,17 @@ class Factor {
   virtual void downdate(std::span<const SparseVector> x, std::span<const double> load_changes,
                         std::span<const double> pivots, std::span<double> solution) = 0;
 
+  /// K <- K - sum x x' for vectors that may interact, one after the other.
+  /// \return the smallest of the pivots that they have then; 0: K would not stay positive definite,
+  ///         and the factor is of no use until refactorize()
+  virtual double downdate_together(std::span<const SparseVector> x);
+
+  /// Numbers of L that the paths of the vectors hold, each path counted.
+  virtual double path_of(std::span<const SparseVector> x) const;
+
+  /// solution += K^-1 b for a b with few entries, of these rows, each once.
+  virtual void add_solution(const SparseVector& b, std::span<double> solution);
+
   /// K <- K + x x' (a ground spring); the pattern of x must lie in that of the matrix.
   virtual void update(const SparseVector& x) = 0;
 

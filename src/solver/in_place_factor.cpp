@@ -55,6 +55,10 @@ void InPlaceFactor::adopt_pattern() {
     longest_ = std::max(longest_, block(s).count);
     numbers.push_back(static_cast<double>(block(s).count) * block(s).columns);
   }
+  std::vector<double> to_root = numbers;
+  for (std::size_t s = numbers.size(); s-- > 0;) {
+    if (tree_.parent[s] != no_index) to_root[s] += to_root[tree_.parent[s]];
+  }
   // Every supernode is computed alike wherever the cut runs: any number of threads gives the same
   // results.
   const double total = std::accumulate(numbers.begin(), numbers.end(), 0.0);
@@ -68,6 +72,9 @@ void InPlaceFactor::adopt_pattern() {
   path_.clear();  // left by a former pattern
   wanted_.clear();
   local_.assign(static_cast<std::size_t>(longest_) * 2 * threads_, 0.0);
+  together_.clear();
+  at_supernode_.assign(tree_.parent.size(), 0);
+  to_root_ = std::move(to_root);
 }
 
 /// L L' -> L D L': d_j = l_jj^2 goes to the diagonal, the column below is divided by l_jj.

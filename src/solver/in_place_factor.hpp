@@ -32,6 +32,11 @@ class InPlaceFactor final : public Factor {
   void compliance(std::span<const SparseVector> x, std::span<double> result) override;
   void downdate(std::span<const SparseVector> x, std::span<const double> load_changes,
                 std::span<const double> pivots, std::span<double> solution) override;
+  /// One pass over the union of the paths of most_together vectors at a time.
+  double downdate_together(std::span<const SparseVector> x) override;
+  double path_of(std::span<const SparseVector> x) const override;
+  /// Forward along the paths of the rows, one backward pass.
+  void add_solution(const SparseVector& b, std::span<double> solution) override;
   void update(const SparseVector& x) override;
   int factorizations() const override { return factorizations_; }
   FactorStatistics statistics() const override;
@@ -57,6 +62,8 @@ class InPlaceFactor final : public Factor {
                     std::span<double> solution);
   void change_path(const SparseVector& permuted, double sign);
   void clear_path();
+  void add_to_path(Index column);
+  double change_together(std::span<const SparseVector> permuted);
   void start_change(double sign);
 
   int threads_;
@@ -81,6 +88,11 @@ class InPlaceFactor final : public Factor {
   std::vector<double> p_;              ///< L^-1 x along the path, in the factor's order
   std::vector<double> beta_;           ///< per column of the path
   std::vector<double> w_;              ///< x less its eliminations, along the path
+  /// Where several vectors change the factor at once: what is left of each, shape (vectors, n), and
+  /// which are at each supernode, a bit each. Zero between changes.
+  std::vector<double> together_;
+  std::vector<std::uint32_t> at_supernode_;
+  std::vector<double> to_root_;  ///< per supernode: numbers of L from there to the root
 };
 
 }  // namespace perilink

@@ -165,7 +165,7 @@ int EventRun::check_interval() const {
   return meets_tolerance() ? options_.check_interval : std::max(1, options_.check_interval / 10);
 }
 
-void EventRun::record(double load_factor, const LoadWork& work, Index element) {
+void EventRun::record(double load_factor, const LoadWork& work, const Event& event) {
   const StepRecord last = row_;
   energy_.advance(load_factor, work);
   ++row_.step;
@@ -185,7 +185,8 @@ void EventRun::record(double load_factor, const LoadWork& work, Index element) {
   row_.elements = result_.elements;
   row_.freed_energy = energy_.freed();
   row_.factorizations = engine_->factorizations();
-  row_.element = element;
+  row_.element = event.element;
+  row_.events = static_cast<Index>(event.others.size()) + 1;
   row_.seconds = timer_.seconds();
   timer_.restart();
 
@@ -231,7 +232,7 @@ bool EventRun::pass(const Event& event) {
   const bool separates = !reference_->driven && staged_ == nullptr &&
                          outcome.compliance_growth > next_to_infinite * compliance_;
   if (outcome.mechanism || separates) {
-    if (outcome.broke()) result_.broken_bonds = 1;  // beyond those of the last row
+    result_.broken_bonds = outcome.broken;  // beyond those of the last row
     end(Ending::collapsed,
         event.changes_side
             ? fmt::format("a mechanism: once the closed element {} has opened, a piece of the body "
@@ -241,17 +242,18 @@ bool EventRun::pass(const Event& event) {
                           outcome.pivot));
     return false;
   }
-  if (!outcome.changed_side) ++(outcome.broke() ? broken_bonds_ : yield_events_);
+  broken_bonds_ += outcome.broken;
+  yield_events_ += outcome.yielded;
   energy_.add_event(outcome);
   following_.add_event(outcome);
   stored_by_elements_ = std::numeric_limits<double>::quiet_NaN();  // the old value no longer holds
   compliance_ += outcome.compliance_growth;
   ++events_;
   look_after(outcome);
-  if (network_.law(event.element).is_exhausted(outcome.secant)) {
+  if (outcome.exhausted != no_index) {
     // It no longer limits anything: the bars and the body form a mechanism.
     end(Ending::collapsed,
-        network_.is_segment(event.element)
+        network_.is_segment(outcome.exhausted)
             ? fmt::format("a bar stretched to {:.0f} times its yield strain: a plastic mechanism",
                           BondLaw::most_stretched)
             : "a bar slips through the body: a mechanism");
@@ -280,7 +282,7 @@ bool EventRun::stop_rule_met() {
 /// The driven body lies in two: the last row shows that it no longer resists.
 void EventRun::record_separated(double load_factor, const LoadWork& work) {
   end(Ending::collapsed, "the body no longer resists the displacements");
-  record(load_factor, work, no_index);
+  record(load_factor, work, {});
 }
 
 /// From event to event: the load factor follows the body, up or down.
@@ -299,7 +301,7 @@ DamageResult EventRun::by_events() {
       break;
     }
     if (leaves_small_strains(event)) break;
-    record(event.load_factor, work, event.element);
+    record(event.load_factor, work, event);
     if (stop_rule_met() || !pass(event)) break;
     follow_motion();
   }
@@ -312,7 +314,7 @@ DamageResult EventRun::by_events() {
 /// that follow the body from the last step on.
 DamageResult EventRun::end_within_step(const Event& event) {
   energy_ = following_;
-  record(event.load_factor, engine_->load_work(), event.element);
+  record(event.load_factor, engine_->load_work(), event);
   return finish();
 }
 
@@ -322,8 +324,8 @@ DamageResult EventRun::end_within_step(const Event& event) {
 DamageResult EventRun::by_steps() {
   check();
   for (const double load_factor : options_.load_factors) {
-    Event event = engine_->next_event();
-    while (converts(event, 1.0, load_factor)) event = engine_->next_event();
+    Event event = engine_->next_event_below(load_factor);
+    while (converts(event, 1.0, load_factor)) event = engine_->next_event_below(load_factor);
     Index last = no_index;
     following_ = energy_;
     while (event.element != no_index && event.load_factor <= load_factor) {
@@ -348,12 +350,12 @@ DamageResult EventRun::by_steps() {
         record_separated(load_factor, work);
         return finish();
       }
-      event = engine_->next_event();
-      while (converts(event, 1.0, load_factor)) event = engine_->next_event();
+      event = engine_->next_event_below(load_factor);
+      while (converts(event, 1.0, load_factor)) event = engine_->next_event_below(load_factor);
     }
     // These loads are asked for: they get a doubt.
     result_.beyond_small_strains |= is_beyond_small_strains(load_factor);
-    record(load_factor, engine_->load_work(), last);
+    record(load_factor, engine_->load_work(), {last});
     if (stop_rule_met()) return finish();
     follow_motion();
   }

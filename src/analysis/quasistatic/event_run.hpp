@@ -60,7 +60,7 @@ class EventRun {
   std::optional<double> end_of(const StageRules& stage, const LoadWork& work) const;
   bool follow_stage(const StageRules& stage);
   void measure_beside(const LoadWork& work);
-  void record(double load_factor, const LoadWork& work, Index element);
+  void record(double load_factor, const LoadWork& work, const Event& event);
   void note_peaks();
   void take_note_of(const Balance& balance);
   void check() { take_note_of(engine_->check_equilibrium()); }

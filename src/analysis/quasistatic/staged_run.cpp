@@ -107,7 +107,7 @@ bool EventRun::follow_stage(const StageRules& stage) {
     }
     row_.avalanche = event.avalanche ? 1 : 0;
     row_.side_change = event.changes_side ? 1 : 0;
-    record(load_factor, work, event.element);
+    record(load_factor, work, event);
     if (stop_rule_met()) return result_.ending == Ending::completed;
     if (arrived) {
       end(Ending::completed, stage.to ? fmt::format("the load factor reached {}", *stage.to)

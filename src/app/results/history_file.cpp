@@ -18,7 +18,7 @@ namespace {
 constexpr double seconds_between_flushes = 0.5;
 
 /// What a case has to have for a column.
-enum class With { nothing, stages, elements };
+enum class With { nothing, stages, elements, batches };
 
 /// The one list of columns of quasistatic runs, from which both the writer and the reader are made.
 struct Column {
@@ -28,8 +28,13 @@ struct Column {
   bool counts;  ///< holds whole numbers
   With with;
 
-  bool is_shown(bool stages, bool elements) const {
-    return with == With::nothing || (with == With::stages ? stages : elements);
+  bool is_shown(const CaseFile& input) const {
+    switch (with) {
+      case With::stages: return !input.stages.empty();
+      case With::elements: return input.elements.has_value();
+      case With::batches: return input.analysis.event_tolerance > 0.0;
+      default: return true;
+    }
   }
 };
 
@@ -63,6 +68,7 @@ constexpr std::array columns = {
     column<&StepRecord::residual>("residual"),
     column<&StepRecord::factorizations>("factorizations"),
     column<&StepRecord::element>("element"),
+    column<&StepRecord::events>("events", With::batches),
     column<&StepRecord::stage>("stage", With::stages),
     column<&StepRecord::avalanche>("avalanche", With::stages),
     column<&StepRecord::side_change>("side_change", With::stages),
@@ -119,7 +125,7 @@ std::vector<std::string> history_columns(const CaseFile& input) {
   std::vector<std::string> names;
   if (!is_over_time(input)) {
     for (const Column& column : columns) {
-      if (column.is_shown(!input.stages.empty(), input.elements.has_value())) {
+      if (column.is_shown(input)) {
         names.emplace_back(column.name);
       }
     }
@@ -140,16 +146,16 @@ bool is_history_column(const std::string& name) {
 
 HistoryFile::HistoryFile(const std::string& directory, const CaseFile& input)
     : bonds_break_(!has_state_based_particles(input.body)),
-      has_stages_(!input.stages.empty()),
-      has_elements_(input.elements.has_value()),
       history_(directory + "/history.csv", all_columns(input)),
-      timing_(directory + "/timing.csv", {"step", "seconds"}) {}
+      timing_(directory + "/timing.csv", {"step", "seconds"}) {
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    if (columns[k].is_shown(input)) shown_.push_back(k);
+  }
+}
 
 void HistoryFile::append(const StepRecord& record, std::span<const double> gauges) {
   std::vector<double> row;
-  for (const Column& column : columns) {
-    if (column.is_shown(has_stages_, has_elements_)) row.push_back(column.get(record));
-  }
+  for (const std::size_t k : shown_) row.push_back(columns[k].get(record));
   write(std::move(row), gauges, record.seconds);
 }
 

@@ -39,7 +39,7 @@ class HistoryFile {
   void write(std::vector<double> row, std::span<const double> gauges, double seconds);
 
   bool bonds_break_;  ///< and not particles
-  bool has_stages_, has_elements_;
+  std::vector<std::size_t> shown_;  ///< columns of quasistatic runs
   CsvWriter history_;
   CsvWriter timing_;
   Timer since_row_;

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "base/lanes.hpp"
+
 namespace perilink::supernodal {
 namespace {
 
@@ -74,7 +76,86 @@ void dot_and_change_panel(double* c, Index rows, Index from, const double* p, co
   sums[4] = s4, sums[5] = s5, sums[6] = s6, sums[7] = s7;
 }
 
+/// Columns that a change by several vectors takes at once: a row of each vector is read for so many.
+constexpr Index change_width = 4;
+
+/// What a column of a panel takes from each vector, and gives to it.
+struct ChangeFactors {
+  double p[most_together], beta[most_together];
+};
+
+/// For each vector, columns one after the other: w -= p l; l += beta w. Rows from `from`.
+void change_panel(double* c, Index rows, Index from, const ChangeFactors* factors, Index count,
+                  double* w) {
+  constexpr Index in_register = lanes_of<double>(8);
+  using Row = LanesInMemory<double, in_register>;
+  double *c0 = c, *c1 = c0 + rows, *c2 = c1 + rows, *c3 = c2 + rows;
+  const auto at = [](double* numbers) -> Row& { return *reinterpret_cast<Row*>(numbers); };
+  Index r = from;
+  for (; r + in_register <= rows; r += in_register) {
+    Row l0 = at(c0 + r), l1 = at(c1 + r), l2 = at(c2 + r), l3 = at(c3 + r);
+    double* place = w + r;
+    for (Index m = 0; m < count; ++m, place += rows) {
+      Row v = at(place);
+      v -= factors[0].p[m] * l0, l0 += factors[0].beta[m] * v;
+      v -= factors[1].p[m] * l1, l1 += factors[1].beta[m] * v;
+      v -= factors[2].p[m] * l2, l2 += factors[2].beta[m] * v;
+      v -= factors[3].p[m] * l3, l3 += factors[3].beta[m] * v;
+      at(place) = v;
+    }
+    at(c0 + r) = l0, at(c1 + r) = l1, at(c2 + r) = l2, at(c3 + r) = l3;
+  }
+  for (; r < rows; ++r) {
+    for (Index m = 0; m < count; ++m) {
+      double& v = w[static_cast<std::size_t>(m) * rows + r];
+      for (Index k = 0; k < change_width; ++k) {
+        double& l = c[static_cast<std::size_t>(k) * rows + r];
+        v -= factors[k].p[m] * l;
+        l += factors[k].beta[m] * v;
+      }
+    }
+  }
+}
+
+/// One vector changes column j, in rows up to `end`. \return false where d does not stay positive
+bool change_column(double* l, Index j, Index end, double* w, double& sigma, double& p,
+                   double& beta) {
+  p = w[j];
+  const double changed = l[j] + sigma * p * p;
+  if (!(changed > 0.0)) return false;
+  beta = sigma * p / changed;
+  sigma *= l[j] / changed;
+  l[j] = changed;
+#pragma omp simd
+  for (Index r = j + 1; r < end; ++r) {
+    w[r] -= p * l[r];
+    l[r] += beta * w[r];
+  }
+  return true;
+}
+
 }  // namespace
+
+bool change_together(double* block, Index rows, Index columns, Index count, double* w,
+                     double* sigma) {
+  ChangeFactors factors[change_width];
+  for (Index begin = 0; begin < columns; begin += change_width) {
+    const bool whole = begin + change_width <= columns;
+    const Index end = whole ? begin + change_width : columns;
+    for (Index j = begin; j < end; ++j) {
+      ChangeFactors& column_factors = factors[j - begin];
+      for (Index m = 0; m < count; ++m) {
+        if (!change_column(column(block, rows, j), j, whole ? end : rows,
+                           w + static_cast<std::size_t>(m) * rows, sigma[m], column_factors.p[m],
+                           column_factors.beta[m])) {
+          return false;
+        }
+      }
+    }
+    if (whole) change_panel(column(block, rows, begin), rows, end, factors, count, w);
+  }
+  return true;
+}
 
 template <class Number>
 void forward(const Number* block, Index rows, Index columns, Index start, double* local) {

@@ -199,6 +199,16 @@ bool Equilibrium::holds_apart(const std::vector<Index>& opened) const {
 /// What closes holds the body while others open. \return the bonds that have changed their side;
 /// none where all that ought to hold the body
 std::vector<Index> Equilibrium::change_sides(std::vector<Index> wrong) {
+  if (lags_) {
+    for (const Index element : wrong) {
+      axial_[element] = is_closed(element) ? secants_[element] : 1.0;
+    }
+    if (search_equilibrium()) return wrong;
+    for (const Index element : wrong) {
+      axial_[element] = is_closed(element) ? secants_[element] : 1.0;
+    }
+    factorize();
+  }
   if (is_cheaper_anew(wrong.size()) && change_together(wrong)) return wrong;
   const auto opening = std::stable_partition(wrong.begin(), wrong.end(),
                                              [&](Index element) { return !is_closed(element); });
@@ -222,10 +232,26 @@ void Equilibrium::add_growth(Index element, const Extension& before, EventOutcom
 bool Equilibrium::follow_sides(const std::vector<Index>& wrong, EventOutcome& outcome) {
   std::vector<std::pair<Extension, bool>> before;  // with whether it was closed
   for (const Index element : wrong) before.emplace_back(extension_of(element), is_closed(element));
+  const int factors = factor_->factorizations();
   const std::vector<Index> changed = change_sides(wrong);
   if (changed.empty()) return false;
   changed_sides_.insert(changed_sides_.end(), changed.begin(), changed.end());
-  refresh();
+  const bool is_new = lags_ || factor_->factorizations() != factors;
+  if (options_.event_tolerance == 0.0 || boxes_ != nullptr || stale_) {
+    if (!lags_) refresh();
+  } else if (!is_new) {
+    ForceOfElements forces(solution_.size());
+    for (std::size_t k = 0; k < wrong.size(); ++k) {
+      const auto& [extension, was_closed] = before[k];
+      if (is_closed(wrong[k]) == was_closed) continue;
+      const double fraction = 1.0 - secants_[wrong[k]];
+      const Removal axial = make_axial_removal(network_, *unknowns_, wrong[k], fraction);
+      const double root = std::sqrt(network_.stiffness[wrong[k]] * fraction);
+      const double sign = was_closed ? 1.0 : -1.0;
+      forces.add(axial.x[0], sign * root * extension.growing, sign * root * extension.constant);
+    }
+    follow_forces(forces);
+  }
   events_to_follow_ = 0;
   for (std::size_t k = 0; k < wrong.size(); ++k) {
     const auto& [extension, was_closed] = before[k];

@@ -95,6 +95,8 @@ void Equilibrium::find_driven_elements() {
 
 /// A new factor for the unknowns as they are.
 void Equilibrium::factorize_anew() {
+  lags_ = false;
+  missed_savings_ = 0.0;
   slot_of_ = unknowns_->slots();
   solution_.assign(static_cast<std::size_t>(unknowns_->count), 0.0);
   if (boxes_ != nullptr) return boxes_->begin(*unknowns_, secants(), ground_stiffness_);
@@ -127,6 +129,7 @@ void Equilibrium::adopt_load() {
 
 void Equilibrium::begin_stage(const Unknowns& unknowns, const Loads& loads,
                               ConstantField constant) {
+  bring_factor_up();
   keep_all_current();
   const bool fewer_move = static_cast<std::size_t>(unknowns.count) != solution_.size();
   if (fewer_move && !ground_stiffness_.empty()) {
@@ -168,6 +171,7 @@ Freedom Equilibrium::change_motion(const Unknowns& unknowns) {
   if (unknowns.prescribed != unknowns_->prescribed) {
     throw std::invalid_argument("prescribed motions do not change with the unknowns");
   }
+  bring_factor_up();
   if (stale_) refresh();
   events_to_follow_ = 0;
   const LoadWork before = work();
@@ -344,6 +348,7 @@ Balance Equilibrium::check() {
     return {size, internal_.energy};
   }
   events_to_follow_ = 0;
+  bring_factor_up();
   if (size <= std::min(2.0 * fresh_residual_, most_to_refine * options_.residual_tolerance)) {
     // The factor is as good as a fresh one, whose solutions need a step of refinement here.
     refine(residual);
@@ -390,6 +395,8 @@ void Equilibrium::factorize() {
     stiffness.coeffRef(unknown, unknown) += ground_stiffness_[k];
   }
   factor_->refactorize(stiffness);
+  lags_ = false;
+  missed_savings_ = 0.0;
   refresh();
 }
 

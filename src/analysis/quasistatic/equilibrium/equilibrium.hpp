@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -32,7 +33,25 @@ struct EventOutcome {
   double compliance_growth = 0.0;
   double released = 0.0;      ///< energy that left the element, at load factor 1 [force length]
   bool changed_side = false;  ///< a damaged bond closed or opened
+  /// Set by the engine: elements that broke, and that went on with a smaller secant.
+  Index broken = 0, yielded = 0;
+  Index exhausted = no_index;  ///< set by the engine: an element that no longer limits anything
   Beside growth_beside = {}, released_beside = {};  ///< what constant loads add to both
+
+  /// What became of another element after this one.
+  void add(const EventOutcome& next) {
+    mechanism = next.mechanism;
+    secant = next.secant;
+    pivot = std::min(pivot, next.pivot);
+    broken += next.broken;
+    yielded += next.yielded;
+    if (next.exhausted != no_index) exhausted = next.exhausted;
+    if (mechanism) return;
+    compliance_growth += next.compliance_growth;
+    released += next.released;
+    growth_beside += next.growth_beside;
+    released_beside += next.released_beside;
+  }
 };
 
 /// A body that has become as many times as compliant by one event lies in two. Bonds that are
@@ -76,6 +95,9 @@ struct EquilibriumOptions {
   int threads = 1;
   LinearSolver solver = LinearSolver::automatic;
   BoxSolverOptions boxes = {};  ///< where conjugate gradients take the factor's place
+  /// Elements whose laws have segments fail together where their load factors differ by this part
+  /// of the smallest; 0: one by one.
+  double event_tolerance = 0.0;
 };
 
 /// Whether conjugate gradients take the place of a factor that follows every event: only where they
@@ -133,6 +155,18 @@ class Equilibrium {
   /// compressed then, and open where they are pulled.
   /// \throws SolverError where the latter does not end
   EventOutcome weaken(Index element, double secant);
+
+  struct Weakening {
+    Index element;
+    double secant;  ///< with which it goes on
+  };
+  /// Elements that go on with smaller secants at once: one solution for all of them. Their factor
+  /// is changed, made anew or left behind, whichever costs least (batches.cpp).
+  /// \return nothing where one by one has to tell whether the body survives it: then all is as it
+  ///         was
+  /// Twice the energy of what an element loses, at load factor 1.
+  double energy_lost(const Weakening& change) const;
+  std::optional<EventOutcome> weaken_together(std::span<const Weakening> changes);
 
   /// The first damaged bond that closes or opens as the load factor of a stage moves on, and how
   /// far it has to.
@@ -275,6 +309,33 @@ class Equilibrium {
   Index most_mobile_unknown(const SparseVector& x);
   void keep_all_current();
 
+  // Several elements at once: batches.cpp.
+  enum class Way { change, renew, gradients };
+  struct Batch {
+    std::vector<Removal> removals;
+    std::vector<Deformations> before;     ///< of each by the loads that grow
+    std::vector<Deformations> beside;     ///< x'u of displacements by constant loads
+    std::vector<std::uint8_t> was_first;  ///< whether each was intact
+    std::vector<double> secants;          ///< of each before
+    std::size_t vectors = 0;
+  };
+  Batch batch_of(std::span<const Weakening> changes) const;
+  Way cheapest_way(const Batch& batch);
+  void add_growth(const Removal& removal, Index element, const Deformations& before,
+                  const Deformations& beside, EventOutcome& outcome) const;
+  bool follow_batch(const Batch& batch, double& pivot);
+  bool change_factor(const Batch& batch, double& pivot);
+  void follow_forces(const ForceOfElements& forces);
+  bool search_equilibrium();
+  bool search_constant();
+  int gradients(std::vector<double>& residual, std::span<double> solution, double energy);
+  void multiply(std::span<const double> q, std::span<double> result);
+  void take_back(std::span<const Weakening> changes, const Batch& batch);
+  /// The factor is made anew where it lags behind the secants.
+  void bring_factor_up() {
+    if (lags_) factorize();
+  }
+
   // Damaged bonds that close: closing.cpp.
   bool is_closed(Index element) const { return axial_[element] > secants_[element]; }
   /// At the present load factor, and the parts of loads that grow and that do not [length].
@@ -348,6 +409,11 @@ class Equilibrium {
     if (!axial_.empty()) axial_[element] = secant;
   }
   bool restored_ = false;  ///< since the last factorisation
+  /// The factor is that of an earlier body, and only preconditions: batches.cpp.
+  bool lags_ = false;
+  int gradient_steps_ = 0;  ///< of conjugate gradients, in all batches
+  int last_steps_ = 0;      ///< that the last batch took
+  double missed_savings_ = 0.0;  ///< by changes of a factor that lags behind [time]
   std::vector<double> secants_;
   std::vector<double> axial_;  ///< the same against a change of length; empty where none differs
   bool has_kept_;              ///< Network::has_kept_shear()

@@ -52,6 +52,21 @@ Removal make_axial_removal(const Network& network, const Unknowns& unknowns, Ind
   return removal_of(axial_vector(network, unknowns, element, fraction), fraction);
 }
 
+void ForceOfElements::add(const SparseVector& x, double by_growing, double by_constant) {
+  for (int k = 0; k < x.size(); ++k) {
+    Index& place = place_[x.rows[k]];
+    if (place == no_index) {
+      place = growing.size();
+      for (SparseVector* sum : {&growing, &constant}) {
+        sum->rows.push_back(x.rows[k]);
+        sum->values.push_back(0.0);
+      }
+    }
+    growing.values[place] += by_growing * x.values[k];
+    constant.values[place] += by_constant * x.values[k];
+  }
+}
+
 void decouple(Removal& removal, std::span<const double> compliance) {
   const int rank = removal.rank;
   Square rest = Square::Identity(rank, rank);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <span>
+#include <vector>
 
 #include "assembly/element_vector.hpp"
 #include "base/sparse_vector.hpp"
@@ -30,6 +31,18 @@ struct Removal {
   /// x'u with what prescribed motions add, at load factor 1: its square is twice the energy of the
   /// mode.
   double deformation(int mode, std::span<const double> solution) const;
+};
+
+/// Forces on unknowns that elements take, or took.
+class ForceOfElements {
+ public:
+  explicit ForceOfElements(std::size_t unknowns) : place_(unknowns, no_index) {}
+  /// x times a deformation by the loads that grow and one by constant loads.
+  void add(const SparseVector& x, double by_growing, double by_constant);
+  SparseVector growing, constant;  ///< of the same rows
+
+ private:
+  std::vector<Index> place_;  ///< per unknown: its place in them, or no_index
 };
 
 /// \param fraction  part of the intact stiffness that goes

@@ -178,6 +178,7 @@ void Equilibrium::commit(const Removal& removal, Index element, double secant) {
 
 EventOutcome Equilibrium::weaken(Index element, double secant) {
   const double before = secants_[element];
+  bring_factor_up();
   if (!network_.has_limit(element)) keep_all_current();
   Removal removal = removal_of(element, secant);
   measure_pivots(removal, element, secant);
@@ -213,6 +214,7 @@ EventOutcome Equilibrium::weaken(Index element, double secant) {
 }
 
 int Equilibrium::cut(Index element) {
+  bring_factor_up();
   keep_all_current();
   if (!axial_.empty() && is_closed(element)) open(element);
   if (secants_[element] == 0.0) return 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -15,6 +16,7 @@ struct Event {
   double load_factor = 0.0;   ///< when it happens
   bool avalanche = false;     ///< the element is beyond its limit, at a load that does not move
   bool changes_side = false;  ///< a damaged bond closes or opens, and nothing fails
+  std::vector<Index> others = {};  ///< elements that fail with it, within the tolerance of events
 };
 
 /// Moves a network from event to event at unit load factor. The damage analysis sees no more of the
@@ -25,10 +27,13 @@ class EventEngine {
 
   /// The element that reaches its limit first as the load grows from zero. Ties within
   /// `tie_tolerance` of the load factor go to the element with the lowest number, so that no route
-  /// and no number of threads decides by round-off.
-  virtual Event next_event() = 0;
+  /// and no number of threads decides by round-off. Under an event tolerance the load factor is the
+  /// middle of those of all that fail together.
+  /// \param most  load factor of a step: all that reach their limits below it fail together
+  virtual Event next_event_below(double most) = 0;
+  Event next_event() { return next_event_below(std::numeric_limits<double>::infinity()); }
 
-  /// Lets the element pass its limit: broken, or on the next secant of its law.
+  /// Lets the elements pass their limits: broken, or on the next secants of their laws.
   virtual EventOutcome apply(const Event& event) = 0;
 
   /// Displacement of all particles at load factor 1, rotations included; shape (particles,

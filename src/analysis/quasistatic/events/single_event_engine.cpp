@@ -14,16 +14,17 @@ SingleEventEngine::SingleEventEngine(const LoadedNetwork& problem,
                                      const EquilibriumOptions& options)
     : network_(problem.network),
       threads_(options.threads),
+      tolerance_(options.event_tolerance),
       equilibrium_(problem, options),
       search_(make_break_search(network_)),
       closes_(network_.has_closing()),
       teeth_(static_cast<std::size_t>(network_.num_elements()), 0) {
   if (network_.has_crushing()) crushing_.emplace(network_);
-  if (!problem.sets.empty() || !equilibrium_.may_defer()) return;
+  if (tolerance_ > 0.0 || !problem.sets.empty() || !equilibrium_.may_defer()) return;
   if (!search_->doze_by_columns(equilibrium_.defer())) equilibrium_.defer_no_more();
 }
 
-Event SingleEventEngine::next_event() {
+Event SingleEventEngine::next_event_below(double most) {
   const auto find = [&] {
     const std::span<const double> displacement = equilibrium_.where_search_looks();
     BreakSearch::Hit hit;
@@ -48,7 +49,52 @@ Event SingleEventEngine::next_event() {
     refuse_hidden_strains(noise, hit);
     return {};
   }
-  return {hit.element, 1.0 / hit.ratio};
+  Event event{hit.element, 1.0 / hit.ratio};
+  if (fails_with_others(hit.element) && event.load_factor <= most) {
+    add_others(event, hit.ratio, most);
+  }
+  return event;
+}
+
+/// Elements whose load factors are within the tolerance of that of the event, or below that of a
+/// step, fail with it, at the middle of their load factors.
+/// \param ratio  of its element at load factor 1
+void SingleEventEngine::add_others(Event& event, double ratio, double most) {
+  const bool in_step = !std::isinf(most);
+  const double wanted = in_step ? 1.0 / most : (1.0 - tolerance_) * ratio;
+  std::vector<BreakSearch::Hit> hits = search_->list(equilibrium_.where_elements_fail(), wanted);
+  std::ranges::stable_sort(hits, std::greater(), &BreakSearch::Hit::ratio);
+  if (!in_step) limit_batch(event, hits);
+  double least = ratio;
+  for (const BreakSearch::Hit& hit : hits) {
+    if (hit.element == event.element || !fails_with_others(hit.element)) continue;
+    event.others.push_back(hit.element);
+    least = hit.ratio;
+  }
+  event.load_factor = std::min(2.0 / (ratio + least), most);
+}
+
+/// Where a crack runs on, a batch unloads elements that are about to fail, too. So it ends where
+/// what its elements lose would let the load fall by half of the tolerance. Where the load fell by
+/// more than a quarter of the tolerance since the last batch, the next one has half as many.
+/// \param hits  the largest ratio first
+void SingleEventEngine::limit_batch(const Event& event, std::vector<BreakSearch::Hit>& hits) {
+  constexpr double most_lost = 0.5, most_fall = 0.25, growth = 1.5;
+  const bool fell = event.load_factor < (1.0 - most_fall * tolerance_) * last_factor_;
+  most_at_once_ = fell ? std::max(1.0, 0.5 * last_count_) : growth * most_at_once_;
+  const LoadWork work = equilibrium_.work();
+  double left = most_lost * tolerance_ * (work.forces + work.supports);
+  std::size_t count = 0;
+  for (; count < hits.size() && static_cast<double>(count) < most_at_once_; ++count) {
+    const Index element = hits[count].element;
+    if (!fails_with_others(element)) continue;
+    left -= equilibrium_.energy_lost(
+        {element, law_of(element).tooth(next_tooth(element)).secant});
+    if (left < 0.0) break;
+  }
+  hits.resize(std::max<std::size_t>(count, 1));
+  last_count_ = static_cast<double>(hits.size());
+  last_factor_ = event.load_factor;
 }
 
 /// Whether the element's extension lacks digits that a column of its own would tell.
@@ -116,16 +162,56 @@ void SingleEventEngine::prepare(const Event& event) {
 }
 
 EventOutcome SingleEventEngine::apply(const Event& event) {
-  prepare(event);
-  const BondLaw& law = law_of(event.element);
-  const bool compressed =
-      law.crushes() && is_shorter(network_, event.element, equilibrium_.where_search_looks());
-  const int next = BondLaw::after(teeth_[event.element], compressed);
-  const EventOutcome outcome = equilibrium_.weaken(event.element, law.tooth(next).secant);
-  if (outcome.mechanism) return outcome;
-  teeth_[event.element] = next;
-  set_limits(event.element);
+  if (!fails_with_others(event.element)) return apply_one(event);
+  if (auto outcome = apply_together(event)) return *outcome;
+  EventOutcome outcome = apply_one(event);
+  for (const Index other : event.others) {
+    if (outcome.mechanism) break;
+    outcome.add(apply_one({other, event.load_factor}));
+  }
   return outcome;
+}
+
+EventOutcome SingleEventEngine::apply_one(const Event& event) {
+  prepare(event);
+  const int next = next_tooth(event.element);
+  EventOutcome outcome = equilibrium_.weaken(event.element, law_of(event.element).tooth(next).secant);
+  if (outcome.mechanism) {
+    outcome.broken = outcome.broke() ? 1 : 0;
+    return outcome;
+  }
+  pass_limit(event.element, next, outcome);
+  return outcome;
+}
+
+std::optional<EventOutcome> SingleEventEngine::apply_together(const Event& event) {
+  std::vector<Index> elements = {event.element};
+  elements.insert(elements.end(), event.others.begin(), event.others.end());
+  std::vector<int> teeth;
+  std::vector<Equilibrium::Weakening> changes;
+  for (const Index element : elements) {
+    teeth.push_back(next_tooth(element));
+    changes.push_back({element, law_of(element).tooth(teeth.back()).secant});
+  }
+  std::optional<EventOutcome> outcome = equilibrium_.weaken_together(changes);
+  for (std::size_t k = 0; outcome && k < elements.size(); ++k) {
+    pass_limit(elements[k], teeth[k], *outcome);
+  }
+  return outcome;
+}
+
+int SingleEventEngine::next_tooth(Index element) const {
+  const bool compressed = law_of(element).crushes() &&
+                          is_shorter(network_, element, equilibrium_.where_search_looks());
+  return BondLaw::after(teeth_[element], compressed);
+}
+
+void SingleEventEngine::pass_limit(Index element, int tooth, EventOutcome& outcome) {
+  const double secant = law_of(element).tooth(tooth).secant;
+  teeth_[element] = tooth;
+  set_limits(element);
+  ++(secant == 0.0 ? outcome.broken : outcome.yielded);
+  if (network_.law(element).is_exhausted(secant)) outcome.exhausted = element;
 }
 
 void SingleEventEngine::set_limits(Index element) {

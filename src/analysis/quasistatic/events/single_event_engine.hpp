@@ -18,7 +18,7 @@ class SingleEventEngine : public EventEngine {
  public:
   SingleEventEngine(const LoadedNetwork& problem, const EquilibriumOptions& options);
 
-  Event next_event() override;
+  Event next_event_below(double most) override;
   EventOutcome apply(const Event& event) override;
   std::span<const double> displacement() override { return equilibrium_.displacement(); }
   std::span<const double> where_elements_fail() override {
@@ -44,6 +44,16 @@ class SingleEventEngine : public EventEngine {
 
  protected:
   void prepare(const Event& event);
+  /// Whether the element may fail together with others: its law has segments.
+  bool fails_with_others(Index element) const {
+    return tolerance_ > 0.0 && !network_.law(element).is_brittle();
+  }
+  void add_others(Event& event, double ratio, double most);
+  void limit_batch(const Event& event, std::vector<BreakSearch::Hit>& hits);
+  EventOutcome apply_one(const Event& event);
+  std::optional<EventOutcome> apply_together(const Event& event);
+  int next_tooth(Index element) const;
+  void pass_limit(Index element, int tooth, EventOutcome& outcome);
 
   /// Elements whose ratio at the load factor of the event is at least this, in the order of their
   /// numbers.
@@ -72,6 +82,9 @@ class SingleEventEngine : public EventEngine {
 
   const Network& network_;
   ThreadChoice threads_;
+  double tolerance_;  ///< EquilibriumOptions::event_tolerance
+  // The last batch, and how many elements the next one may have.
+  double most_at_once_ = 1.0, last_count_ = 1.0, last_factor_ = 0.0;
   Equilibrium equilibrium_;
   std::unique_ptr<BreakSearch> search_;
   std::optional<CarriedParticles> carried_;  ///< what the search leaves out while it dozes

@@ -19,6 +19,9 @@ StagedEngine::StagedEngine(const LoadedNetwork& problem, const EquilibriumOption
       unknowns_(std::make_unique<Unknowns>(problem.unknowns)),
       gripped_at_(problem.unknowns.prescribed.size(), 0.0),
       load_factors_(problem.sets.size(), 0.0) {
+  for (Index e = 0; tolerance_ > 0.0 && e < network_.num_elements(); ++e) {
+    if (network_.has_limit(e)) crossings_.set_limit(e, limit_of_crossings(e));
+  }
   begin_stage(0, *unknowns_);
 }
 
@@ -57,7 +60,7 @@ bool StagedEngine::leave_flow() {
   equilibrium_.restore(flown);
   for (const Index e : flown) {
     set_limits(e);
-    crossings_.set_limit(e, limit_of(e));
+    crossings_.set_limit(e, limit_of_crossings(e));
   }
   return !flown.empty();
 }
@@ -127,7 +130,7 @@ BreakSearch::Hit StagedEngine::worst() {
   return hit;
 }
 
-Event StagedEngine::next_event() {
+Event StagedEngine::next_event_below(double /*most*/) {
   const std::span<const double> now = displacement();
   CrossingSearch::Crossing last;
   last_crossing_threads_.run([&](int threads) {
@@ -137,20 +140,34 @@ Event StagedEngine::next_event() {
     for (const Index bond : last.conflict) {
       if (alert_of(bond) < 1.0) return {bond, load_factor_, true};
     }
-    return {worst().element, load_factor_, true};
+    return with_others({worst().element, load_factor_, true});
   }
   const double distance =
       last.element != no_index ? last.distance : std::numeric_limits<double>::infinity();
   if (const Event change = side_change_within(distance); change.element != no_index) {
-    return turns_back(change) ? Event{worst().element, load_factor_, true} : change;
+    return turns_back(change) ? with_others({worst().element, load_factor_, true}) : change;
   }
   if (last.element == no_index) return {};
-  return {last.element, load_factor_ + last.distance};
+  return with_others({last.element, load_factor_ + last.distance});
+}
+
+/// Elements that are at their limits at the load factor of the event, by half of the tolerance, fail
+/// with it; all that are beyond them do where the load does not move.
+Event StagedEngine::with_others(Event event) {
+  if (!fails_with_others(event.element)) return event;
+  const double share = event.avalanche ? 1.0 : 1.0 - 0.5 * tolerance_;
+  for (const Index element : near_events(event, share)) {
+    if (element != event.element && fails_with_others(element)) event.others.push_back(element);
+  }
+  return event;
 }
 
 Event StagedEngine::next_event_towards(double target) {
   const BreakSearch::Hit hit = worst();
-  if (hit.ratio > 1.0 + tie_tolerance) return {hit.element, load_factor_, true};
+  const bool shares = hit.element != no_index && fails_with_others(hit.element);
+  if (hit.ratio > 1.0 + (shares ? 0.5 * tolerance_ : 0.0) + tie_tolerance) {
+    return with_others({hit.element, load_factor_, true});
+  }
   CrossingSearch::Crossing next;
   next_crossing_threads_.run([&](int threads) {
     next = crossings_.ahead(now_, equilibrium_.where_elements_fail(),
@@ -160,7 +177,7 @@ Event StagedEngine::next_event_towards(double target) {
       next.element != no_index && std::abs(next.distance) <= std::abs(target - load_factor_);
   const double distance = reached ? next.distance : target - load_factor_;
   if (const Event change = side_change_within(distance); change.element != no_index) return change;
-  return reached ? Event{next.element, load_factor_ + next.distance} : Event{};
+  return reached ? with_others({next.element, load_factor_ + next.distance}) : Event{};
 }
 
 /// Where a damaged bond closes or opens on the way.
@@ -204,7 +221,9 @@ EventOutcome StagedEngine::apply(const Event& event) {
   }
   changes_there_ = 0;
   const EventOutcome outcome = SingleEventEngine::apply(event);
-  if (!outcome.mechanism) crossings_.set_limit(event.element, limit_of(event.element));
+  if (outcome.mechanism) return outcome;
+  crossings_.set_limit(event.element, limit_of_crossings(event.element));
+  for (const Index other : event.others) crossings_.set_limit(other, limit_of_crossings(other));
   return outcome;
 }
 
@@ -230,7 +249,7 @@ Freedom StagedEngine::change_motion(const Unknowns& unknowns) {
 
 void StagedEngine::set_alert(std::span<const Index> elements, double fraction) {
   SingleEventEngine::set_alert(elements, fraction);
-  for (const Index element : elements) crossings_.set_limit(element, limit_of(element));
+  for (const Index element : elements) crossings_.set_limit(element, limit_of_crossings(element));
 }
 
 std::vector<BreakSearch::Hit> StagedEngine::near_hits(const Event& event, double fraction) {

@@ -39,7 +39,7 @@ class StagedEngine final : public SingleEventEngine {
 
   /// At the largest load factor at which every element is within its limit. Where there is none the
   /// worst element fails at the present one. Without an element nothing can fail.
-  Event next_event() override;
+  Event next_event_below(double most) override;
 
   /// On the way to a load factor: the worst element that is beyond its limit at the present one,
   /// else the first that reaches it. Without an element none does.
@@ -62,6 +62,11 @@ class StagedEngine final : public SingleEventEngine {
   Event side_change_within(double distance);
   bool is_last_change(double load_factor) const;
   bool turns_back(const Event& change);
+  /// Limits of the search for crossings, beyond which the elements that fail first have to be.
+  double limit_of_crossings(Index element) const {
+    return (fails_with_others(element) ? 1.0 + 0.5 * tolerance_ : 1.0) * limit_of(element);
+  }
+  Event with_others(Event event);
   void count_changes();
 
   const LoadedNetwork& problem_;

@@ -26,6 +26,7 @@ DamageOptions damage_options(const CaseFile& input, int threads) {
   options.engine.solver = input.analysis.solver;
   options.engine.boxes.edge = input.analysis.coarse_box.value_or(0);
   options.engine.boxes.ranks = ranks();
+  options.engine.event_tolerance = input.analysis.event_tolerance;
   const bool steps = input.analysis.control == LoadControl::steps;
   if (steps) options.load_factors = input.analysis.load_factors;
   options.stop = rules_of(input.stop);

@@ -52,6 +52,14 @@ void read_events(const CaseTable& table, AnalysisSection& analysis) {
   assign(analysis.factor, table.choice<FactorRoute>("factor"));
   assign(analysis.solver, table.choice<LinearSolver>("solver"));
   analysis.coarse_box = table.integer("coarse_box", 2, 64);
+  if (const auto tolerance = table.number("event_tolerance")) {
+    constexpr double most = 0.2;
+    if (!(*tolerance >= 0.0 && *tolerance <= most)) {
+      table.refuse("event_tolerance", fmt::format("is {}, not from 0 to {}", *tolerance, most),
+                   "give 0.02, or 0 for one event after the other");
+    }
+    analysis.event_tolerance = *tolerance;
+  }
 }
 
 }  // namespace

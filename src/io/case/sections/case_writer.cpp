@@ -176,6 +176,7 @@ void write_run(TomlWriter& out, const CaseFile& input) {
     if (!breaks) out.write("tolerance", input.analysis.tolerance);
   }
   if (!breaks) return;
+  out.write("event_tolerance", input.analysis.event_tolerance);
   if (input.stages.empty()) {
     out.header("[stop]");
     write_stop(out, input.stop);

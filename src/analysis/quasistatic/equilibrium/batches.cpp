@@ -1,0 +1,287 @@
+// Several elements that lose stiffness at once: one equilibrium follows, by a change of the factor,
+// by a new one, or by conjugate gradients that an older one preconditions
+// (docs/theory/events_and_energy.md, section 9).
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analysis/quasistatic/equilibrium/equilibrium.hpp"
+#include "assembly/stiffness.hpp"
+#include "solver/conjugate_gradients.hpp"
+#include "solver/not_positive_definite.hpp"
+#include "solver/supernodes/supernodal_kernels.hpp"
+
+namespace perilink {
+namespace {
+
+/// Rates of one core, to choose the cheapest way: of a factorisation, of a pass through the factor
+/// that is larger than the caches, and of a change by many vectors.
+constexpr double factor_flops = 15e9, factor_bytes = 20e9, change_flops = 20e9;
+/// Per element: to assemble the stiffness, and to find the forces of a motion.
+constexpr double seconds_to_assemble = 3e-7, seconds_per_force = 1e-8;
+
+/// Time of a solution for forces on the elements of a batch over that of one for all forces.
+constexpr double share_of_solution = 0.7;
+
+/// Steps of conjugate gradients that are expected before any have been made.
+constexpr int expected_steps = 12;
+
+/// Error over solution, in the norm of energy, that conjugate gradients leave.
+constexpr double enough = 1e-11;
+
+/// x'u
+double along(const SparseVector& x, std::span<const double> u) {
+  double sum = 0.0;
+  for (int k = 0; k < x.size(); ++k) sum += x.values[k] * u[x.rows[k]];
+  return sum;
+}
+
+}  // namespace
+
+auto Equilibrium::batch_of(std::span<const Weakening> changes) const -> Batch {
+  Batch batch;
+  for (const auto& [element, secant] : changes) {
+    batch.removals.push_back(removal_of(element, secant));
+    batch.before.push_back(deformations(batch.removals.back(), element));
+    batch.secants.push_back(secant_of(element));
+    Deformations& beside = batch.beside.emplace_back();
+    const Removal& removal = batch.removals.back();
+    for (int m = 0; constant_ && m < removal.rank; ++m) {
+      beside[m] = along(removal.x[m], constant_->solution);
+    }
+    batch.was_first.push_back(secants_[element] == 1.0 ? 1 : 0);
+    batch.vectors += static_cast<std::size_t>(batch.removals.back().rank);
+  }
+  return batch;
+}
+
+/// By counted work: the answer does not depend on the machine's load, nor on the number of threads.
+auto Equilibrium::cheapest_way(const Batch& batch) -> Way {
+  const FactorStatistics factor = factor_->statistics();
+  const auto elements = static_cast<double>(network_.num_elements());
+  const double solution = 2.0 * factor.bytes / factor_bytes;
+  const double anew = factor.flops / factor_flops + seconds_to_assemble * elements + solution;
+  const int steps = last_steps_ > 0 ? last_steps_ : expected_steps;
+  const double search = steps * (solution + seconds_per_force * elements);
+  double numbers = 0.0;  // of the factor, counted for each vector
+  for (const Removal& removal : batch.removals) numbers += factor_->path_of(removal.vectors());
+  const double change = 4.0 * numbers / change_flops + share_of_solution * solution;
+  if (!lags_ && change <= std::min(anew, search)) return Way::change;
+  // What a factor that did not lag behind would have saved by now pays for a new one.
+  if (lags_) missed_savings_ += std::max(0.0, search - change);
+  return missed_savings_ + search < anew ? Way::gradients : Way::renew;
+}
+
+double Equilibrium::energy_lost(const Weakening& change) const {
+  const Removal removal = removal_of(change.element, change.secant);
+  double energy = 0.0;
+  for (const double deformation : deformations(removal, change.element)) {
+    energy += deformation * deformation;
+  }
+  return energy;
+}
+
+std::optional<EventOutcome> Equilibrium::weaken_together(std::span<const Weakening> changes) {
+  const auto stands_alone = [&](const Weakening& change) {
+    const bool closed = !axial_.empty() && is_closed(change.element);
+    return closed || !network_.has_limit(change.element);
+  };
+  if (look_closer_ || std::ranges::any_of(changes, stands_alone)) return std::nullopt;
+  Batch batch = batch_of(changes);
+  EventOutcome outcome;
+  double removed = 0.0;  // twice the energy that the elements lose
+  for (std::size_t k = 0; k < changes.size(); ++k) {
+    double energy = 0.0;
+    for (const double deformation : batch.before[k]) energy += deformation * deformation;
+    EventOutcome own;
+    own.released = 0.5 * energy;
+    if (constant_) release_constant(batch.removals[k], changes[k].element, own);
+    outcome.released += own.released;
+    outcome.released_beside += own.released_beside;
+    removed += energy;
+  }
+  for (std::size_t k = 0; k < changes.size(); ++k) {
+    const auto [element, secant] = changes[k];
+    if (!axial_.empty() && batch.was_first[k] && network_.law(element).closes()) {
+      damaged_.push_back(element);
+    }
+    set_secant(element, secant);
+  }
+  if (!follow_batch(batch, outcome.pivot)) {
+    take_back(changes, batch);
+    return std::nullopt;
+  }
+  for (std::size_t k = 0; k < changes.size(); ++k) {
+    add_growth(batch.removals[k], changes[k].element, batch.before[k], batch.beside[k], outcome);
+  }
+  // Elements that are strained far more without their stiffness than before were what held the body.
+  const bool doubtful = !(outcome.compliance_growth * doubtful_pivot < removed) ||
+                        !(outcome.pivot > doubtful_pivot);
+  if (!doubtful) {
+    follow(outcome);
+    if (!axial_.empty()) settle_closing(outcome);
+  }
+  if (doubtful || outcome.mechanism) {
+    take_back(changes, batch);
+    return std::nullopt;
+  }
+  return outcome;
+}
+
+/// f'u - R'd grows by u_1' (K_1 - K_2) u_2 from one equilibrium to the other.
+void Equilibrium::add_growth(const Removal& removal, Index element, const Deformations& before,
+                             const Deformations& beside, EventOutcome& outcome) const {
+  const Deformations after = deformations(removal, element);
+  for (int m = 0; m < removal.rank; ++m) outcome.compliance_growth += before[m] * after[m];
+  for (int m = 0; constant_ && m < removal.rank; ++m) {
+    const double held = removal.constant[m];
+    const double holds = held + along(removal.x[m], constant_->solution) - beside[m];
+    outcome.growth_beside.linear += before[m] * holds + held * after[m];
+    outcome.growth_beside.constant += held * holds;
+  }
+}
+
+/// The equilibrium of the secants as they are. \return false where none is found
+/// \param pivot  the smallest of the batch, where the factor tells
+bool Equilibrium::follow_batch(const Batch& batch, double& pivot) {
+  must_rebuild_ = false;
+  if (boxes_ != nullptr) return search_equilibrium();
+  const Way way = cheapest_way(batch);
+  if (way == Way::change) return change_factor(batch, pivot);
+  must_rebuild_ = true;  // work products are summed anew
+  if (way == Way::gradients && search_equilibrium()) return true;
+  try {
+    factorize();
+    return true;
+  } catch (const NotPositiveDefinite&) {
+    return false;
+  }
+}
+
+bool Equilibrium::change_factor(const Batch& batch, double& pivot) {
+  std::vector<SparseVector> vectors;
+  ForceOfElements forces(solution_.size());
+  for (std::size_t k = 0; k < batch.removals.size(); ++k) {
+    const Removal& removal = batch.removals[k];
+    for (int m = 0; m < removal.rank; ++m) {
+      vectors.push_back(removal.x[m]);
+      forces.add(removal.x[m], batch.before[k][m], removal.constant[m]);
+    }
+  }
+  pivot = factor_->downdate_together(vectors);
+  if (!(pivot > doubtful_pivot)) return false;
+  follow_forces(forces);
+  stale_ = partial_;
+  return true;
+}
+
+/// The displacements after forces that elements no longer take, by the factor of what is left.
+void Equilibrium::follow_forces(const ForceOfElements& forces) {
+  factor_->add_solution(forces.growing, solution_);
+  if (constant_ && !constant_->rests) {
+    factor_->add_solution(forces.constant, constant_->solution);
+  }
+  scatter_current();
+  if (constant_) scatter_constant();
+  force_work_ = partial_ ? force_work_ : work_of_forces();
+}
+
+/// K q by the elements as they are.
+void Equilibrium::multiply(std::span<const double> q, std::span<double> result) {
+  std::vector<double> motion(displacement_.size(), 0.0);
+  if (unknowns_->carries()) {
+    unknowns_->expand(q, moving_slots_, motion);
+  } else {
+    for (std::size_t k = 0; k < slot_of_.size(); ++k) motion[slot_of_[k]] = q[k];
+  }
+  internal_force(network_, secants(), motion, internal_);
+  const std::vector<double> forces = unknowns_->restrict(internal_.forces);
+  for (std::size_t k = 0; k < forces.size(); ++k) {
+    result[k] = forces[k] + (ground_stiffness_.empty() ? 0.0 : ground_stiffness_[k] * q[k]);
+  }
+}
+
+/// Adds what is missing to a solution. The older factor is near K, so that r'z is the energy of the
+/// error but for a factor near one.
+/// \param residual  of the solution, used up
+/// \param energy    u'K u of the solution
+/// \return steps made; zero: it does not get there
+int Equilibrium::gradients(std::vector<double>& residual, std::span<double> solution,
+                           double energy) {
+  constexpr int most_steps = 60;
+  std::vector<double> z(residual.size()), p(residual.size(), 0.0), q(residual.size());
+  double before = 1.0;
+  for (int step = 0; step < most_steps; ++step) {
+    factor_->solve(residual, z);
+    const double rz = scalar_product(residual, z);
+    if (!(rz > enough * enough * energy)) return rz >= 0.0 ? step + 1 : 0;
+    for (std::size_t k = 0; k < p.size(); ++k) p[k] = z[k] + (step > 0 ? rz / before : 0.0) * p[k];
+    multiply(p, q);
+    const double curvature = scalar_product(p, q);
+    if (!(curvature > 0.0)) return 0;
+    for (std::size_t k = 0; k < p.size(); ++k) {
+      solution[k] += rz / curvature * p[k];
+      residual[k] -= rz / curvature * q[k];
+    }
+    before = rz;
+  }
+  return 0;
+}
+
+/// From the last displacements by conjugate gradients. \return false where they do not get there
+bool Equilibrium::search_equilibrium() {
+  if (stale_) refresh();
+  spread();
+  std::vector<double> residual;
+  measure_residual(residual);
+  const double energy = 2.0 * internal_.energy;
+  if (boxes_ != nullptr) {
+    boxes_->forget();
+    refine(residual);
+    if (constant_) refresh_constant();
+    return true;
+  }
+  lags_ = true;
+  last_steps_ = gradients(residual, solution_, energy);
+  gradient_steps_ += last_steps_;
+  if (last_steps_ == 0) return false;
+  scatter_solution();
+  is_exact_ = true;
+  force_work_ = work_of_forces();
+  return !constant_ || constant_->rests || search_constant();
+}
+
+/// Displacements by constant loads.
+bool Equilibrium::search_constant() {
+  ConstantField& field = *constant_;
+  std::vector<double> load =
+      assemble_right_hand_side(network_, secants(), field.unknowns, field.loads);
+  for (std::size_t k = 0; k < field.ground_load.size(); ++k) load[k] += field.ground_load[k];
+  std::vector<double> forces(load.size());
+  multiply(field.solution, forces);
+  const double energy = scalar_product(field.solution, forces);
+  for (std::size_t k = 0; k < load.size(); ++k) load[k] -= forces[k];
+  const int steps = gradients(load, field.solution, energy);
+  gradient_steps_ += steps;
+  scatter_constant();
+  return steps > 0;
+}
+
+/// The body as it was before, with a new factor.
+void Equilibrium::take_back(std::span<const Weakening> changes, const Batch& batch) {
+  for (const Index other : changed_sides_) {
+    axial_[other] = is_closed(other) ? secants_[other] : 1.0;
+  }
+  changed_sides_.clear();
+  for (std::size_t k = 0; k < changes.size(); ++k) {
+    if (batch.was_first[k]) std::erase(damaged_, changes[k].element);
+    set_secant(changes[k].element, batch.secants[k]);
+  }
+  damaged_ends_.clear();
+  must_rebuild_ = false;
+  events_to_follow_ = 0;
+  factorize();
+}
+
+}  // namespace perilink
