@@ -139,7 +139,7 @@ double DamageRun::scale_of(const StepRecord& record) const {
 void DamageRun::note_broken(const StepRecord& record, StateSource& source) {
   const std::size_t count = static_cast<std::size_t>(record.broken_bonds);
   if (count == broken_.size()) return;
-  if (count == broken_.size() + 1 && last_element_ != no_index &&
+  if (count == broken_.size() + 1 && last_element_ != no_index && last_events_ == 1 &&
       input.analysis.control == LoadControl::events) {
     broken_.push_back(last_element_);
     is_broken_[last_element_] = 1;
@@ -279,6 +279,7 @@ void DamageRun::on_step(const StepRecord& record, StateSource& source) {
   show_progress(record);
   if (wants_fields(record)) write_state(record, source);
   last_element_ = record.element;
+  last_events_ = record.events;
   last_stage_ = record.stage;
 }
 

@@ -95,6 +95,18 @@ void BoxFactor::correct(std::vector<double>& residual, double energy) {
   energy > 0.0 ? solver_->correct(residual, residual, energy) : solver_->solve(residual, residual);
 }
 
+void BoxFactor::follow(std::vector<double>& residual, double energy) {
+  if (!window_.empty()) forget();
+  const int before = solver_->iterations();
+  correct(residual, energy);
+  const int iterations = solver_->iterations() - before;
+  if (following_iterations_ == 0) following_iterations_ = iterations;
+  if (iterations <= 1.5 * following_iterations_) return;
+  make_solver();
+  following_iterations_ = 0;
+  ++begun_;
+}
+
 /// What the vector is made of in the window, if it is.
 auto BoxFactor::parts_of(const SparseVector& x) const -> std::optional<std::vector<Part>> {
   std::vector<Part> parts;

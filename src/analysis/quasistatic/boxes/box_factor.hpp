@@ -47,6 +47,9 @@ class BoxFactor final : public Factor {
   void expect(std::vector<SparseVector> x) { expected_ = std::move(x); }
   /// residual <- K^-1 residual, as exact as a solution of this energy is to be.
   void correct(std::vector<double>& residual, double energy);
+  /// correct() after elements have lost stiffness; no columns are kept. Boxes are made anew where
+  /// it takes many more iterations than with new ones.
+  void follow(std::vector<double>& residual, double energy);
   /// Elements of these vectors are gone, and hardly anybody asks for them any more: when the window
   /// is full they go first.
   void let_go(std::span<const SparseVector> x);
@@ -130,6 +133,7 @@ class BoxFactor final : public Factor {
   Secants secants_;
   const std::vector<double>* ground_ = nullptr;
   std::unique_ptr<BoxSolver> solver_;
+  int following_iterations_ = 0;      ///< of the first follow() with these boxes
   int first_iterations_ = 0;          ///< the first block took with these boxes
   std::vector<std::size_t> slot_of_;  ///< Unknowns::slots()
   std::vector<SparseVector> expected_;

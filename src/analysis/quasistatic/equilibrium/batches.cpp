@@ -237,8 +237,11 @@ bool Equilibrium::search_equilibrium() {
   measure_residual(residual);
   const double energy = 2.0 * internal_.energy;
   if (boxes_ != nullptr) {
-    boxes_->forget();
-    refine(residual);
+    boxes_->follow(residual, energy);
+    for (std::size_t k = 0; k < residual.size(); ++k) solution_[k] += residual[k];
+    scatter_solution();
+    is_exact_ = true;
+    force_work_ = work_of_forces();
     if (constant_) refresh_constant();
     return true;
   }

@@ -157,21 +157,22 @@ bool Equilibrium::is_cheaper_anew(std::size_t changes) const {
   return static_cast<double>(changes) * passes_per_change * factor.bytes / bytes_per_second > anew;
 }
 
+void Equilibrium::turn(const std::vector<Index>& elements) {
+  for (const Index element : elements) {
+    axial_[element] = is_closed(element) ? secants_[element] : 1.0;
+  }
+}
+
 /// All at once, with one new factor. \return false where what opens held the body: then all is as
 /// it was
 bool Equilibrium::change_together(const std::vector<Index>& wrong) {
-  const auto turn = [&] {
-    for (const Index element : wrong) {
-      axial_[element] = is_closed(element) ? secants_[element] : 1.0;
-    }
-  };
-  turn();
+  turn(wrong);
   try {
     factorize();
     if (holds_apart(wrong)) return true;
   } catch (const NotPositiveDefinite&) {
   }
-  turn();
+  turn(wrong);
   factorize();
   return false;
 }
@@ -199,14 +200,10 @@ bool Equilibrium::holds_apart(const std::vector<Index>& opened) const {
 /// What closes holds the body while others open. \return the bonds that have changed their side;
 /// none where all that ought to hold the body
 std::vector<Index> Equilibrium::change_sides(std::vector<Index> wrong) {
-  if (lags_) {
-    for (const Index element : wrong) {
-      axial_[element] = is_closed(element) ? secants_[element] : 1.0;
-    }
+  if (lags_ || follows_boxes()) {
+    turn(wrong);
     if (search_equilibrium()) return wrong;
-    for (const Index element : wrong) {
-      axial_[element] = is_closed(element) ? secants_[element] : 1.0;
-    }
+    turn(wrong);
     factorize();
   }
   if (is_cheaper_anew(wrong.size()) && change_together(wrong)) return wrong;
@@ -236,9 +233,10 @@ bool Equilibrium::follow_sides(const std::vector<Index>& wrong, EventOutcome& ou
   const std::vector<Index> changed = change_sides(wrong);
   if (changed.empty()) return false;
   changed_sides_.insert(changed_sides_.end(), changed.begin(), changed.end());
-  const bool is_new = lags_ || factor_->factorizations() != factors;
-  if (options_.event_tolerance == 0.0 || boxes_ != nullptr || stale_) {
-    if (!lags_) refresh();
+  const bool is_new =
+      lags_ || follows_boxes() || factor_->factorizations() != factors;
+  if (options_.event_tolerance == 0.0 || stale_) {
+    refresh();
   } else if (!is_new) {
     ForceOfElements forces(solution_.size());
     for (std::size_t k = 0; k < wrong.size(); ++k) {

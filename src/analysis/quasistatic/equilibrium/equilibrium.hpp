@@ -331,6 +331,8 @@ class Equilibrium {
   int gradients(std::vector<double>& residual, std::span<double> solution, double energy);
   void multiply(std::span<const double> q, std::span<double> result);
   void take_back(std::span<const Weakening> changes, const Batch& batch);
+  /// Whether solutions by conjugate gradients with boxes follow batches.
+  bool follows_boxes() const { return boxes_ != nullptr && options_.event_tolerance > 0.0; }
   /// The factor is made anew where it lags behind the secants.
   void bring_factor_up() {
     if (lags_) factorize();
@@ -358,6 +360,7 @@ class Equilibrium {
   void add_growth(Index element, const Extension& before, EventOutcome& outcome) const;
   bool is_grounded(Index element) const;
   std::vector<Index> on_wrong_side() const;
+  void turn(const std::vector<Index>& elements);
   void close(Index element);
   bool open(Index element);
   bool is_cheaper_anew(std::size_t changes) const;
