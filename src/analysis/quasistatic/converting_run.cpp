@@ -27,12 +27,15 @@ bool EventRun::converts(const Event& event, double sense, double most) {
     }
   }
   if (!fails) return false;
-  if (!conversion_->is_carried(event.element)) {
+  std::vector<Index> failing = event.others;
+  failing.push_back(event.element);
+  const auto is_carried = [&](Index element) { return conversion_->is_carried(element); };
+  if (std::ranges::none_of(failing, is_carried)) {
     note_late_conversions(event, sense);
     return false;
   }
   std::vector<Index> near = engine_->near_events(event, as_near);
-  near.push_back(event.element);
+  near.insert(near.end(), failing.begin(), failing.end());
   take_over(conversion_->convert(conversion_->carriers_of(near)), event.load_factor);
   return true;
 }

@@ -186,6 +186,7 @@ void EventRun::record(double load_factor, const LoadWork& work, const Event& eve
   row_.freed_energy = energy_.freed();
   row_.factorizations = engine_->factorizations();
   row_.element = event.element;
+  row_.others = event.others;
   row_.events = static_cast<Index>(event.others.size()) + 1;
   row_.seconds = timer_.seconds();
   timer_.restart();

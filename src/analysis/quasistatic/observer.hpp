@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "base/types.hpp"
 #include "network/network.hpp"
@@ -27,7 +28,8 @@ struct StepRecord {
   double residual = 0.0;           ///< |f - K u| / |f| when last measured
   int factorizations = 0;
   Index element = no_index;   ///< fails at this load
-  Index events = 1;           ///< elements that fail with it, itself counted
+  Index events = 1;           ///< elements that fail at this load
+  std::vector<Index> others = {};  ///< those but `element`; not in history.csv
   Index stage = 0;            ///< number of the stage, from one; 0: the run has none
   Index avalanche = 0;        ///< 1: the element was beyond its limit, at a load that does not move
   Index side_change = 0;      ///< 1: the element and others close or open, and nothing fails

@@ -89,12 +89,15 @@ std::size_t rows_before_through_crack(const Network& network, std::span<const St
   }
   Cracks cracks(network);
   std::unordered_map<Index, int> events;
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    const Index element = rows[k].element;
-    if (element == no_index || element >= network.first_tie || rows[k].side_change != 0) continue;
+  const auto runs_through = [&](Index element) {
+    if (element == no_index || element >= network.first_tie) return false;
     const Index law = network.law_of.empty() ? 0 : network.law_of[element];
-    if (++events[element] != events_of_law[law]) continue;
-    if (cracks.add(element)) return k + 1;
+    return ++events[element] == events_of_law[law] && cracks.add(element);
+  };
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (rows[k].side_change != 0) continue;
+    if (runs_through(rows[k].element)) return k + 1;
+    if (std::ranges::any_of(rows[k].others, runs_through)) return k + 1;
   }
   return rows.size();
 }

@@ -76,7 +76,7 @@ auto Equilibrium::cheapest_way(const Batch& batch) -> Way {
 double Equilibrium::energy_lost(const Weakening& change) const {
   const Removal removal = removal_of(change.element, change.secant);
   double energy = 0.0;
-  for (const double deformation : deformations(removal, change.element)) {
+  for (const double deformation : deformations_now(removal, change.element)) {
     energy += deformation * deformation;
   }
   return energy;

@@ -164,7 +164,9 @@ class Equilibrium {
   /// is changed, made anew or left behind, whichever costs least (batches.cpp).
   /// \return nothing where one by one has to tell whether the body survives it: then all is as it
   ///         was
-  /// Twice the energy of what an element loses, at load factor 1.
+  /// Whether weaken() of an element alone costs no new factor and no columns.
+  bool follows_single_events() const { return !lags_ && boxes_ == nullptr; }
+  /// Twice the energy of what an element loses, at load factor 1 or at the present one of a stage.
   double energy_lost(const Weakening& change) const;
   std::optional<EventOutcome> weaken_together(std::span<const Weakening> changes);
 

@@ -63,13 +63,13 @@ void SingleEventEngine::add_others(Event& event, double ratio, double most) {
   const bool in_step = !std::isinf(most);
   const double wanted = in_step ? 1.0 / most : (1.0 - tolerance_) * ratio;
   std::vector<BreakSearch::Hit> hits = search_->list(equilibrium_.where_elements_fail(), wanted);
-  std::ranges::stable_sort(hits, std::greater(), &BreakSearch::Hit::ratio);
-  if (!in_step) limit_batch(event, hits);
+  const LoadWork work = equilibrium_.work();
+  if (!in_step) limit_batch(event, work.forces + work.supports, hits);
   double least = ratio;
   for (const BreakSearch::Hit& hit : hits) {
     if (hit.element == event.element || !fails_with_others(hit.element)) continue;
     event.others.push_back(hit.element);
-    least = hit.ratio;
+    least = std::min(least, hit.ratio);
   }
   event.load_factor = std::min(2.0 / (ratio + least), most);
 }
@@ -77,13 +77,15 @@ void SingleEventEngine::add_others(Event& event, double ratio, double most) {
 /// Where a crack runs on, a batch unloads elements that are about to fail, too. So it ends where
 /// what its elements lose would let the load fall by half of the tolerance. Where the load fell by
 /// more than a quarter of the tolerance since the last batch, the next one has half as many.
-/// \param hits  the largest ratio first
-void SingleEventEngine::limit_batch(const Event& event, std::vector<BreakSearch::Hit>& hits) {
+/// \param energy  twice the energy of the body, at load factor 1 or at the present one of a stage
+/// \param hits    on return the largest ratio first
+void SingleEventEngine::limit_batch(const Event& event, double energy,
+                                    std::vector<BreakSearch::Hit>& hits) {
   constexpr double most_lost = 0.5, most_fall = 0.25, growth = 1.5;
   const bool fell = event.load_factor < (1.0 - most_fall * tolerance_) * last_factor_;
   most_at_once_ = fell ? std::max(1.0, 0.5 * last_count_) : growth * most_at_once_;
-  const LoadWork work = equilibrium_.work();
-  double left = most_lost * tolerance_ * (work.forces + work.supports);
+  double left = most_lost * tolerance_ * energy;
+  std::ranges::stable_sort(hits, std::greater(), &BreakSearch::Hit::ratio);
   std::size_t count = 0;
   for (; count < hits.size() && static_cast<double>(count) < most_at_once_; ++count) {
     const Index element = hits[count].element;
@@ -162,7 +164,8 @@ void SingleEventEngine::prepare(const Event& event) {
 }
 
 EventOutcome SingleEventEngine::apply(const Event& event) {
-  if (!fails_with_others(event.element)) return apply_one(event);
+  const bool alone = event.others.empty() && equilibrium_.follows_single_events();
+  if (alone || !fails_with_others(event.element)) return apply_one(event);
   if (auto outcome = apply_together(event)) return *outcome;
   EventOutcome outcome = apply_one(event);
   for (const Index other : event.others) {

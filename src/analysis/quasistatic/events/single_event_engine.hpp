@@ -49,7 +49,7 @@ class SingleEventEngine : public EventEngine {
     return tolerance_ > 0.0 && !network_.law(element).is_brittle();
   }
   void add_others(Event& event, double ratio, double most);
-  void limit_batch(const Event& event, std::vector<BreakSearch::Hit>& hits);
+  void limit_batch(const Event& event, double energy, std::vector<BreakSearch::Hit>& hits);
   EventOutcome apply_one(const Event& event);
   std::optional<EventOutcome> apply_together(const Event& event);
   int next_tooth(Index element) const;

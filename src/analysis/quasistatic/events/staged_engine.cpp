@@ -155,9 +155,18 @@ Event StagedEngine::next_event_below(double /*most*/) {
 /// with it; all that are beyond them do where the load does not move.
 Event StagedEngine::with_others(Event event) {
   if (!fails_with_others(event.element)) return event;
-  const double share = event.avalanche ? 1.0 : 1.0 - 0.5 * tolerance_;
-  for (const Index element : near_events(event, share)) {
-    if (element != event.element && fails_with_others(element)) event.others.push_back(element);
+  std::vector<BreakSearch::Hit> hits =
+      near_hits(event, event.avalanche ? 1.0 : 1.0 - 0.5 * tolerance_);
+  if (!event.avalanche) {
+    const LoadWork work = load_work();
+    const Beside beside{2.0 * (work.constant.forces_on_motion + work.constant.growing_supports),
+                        work.constant.forces + work.constant.supports};
+    const double growing = load_factor_ * load_factor_ * (work.forces + work.supports);
+    limit_batch(event, growing + beside.at(load_factor_), hits);
+  }
+  for (const BreakSearch::Hit& hit : hits) {
+    if (hit.element == event.element || !fails_with_others(hit.element)) continue;
+    event.others.push_back(hit.element);
   }
   return event;
 }
