@@ -214,8 +214,9 @@ struct AnalysisSection {
   FactorRoute factor = FactorRoute::in_place;
   LinearSolver solver = LinearSolver::automatic;
   std::optional<int> coarse_box;    ///< particles along an edge of a box
-  /// Elements with segments fail together within this part of the load factor; 0: one by one.
-  double event_tolerance = 0.0;
+  /// Elements whose laws have segments fail together within this part of the load factor; 0: one
+  /// by one; absent: event_tolerance_of().
+  std::optional<double> event_tolerance;
   double duration = 0.0;            ///< [time]; from here on: type = explicit
   double ramp_time = 0.0;           ///< until the load factor is one [time]
   std::optional<double> time_step;  ///< [time]

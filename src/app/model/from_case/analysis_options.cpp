@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/process/ranks.hpp"
+#include "io/case/sections/case_kinds.hpp"
 
 namespace perilink {
 namespace {
@@ -26,7 +27,7 @@ DamageOptions damage_options(const CaseFile& input, int threads) {
   options.engine.solver = input.analysis.solver;
   options.engine.boxes.edge = input.analysis.coarse_box.value_or(0);
   options.engine.boxes.ranks = ranks();
-  options.engine.event_tolerance = input.analysis.event_tolerance;
+  options.engine.event_tolerance = event_tolerance_of(input);
   const bool steps = input.analysis.control == LoadControl::steps;
   if (steps) options.load_factors = input.analysis.load_factors;
   options.stop = rules_of(input.stop);

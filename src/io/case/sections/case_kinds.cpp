@@ -1,5 +1,6 @@
 #include "io/case/sections/case_kinds.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 #include <cctype>
@@ -46,6 +47,17 @@ bool is_particles(const BodySection& body) { return body.model == BodyModel::par
 
 bool has_state_based_particles(const BodySection& body) {
   return is_lattice(body) || is_particles(body);
+}
+
+double event_tolerance_of(const CaseFile& input) {
+  // verification/studies/event_tolerance
+  constexpr double usual = 0.02;
+  const auto softens = [](const auto& section) {
+    return section.softening.shape.kind != Softening::brittle;
+  };
+  const bool any = std::ranges::any_of(input.materials, softens) ||
+                   std::ranges::any_of(input.interfaces, softens);
+  return input.analysis.event_tolerance.value_or(any ? usual : 0.0);
 }
 
 std::string why_nothing_rotates(const BodySection& body) {

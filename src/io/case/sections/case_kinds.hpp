@@ -37,6 +37,10 @@ bool is_particles(const BodySection& body);
 /// Whether it says either.
 bool has_state_based_particles(const BodySection& body);
 
+/// The event tolerance of a damage analysis: the one given, else 0.02 where a material or an
+/// interface softens, and 0 where none does.
+double event_tolerance_of(const CaseFile& input);
+
 /// Why particles have no rotations where the body is not micropolar, and what would give them some:
 /// parts of refusals.
 std::string why_nothing_rotates(const BodySection& body);

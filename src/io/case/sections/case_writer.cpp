@@ -176,7 +176,8 @@ void write_run(TomlWriter& out, const CaseFile& input) {
     if (!breaks) out.write("tolerance", input.analysis.tolerance);
   }
   if (!breaks) return;
-  out.write("event_tolerance", input.analysis.event_tolerance);
+  const double tolerance = event_tolerance_of(input);
+  if (input.analysis.event_tolerance || tolerance > 0.0) out.write("event_tolerance", tolerance);
   if (input.stages.empty()) {
     out.header("[stop]");
     write_stop(out, input.stop);
