@@ -233,11 +233,11 @@ bool Equilibrium::follow_sides(const std::vector<Index>& wrong, EventOutcome& ou
   const std::vector<Index> changed = change_sides(wrong);
   if (changed.empty()) return false;
   changed_sides_.insert(changed_sides_.end(), changed.begin(), changed.end());
-  const bool is_new =
-      lags_ || follows_boxes() || factor_->factorizations() != factors;
-  if (options_.event_tolerance == 0.0 || stale_) {
+  const bool is_followed = lags_ || follows_boxes();  // by a search already
+  if (!is_followed && (options_.event_tolerance == 0.0 || partial_ ||
+                       factor_->factorizations() != factors)) {
     refresh();
-  } else if (!is_new) {
+  } else if (!is_followed) {
     ForceOfElements forces(solution_.size());
     for (std::size_t k = 0; k < wrong.size(); ++k) {
       const auto& [extension, was_closed] = before[k];
