@@ -64,6 +64,15 @@ void SingleEventEngine::add_others(Event& event, double ratio, double most) {
   const double wanted = in_step ? 1.0 / most : (1.0 - tolerance_) * ratio;
   std::vector<BreakSearch::Hit> hits = search_->list(equilibrium_.where_elements_fail(), wanted);
   std::ranges::stable_sort(hits, std::greater(), &BreakSearch::Hit::ratio);
+  // Ties are in the order of their numbers, whatever their last digits say.
+  for (auto begin = hits.begin(); begin != hits.end();) {
+    const double least = (1.0 - tie_tolerance) * begin->ratio;
+    const auto end = std::find_if(begin, hits.end(), [&](const BreakSearch::Hit& hit) {
+      return hit.ratio < least;
+    });
+    std::ranges::sort(begin, end, std::less(), &BreakSearch::Hit::element);
+    begin = end;
+  }
   if (!in_step) limit_batch(event, hits);
   double least = ratio;
   for (const BreakSearch::Hit& hit : hits) {
