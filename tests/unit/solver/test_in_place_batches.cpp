@@ -246,14 +246,15 @@ TEST_P(Batches, PathsAddUp) {
   EXPECT_EQ(factor_->path_of({}), 0.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Routes, Batches,
-    testing::Values(std::pair{FactorRoute::in_place, 1}, std::pair{FactorRoute::in_place, 3},
-                    std::pair{FactorRoute::cholmod_updown, 1},
-                    std::pair{FactorRoute::refactorize, 1}),
-    [](const auto& test) {
-      return std::string(word_of(test.param.first)) + "_" + std::to_string(test.param.second);
-    });
+INSTANTIATE_TEST_SUITE_P(Routes, Batches,
+                         testing::Values(std::pair{FactorRoute::in_place, 1},
+                                         std::pair{FactorRoute::in_place, 3},
+                                         std::pair{FactorRoute::cholmod_updown, 1},
+                                         std::pair{FactorRoute::refactorize, 1}),
+                         [](const auto& test) {
+                           return std::string(word_of(test.param.first)) + "_" +
+                                  std::to_string(test.param.second);
+                         });
 
 /// The paths of single bonds are a small part of a large factor, and less of it is counted then.
 TEST(InPlaceBatches, CountTheirPathsOnly) {

@@ -234,8 +234,8 @@ bool Equilibrium::follow_sides(const std::vector<Index>& wrong, EventOutcome& ou
   if (changed.empty()) return false;
   changed_sides_.insert(changed_sides_.end(), changed.begin(), changed.end());
   const bool is_followed = lags_ || follows_boxes();  // by a search already
-  if (!is_followed && (options_.event_tolerance == 0.0 || partial_ ||
-                       factor_->factorizations() != factors)) {
+  if (!is_followed &&
+      (options_.event_tolerance == 0.0 || partial_ || factor_->factorizations() != factors)) {
     refresh();
   } else if (!is_followed) {
     ForceOfElements forces(solution_.size());

@@ -175,8 +175,8 @@ TEST_P(Width, ChangeTogetherFindsOutWhereNothingIsLeft) {
 
 INSTANTIATE_TEST_SUITE_P(Shapes, Width,
                          testing::Values(std::pair{1, 1}, std::pair{4, 4}, std::pair{5, 3},
-                                         std::pair{8, 8}, std::pair{30, 8}, std::pair{31, 13}, std::pair{40, 24},
-                                         std::pair{64, 17}));
+                                         std::pair{8, 8}, std::pair{30, 8}, std::pair{31, 13},
+                                         std::pair{40, 24}, std::pair{64, 17}));
 
 }  // namespace
 }  // namespace perilink

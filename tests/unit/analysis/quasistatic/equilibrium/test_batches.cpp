@@ -120,8 +120,7 @@ class FollowedBody {
 
     const LoadWork work = equilibrium->work();
     const double size = work.forces + work.supports;
-    EXPECT_NEAR(outcome->compliance_growth, work.compliance() - compliance,
-                batch_closeness * size);
+    EXPECT_NEAR(outcome->compliance_growth, work.compliance() - compliance, batch_closeness * size);
     const Eigen::MatrixXd gone = before - stiffness();
     const Eigen::VectorXd u_now = grown();
     EXPECT_NEAR(outcome->compliance_growth, u.dot(gone * u_now), batch_closeness * size);
