@@ -75,7 +75,7 @@ std::string case_of(const JointStrip& strip, bool swapped, bool backwards) {
 }
 
 /// Largest relative difference between the bonds of two networks; infinite where others are left.
-double difference(const Network& a, const Network& b) {
+double network_difference(const Network& a, const Network& b) {
   if (a.bonds.first != b.bonds.first || a.bonds.second != b.bonds.second) return infinity;
   double largest = 0.0;
   for (std::size_t e = 0; e < a.stiffness.size(); ++e) {
@@ -109,7 +109,7 @@ TEST(JointStrengths, DoNotDependOnTheOrderOfMaterialsOrTheDirectionOfACrack) {
     const Network first = network(false, false);
     for (const auto& [swapped, backwards] :
          {std::pair(false, true), std::pair(true, false), std::pair(true, true)}) {
-      const double own = difference(first, network(swapped, backwards));
+      const double own = network_difference(first, network(swapped, backwards));
       EXPECT_LT(own, 1e-9) << case_of(strip, swapped, backwards);
       largest = std::max(largest, own);
     }

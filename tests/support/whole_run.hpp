@@ -14,14 +14,16 @@ namespace perilink::test {
 /// A run of any kind in a directory of its own, from its case to its summary.
 class WholeRun {
  public:
-  explicit WholeRun(CaseFile of_case) : input(std::move(of_case)), run(make_run(input, 1, true)) {
+  explicit WholeRun(CaseFile of_case, int threads = 1)
+      : input(std::move(of_case)), run(make_run(input, threads, true)) {
     RunFiles& files = run->open(work.path(), true);
     run->analyse();
     run->seconds.analysis = 2.0;
     files.finish();
     summary = summary_of(*run, work.path());
   }
-  explicit WholeRun(const std::string& text) : WholeRun(parse_case(text, "")) {}
+  explicit WholeRun(const std::string& text, int threads = 1)
+      : WholeRun(parse_case(text, ""), threads) {}
 
   CsvTable history() const { return read_csv((work / "history.csv").string()); }
   /// A column of the history.

@@ -88,6 +88,7 @@ std::optional<EventOutcome> Equilibrium::weaken_together(std::span<const Weakeni
     return closed || !network_.has_limit(change.element);
   };
   if (look_closer_ || std::ranges::any_of(changes, stands_alone)) return std::nullopt;
+  changed_sides_.clear();
   Batch batch = batch_of(changes);
   EventOutcome outcome;
   double removed = 0.0;  // twice the energy that the elements lose

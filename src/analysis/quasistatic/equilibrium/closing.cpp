@@ -233,11 +233,11 @@ bool Equilibrium::follow_sides(const std::vector<Index>& wrong, EventOutcome& ou
   const std::vector<Index> changed = change_sides(wrong);
   if (changed.empty()) return false;
   changed_sides_.insert(changed_sides_.end(), changed.begin(), changed.end());
-  const bool is_found = lags_ || follows_boxes();  // by change_sides()
-  const bool by_factor = factor_->factorizations() == factors && !partial_;
-  if (options_.event_tolerance == 0.0 || (!is_found && !by_factor)) {
+  const bool is_followed = lags_ || follows_boxes();  // by a search already
+  if (!is_followed &&
+      (options_.event_tolerance == 0.0 || partial_ || factor_->factorizations() != factors)) {
     refresh();
-  } else if (!is_found) {
+  } else if (!is_followed) {
     ForceOfElements forces(solution_.size());
     for (std::size_t k = 0; k < wrong.size(); ++k) {
       const auto& [extension, was_closed] = before[k];

@@ -86,12 +86,19 @@ void SingleEventEngine::limit_batch(const Event& event, double energy,
   most_at_once_ = fell ? std::max(1.0, 0.5 * last_count_) : growth * most_at_once_;
   double left = most_lost * tolerance_ * energy;
   std::ranges::stable_sort(hits, std::greater(), &BreakSearch::Hit::ratio);
+  // Ties are in the order of their numbers, whatever their last digits say.
+  for (auto begin = hits.begin(); begin != hits.end();) {
+    const double least = (1.0 - tie_tolerance) * begin->ratio;
+    const auto end = std::find_if(begin, hits.end(),
+                                  [&](const BreakSearch::Hit& hit) { return hit.ratio < least; });
+    std::ranges::sort(begin, end, std::less(), &BreakSearch::Hit::element);
+    begin = end;
+  }
   std::size_t count = 0;
   for (; count < hits.size() && static_cast<double>(count) < most_at_once_; ++count) {
     const Index element = hits[count].element;
     if (!fails_with_others(element)) continue;
-    left -= equilibrium_.energy_lost(
-        {element, law_of(element).tooth(next_tooth(element)).secant});
+    left -= equilibrium_.energy_lost({element, law_of(element).tooth(next_tooth(element)).secant});
     if (left < 0.0) break;
   }
   hits.resize(std::max<std::size_t>(count, 1));
@@ -178,7 +185,8 @@ EventOutcome SingleEventEngine::apply(const Event& event) {
 EventOutcome SingleEventEngine::apply_one(const Event& event) {
   prepare(event);
   const int next = next_tooth(event.element);
-  EventOutcome outcome = equilibrium_.weaken(event.element, law_of(event.element).tooth(next).secant);
+  EventOutcome outcome =
+      equilibrium_.weaken(event.element, law_of(event.element).tooth(next).secant);
   if (outcome.mechanism) {
     outcome.broken = outcome.broke() ? 1 : 0;
     return outcome;
@@ -204,8 +212,8 @@ std::optional<EventOutcome> SingleEventEngine::apply_together(const Event& event
 }
 
 int SingleEventEngine::next_tooth(Index element) const {
-  const bool compressed = law_of(element).crushes() &&
-                          is_shorter(network_, element, equilibrium_.where_search_looks());
+  const bool compressed =
+      law_of(element).crushes() && is_shorter(network_, element, equilibrium_.where_search_looks());
   return BondLaw::after(teeth_[element], compressed);
 }
 

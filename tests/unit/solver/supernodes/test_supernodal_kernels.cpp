@@ -106,10 +106,77 @@ TEST_P(Width, ChangeGivesTheFactorOfTheChangedMatrixAndSolvesWithTheOldOne) {
   EXPECT_LT((product - changed).leftCols(node.columns).norm(), 1e-13 * changed.norm());
 }
 
+/// Vectors that share columns and rows below: L D L' with what is left of them below is the whole
+/// matrix less all of them.
+TEST_P(Width, ChangeTogetherGivesTheFactorOfTheMatrixLessAllVectors) {
+  for (const Index count : {1, 2, 3, 16}) {
+    SCOPED_TRACE(count);
+    Supernode changed = node;
+    Eigen::MatrixXd diagonal = Eigen::MatrixXd::Identity(node.rows, node.rows);
+    for (Index j = 0; j < node.columns; ++j) diagonal(j, j) = node.block(j, j);
+    Eigen::MatrixXd w(node.rows, count);
+    for (Index m = 0; m < count; ++m) {
+      for (Index r = 0; r < node.rows; ++r) w(r, m) = 0.05 * std::sin(1.0 + 2.0 * m + 3.0 * r * r);
+    }
+    const Eigen::MatrixXd expected =
+        node.lower() * diagonal * node.lower().transpose() - w * w.transpose();
+    Eigen::VectorXd sigma = Eigen::VectorXd::Constant(count, -1.0);
+
+    ASSERT_TRUE(supernodal::change_together(changed.block.data(), node.rows, node.columns, count,
+                                            w.data(), sigma.data()));
+
+    const Index below = node.rows - node.columns;
+    for (Index j = 0; j < node.columns; ++j) diagonal(j, j) = changed.block(j, j);
+    const Eigen::MatrixXd left = w.bottomRows(below);
+    diagonal.bottomRightCorner(below, below) += left * sigma.asDiagonal() * left.transpose();
+    const Eigen::MatrixXd product = changed.lower() * diagonal * changed.lower().transpose();
+    EXPECT_LT((product - expected).norm(), 1e-13 * expected.norm());
+    for (Index j = 0; j < node.columns; ++j) {
+      for (Index r = 0; r < j; ++r) EXPECT_TRUE(std::isnan(changed.block(r, j)));
+    }
+  }
+}
+
+/// At the root -1 / sigma is the pivot of each vector after those before it.
+TEST_P(Width, ChangeTogetherTellsThePivots) {
+  if (node.rows != node.columns) return;
+  constexpr Index count = 5;
+  Eigen::MatrixXd diagonal = Eigen::MatrixXd::Identity(node.rows, node.rows);
+  for (Index j = 0; j < node.columns; ++j) diagonal(j, j) = node.block(j, j);
+  Eigen::MatrixXd matrix = node.lower() * diagonal * node.lower().transpose();
+  Eigen::MatrixXd w(node.rows, count);
+  for (Index m = 0; m < count; ++m) {
+    w.col(m) = (0.1 + 0.05 * m) * test_vector(node.rows + m).tail(node.rows);
+  }
+  const Eigen::MatrixXd x = w;
+  Eigen::VectorXd sigma = Eigen::VectorXd::Constant(count, -1.0);
+  ASSERT_TRUE(supernodal::change_together(node.block.data(), node.rows, node.columns, count,
+                                          w.data(), sigma.data()));
+  for (Index m = 0; m < count; ++m) {
+    EXPECT_NEAR(-1.0 / sigma[m], 1.0 - x.col(m).dot(matrix.ldlt().solve(x.col(m))), 1e-13) << m;
+    matrix -= x.col(m) * x.col(m).transpose();
+  }
+}
+
+/// Each of the vectors alone leaves something, and two of them nothing.
+TEST_P(Width, ChangeTogetherFindsOutWhereNothingIsLeft) {
+  const Index last = node.columns - 1;
+  Eigen::MatrixXd w = Eigen::MatrixXd::Zero(node.rows, 2);
+  w.row(last).setConstant(0.8 * std::sqrt(node.block(last, last)));
+  Eigen::VectorXd sigma = Eigen::VectorXd::Constant(2, -1.0);
+  Supernode one = node;
+  Eigen::MatrixXd first = w.leftCols(1);
+  EXPECT_TRUE(supernodal::change_together(one.block.data(), node.rows, node.columns, 1,
+                                          first.data(), sigma.data()));
+  sigma.setConstant(-1.0);
+  EXPECT_FALSE(supernodal::change_together(node.block.data(), node.rows, node.columns, 2, w.data(),
+                                           sigma.data()));
+}
+
 INSTANTIATE_TEST_SUITE_P(Shapes, Width,
-                         testing::Values(std::pair{1, 1}, std::pair{5, 3}, std::pair{8, 8},
-                                         std::pair{30, 8}, std::pair{31, 13}, std::pair{40, 24},
-                                         std::pair{64, 17}));
+                         testing::Values(std::pair{1, 1}, std::pair{4, 4}, std::pair{5, 3},
+                                         std::pair{8, 8}, std::pair{30, 8}, std::pair{31, 13},
+                                         std::pair{40, 24}, std::pair{64, 17}));
 
 }  // namespace
 }  // namespace perilink

@@ -12,14 +12,14 @@ using namespace test;
 using testing::UnorderedElementsAre;
 
 /// Four particles, every pair bonded: 0 - 1, 0 - 2, 0 - 3, 1 - 2, 1 - 3, 2 - 3.
-Network square() {
+Network crushing_square() {
   Network network = make_square().network;
   network.laws.front() = BondLaw::brittle().crushing({{1.0, 1.0}}, 7.0, true);
   return network;
 }
 
 TEST(CrushingBonds, WakeAtBothEndsOfWhatIsStretched) {
-  const Network network = square();
+  const Network network = crushing_square();
   ASSERT_EQ(network.num_elements(), 6);
   CrushingBonds bonds(network);
   EXPECT_THAT(bonds.wake(0), UnorderedElementsAre(0, 1, 2, 0, 3, 4));
@@ -29,7 +29,7 @@ TEST(CrushingBonds, WakeAtBothEndsOfWhatIsStretched) {
 }
 
 TEST(CrushingBonds, AreThoseOfTheLawThatCanBreak) {
-  Network network = square();
+  Network network = crushing_square();
   network.critical_stretch[1] = std::numeric_limits<double>::infinity();
   network.laws.push_back(BondLaw::brittle());
   network.law_of = {0, 0, 1, 0, 0, 0};
@@ -38,7 +38,7 @@ TEST(CrushingBonds, AreThoseOfTheLawThatCanBreak) {
 }
 
 TEST(CrushingBonds, AreShorterWhereTheirEndsApproach) {
-  const Network network = square();
+  const Network network = crushing_square();
   const std::vector<double> motion = {0.0, 0.0, 0.5, 1.0, 0.2, -2.0, 0.2, 0.0};
   const auto sides = [&](Index element, double x, double y) {
     const std::span<const double> n = network.bonds.direction(element);
