@@ -187,7 +187,8 @@ void EventRun::record(double load_factor, const LoadWork& work, const Event& eve
   row_.factorizations = engine_->factorizations();
   row_.element = event.element;
   row_.others = event.others;
-  row_.events = static_cast<Index>(event.others.size()) + 1;
+  const bool fails = event.element != no_index && !event.changes_side;
+  row_.events = fails ? static_cast<Index>(event.others.size()) + 1 : 0;
   row_.seconds = timer_.seconds();
   timer_.restart();
 

@@ -32,7 +32,8 @@ struct Column {
     switch (with) {
       case With::stages: return !input.stages.empty();
       case With::elements: return input.elements.has_value();
-      case With::batches: return event_tolerance_of(input) > 0.0;
+      case With::batches:
+        return event_tolerance_of(input) > 0.0 && input.analysis.control == LoadControl::events;
       default: return true;
     }
   }

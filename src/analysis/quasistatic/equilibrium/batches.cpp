@@ -8,8 +8,8 @@
 
 #include "analysis/quasistatic/equilibrium/equilibrium.hpp"
 #include "assembly/stiffness.hpp"
+#include "base/error.hpp"
 #include "solver/conjugate_gradients.hpp"
-#include "solver/not_positive_definite.hpp"
 #include "solver/supernodes/supernodal_kernels.hpp"
 
 namespace perilink {
@@ -41,6 +41,8 @@ double along(const SparseVector& x, std::span<const double> u) {
 
 auto Equilibrium::batch_of(std::span<const Weakening> changes) const -> Batch {
   Batch batch;
+  batch.solution = solution_;
+  if (constant_) batch.constant_solution = constant_->solution;
   for (const auto& [element, secant] : changes) {
     batch.removals.push_back(removal_of(element, secant));
     batch.before.push_back(deformations(batch.removals.back(), element));
@@ -51,6 +53,7 @@ auto Equilibrium::batch_of(std::span<const Weakening> changes) const -> Batch {
       beside[m] = along(removal.x[m], constant_->solution);
     }
     batch.was_first.push_back(secants_[element] == 1.0 ? 1 : 0);
+    batch.breaks.push_back(secant == 0.0 ? 1 : 0);
     batch.vectors += static_cast<std::size_t>(batch.removals.back().rank);
   }
   return batch;
@@ -91,6 +94,7 @@ std::optional<EventOutcome> Equilibrium::weaken_together(std::span<const Weakeni
   changed_sides_.clear();
   Batch batch = batch_of(changes);
   EventOutcome outcome;
+  outcome.secant = 1.0;
   double removed = 0.0;  // twice the energy that the elements lose
   for (std::size_t k = 0; k < changes.size(); ++k) {
     double energy = 0.0;
@@ -118,7 +122,7 @@ std::optional<EventOutcome> Equilibrium::weaken_together(std::span<const Weakeni
   }
   // Elements that are strained far more without their stiffness than before were what held the body.
   const bool doubtful = !(outcome.compliance_growth * doubtful_pivot < removed) ||
-                        !(outcome.pivot > doubtful_pivot);
+                        !(outcome.pivot > doubtful_pivot) || !resists_without(batch);
   if (!doubtful) {
     follow(outcome);
     if (!axial_.empty()) settle_closing(outcome);
@@ -145,19 +149,56 @@ void Equilibrium::add_growth(const Removal& removal, Index element, const Deform
 
 /// The equilibrium of the secants as they are. \return false where none is found
 /// \param pivot  the smallest of the batch, where the factor tells
-bool Equilibrium::follow_batch(const Batch& batch, double& pivot) {
+bool Equilibrium::follow_batch(Batch& batch, double& pivot) {
   must_rebuild_ = false;
-  if (boxes_ != nullptr) return search_equilibrium();
-  const Way way = cheapest_way(batch);
+  const Way way = boxes_ != nullptr ? Way::gradients : cheapest_way(batch);
+  batch.tells_pivots = way == Way::change;
   if (way == Way::change) return change_factor(batch, pivot);
-  must_rebuild_ = true;  // work products are summed anew
-  if (way == Way::gradients && search_equilibrium()) return true;
+  must_rebuild_ = boxes_ == nullptr;  // work products are summed anew
   try {
+    batch.keeps_factor = way == Way::gradients;
+    if (way == Way::gradients && search_equilibrium()) return true;
+    if (boxes_ != nullptr) return false;
+    batch.keeps_factor = false;
     factorize();
     return true;
-  } catch (const NotPositiveDefinite&) {
+  } catch (const SolverError&) {
     return false;
   }
+}
+
+/// Whether the body resists where elements have broken, in motions that the loads do not show: a
+/// load along what they held does little work, where the factor has not told their pivots.
+bool Equilibrium::resists_without(const Batch& batch) {
+  if (batch.tells_pivots) return true;
+  std::vector<double> load(solution_.size(), 0.0), motion(solution_.size(), 0.0);
+  double size = 0.5, vectors = 0.0;
+  for (std::size_t k = 0; k < batch.removals.size(); ++k) {
+    if (!batch.breaks[k]) continue;
+    for (const SparseVector& x : batch.removals[k].vectors()) {
+      for (int j = 0; j < x.size(); ++j) load[x.rows[j]] += size * x.values[j];
+      size = size < 1.0 ? size + 0.381966 : size - 0.618034;  // never twice the same
+      ++vectors;
+    }
+  }
+  if (vectors == 0.0) return true;
+  const std::vector<double> forces = load;
+  constexpr double rough = 1e-2;
+  try {
+    if (boxes_ != nullptr) {
+      // Errors count by this energy.
+      boxes_->correct(load, vectors * std::pow(rough / options_.boxes.tolerance, 2));
+      motion = std::move(load);
+    } else if (!lags_) {
+      factor_->solve(load, motion);
+    } else if (gradients(load, motion, vectors * rough * rough / (enough * enough)) == 0) {
+      return false;
+    }
+  } catch (const SolverError&) {
+    return false;
+  }
+  const double work = scalar_product(forces, motion);
+  return work >= 0.0 && work * doubtful_pivot < vectors;
 }
 
 bool Equilibrium::change_factor(const Batch& batch, double& pivot) {
@@ -272,7 +313,7 @@ bool Equilibrium::search_constant() {
   return steps > 0;
 }
 
-/// The body as it was before, with a new factor.
+/// The body as it was before.
 void Equilibrium::take_back(std::span<const Weakening> changes, const Batch& batch) {
   for (const Index other : changed_sides_) {
     axial_[other] = is_closed(other) ? secants_[other] : 1.0;
@@ -285,7 +326,13 @@ void Equilibrium::take_back(std::span<const Weakening> changes, const Batch& bat
   damaged_ends_.clear();
   must_rebuild_ = false;
   events_to_follow_ = 0;
-  factorize();
+  if (!batch.keeps_factor) return factorize();
+  solution_ = batch.solution;
+  scatter_solution();
+  force_work_ = work_of_forces();
+  if (!constant_) return;
+  constant_->solution = batch.constant_solution;
+  scatter_constant();
 }
 
 }  // namespace perilink

@@ -348,7 +348,10 @@ Balance Equilibrium::check() {
     return {size, internal_.energy};
   }
   events_to_follow_ = 0;
-  bring_factor_up();
+  if (lags_) {
+    factorize();
+    size = measure_residual(residual);
+  }
   if (size <= std::min(2.0 * fresh_residual_, most_to_refine * options_.residual_tolerance)) {
     // The factor is as good as a fresh one, whose solutions need a step of refinement here.
     refine(residual);

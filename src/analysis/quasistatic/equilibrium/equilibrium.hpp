@@ -319,13 +319,18 @@ class Equilibrium {
     std::vector<Deformations> beside;     ///< x'u of displacements by constant loads
     std::vector<std::uint8_t> was_first;  ///< whether each was intact
     std::vector<double> secants;          ///< of each before
+    std::vector<std::uint8_t> breaks;     ///< whether each loses all of its stiffness
+    std::vector<double> solution, constant_solution;  ///< before
+    bool tells_pivots = false;  ///< the factor has told the smallest
+    bool keeps_factor = false;  ///< the factor is that of before
     std::size_t vectors = 0;
   };
   Batch batch_of(std::span<const Weakening> changes) const;
   Way cheapest_way(const Batch& batch);
   void add_growth(const Removal& removal, Index element, const Deformations& before,
                   const Deformations& beside, EventOutcome& outcome) const;
-  bool follow_batch(const Batch& batch, double& pivot);
+  bool follow_batch(Batch& batch, double& pivot);
+  bool resists_without(const Batch& batch);
   bool change_factor(const Batch& batch, double& pivot);
   void follow_forces(const ForceOfElements& forces);
   bool search_equilibrium();

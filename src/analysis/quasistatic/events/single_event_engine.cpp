@@ -173,13 +173,9 @@ void SingleEventEngine::prepare(const Event& event) {
 EventOutcome SingleEventEngine::apply(const Event& event) {
   const bool alone = event.others.empty() && equilibrium_.follows_single_events();
   if (alone || !fails_with_others(event.element)) return apply_one(event);
-  if (auto outcome = apply_together(event)) return *outcome;
-  EventOutcome outcome = apply_one(event);
-  for (const Index other : event.others) {
-    if (outcome.mechanism) break;
-    outcome.add(apply_one({other, event.load_factor}));
-  }
-  return outcome;
+  std::vector<Index> elements = {event.element};
+  elements.insert(elements.end(), event.others.begin(), event.others.end());
+  return apply_all(elements, event.load_factor);
 }
 
 EventOutcome SingleEventEngine::apply_one(const Event& event) {
@@ -195,18 +191,25 @@ EventOutcome SingleEventEngine::apply_one(const Event& event) {
   return outcome;
 }
 
-std::optional<EventOutcome> SingleEventEngine::apply_together(const Event& event) {
-  std::vector<Index> elements = {event.element};
-  elements.insert(elements.end(), event.others.begin(), event.others.end());
+/// Where a batch may separate the body its elements fail one by one; without a factor, which would
+/// make that cheap, half of them first.
+EventOutcome SingleEventEngine::apply_all(std::span<const Index> elements, double load_factor) {
   std::vector<int> teeth;
   std::vector<Equilibrium::Weakening> changes;
   for (const Index element : elements) {
     teeth.push_back(next_tooth(element));
     changes.push_back({element, law_of(element).tooth(teeth.back()).secant});
   }
-  std::optional<EventOutcome> outcome = equilibrium_.weaken_together(changes);
-  for (std::size_t k = 0; outcome && k < elements.size(); ++k) {
-    pass_limit(elements[k], teeth[k], *outcome);
+  if (auto outcome = equilibrium_.weaken_together(changes)) {
+    for (std::size_t k = 0; k < elements.size(); ++k) pass_limit(elements[k], teeth[k], *outcome);
+    return *outcome;
+  }
+  if (elements.size() == 1) return apply_one({elements[0], load_factor});
+  const std::size_t part = equilibrium_.follows_single_events() ? 1 : elements.size() / 2;
+  EventOutcome outcome;
+  for (std::size_t begin = 0; begin < elements.size() && !outcome.mechanism; begin += part) {
+    const auto some = elements.subspan(begin, std::min(part, elements.size() - begin));
+    outcome.add(part == 1 ? apply_one({some[0], load_factor}) : apply_all(some, load_factor));
   }
   return outcome;
 }

@@ -51,7 +51,7 @@ class SingleEventEngine : public EventEngine {
   void add_others(Event& event, double ratio, double most);
   void limit_batch(const Event& event, double energy, std::vector<BreakSearch::Hit>& hits);
   EventOutcome apply_one(const Event& event);
-  std::optional<EventOutcome> apply_together(const Event& event);
+  EventOutcome apply_all(std::span<const Index> elements, double load_factor);
   int next_tooth(Index element) const;
   void pass_limit(Index element, int tooth, EventOutcome& outcome);
 

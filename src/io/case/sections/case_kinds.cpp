@@ -51,7 +51,7 @@ bool has_state_based_particles(const BodySection& body) {
 
 double event_tolerance_of(const CaseFile& input) {
   // verification/studies/event_tolerance
-  constexpr double usual = 0.02;
+  constexpr double usual = 0.01;
   const auto softens = [](const auto& section) {
     return section.softening.shape.kind != Softening::brittle;
   };

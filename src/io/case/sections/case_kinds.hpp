@@ -37,7 +37,7 @@ bool is_particles(const BodySection& body);
 /// Whether it says either.
 bool has_state_based_particles(const BodySection& body);
 
-/// The event tolerance of a damage analysis: the one given, else 0.02 where a material or an
+/// The event tolerance of a damage analysis: the one given, else 0.01 where a material or an
 /// interface softens, and 0 where none does.
 double event_tolerance_of(const CaseFile& input);
 
