@@ -85,9 +85,8 @@ double InPlaceFactor::downdate_together(std::span<const SparseVector> x) {
     if (vector.size() > 0) permuted.push_back(permute(vector, position_));
   }
   // Neighbours share most of their paths.
-  std::stable_sort(permuted.begin(), permuted.end(), [](const auto& a, const auto& b) {
-    return a.rows[0] < b.rows[0];
-  });
+  std::stable_sort(permuted.begin(), permuted.end(),
+                   [](const auto& a, const auto& b) { return a.rows[0] < b.rows[0]; });
   const std::size_t most = supernodal::most_together;
   together_.resize(most * static_cast<std::size_t>(size_), 0.0);
   double smallest = 1.0;

@@ -84,7 +84,8 @@ std::vector<CurvePoint> event_path(std::span<const StepRecord> records) {
     highest = std::max(highest, std::abs(record.load));
     const bool resists = std::abs(record.load) > factor_round_off * highest;
     if (record.stage > 0) return {};
-    if (k > 0 && events_before(record) != events_before(records[k - 1]) + records[k - 1].events) return {};
+    if (k > 0 && events_before(record) != events_before(records[k - 1]) + records[k - 1].events)
+      return {};
     if (!resists && k + 1 == records.size()) break;
     if (!(record.load * record.displacement > 0.0) || !axes_hold_all_energy(record)) return {};
     if (k > 0) {

@@ -27,10 +27,10 @@ struct StepRecord {
   double released_energy = 0.0;    ///< sum of the elements' energies at the moment they failed
   double residual = 0.0;           ///< |f - K u| / |f| when last measured
   int factorizations = 0;
-  Index element = no_index;   ///< fails at this load
-  Index events = 1;           ///< elements that fail at this load
+  Index element = no_index;        ///< fails at this load
+  Index events = 1;                ///< elements that fail at this load
   std::vector<Index> others = {};  ///< those but `element`; not in history.csv
-  Index stage = 0;            ///< number of the stage, from one; 0: the run has none
+  Index stage = 0;                 ///< number of the stage, from one; 0: the run has none
   Index avalanche = 0;        ///< 1: the element was beyond its limit, at a load that does not move
   Index side_change = 0;      ///< 1: the element and others close or open, and nothing fails
   Index elements = 0;         ///< that carry particles in this equilibrium

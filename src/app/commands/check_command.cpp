@@ -20,6 +20,7 @@
 #include "base/error.hpp"
 #include "base/timer.hpp"
 #include "discretization/lattices/triangulate.hpp"
+#include "io/case/sections/case_kinds.hpp"
 #include "network/builder/free_bodies.hpp"
 #include "solver/factor_routes.hpp"
 
@@ -46,7 +47,7 @@ std::string run_text(const CaseFile& input, double set_up, const ExpectedCost& c
   if (softening) {
     return fmt::format(
         "about {} until the first event; how many there will be nothing tells: "
-        "bonds that soften have thousands before the peak",
+        "bodies that soften have hundreds to thousands of batches",
         time_text(begin));
   }
   if (!input.stop.broken_bonds) {
@@ -89,13 +90,23 @@ void print_cost(const CaseFile& input, const Network& network,
   print_set_up(set_up);
   fmt::print("#   {:<18} {}\n", factor ? "factorisation" : "solution",
              time_text(cost.factorization));
+  const bool batches = softens(network) && event_tolerance_of(input) > 0.0;
+  const double each = batches ? cost.batch : cost.broken_bond;
   if (events) {
     fmt::print("#   {:<18} {:.3g} ms{}; 1000 of them {}\n",
-               softens(network) ? "each event" : "each broken bond", 1e3 * cost.broken_bond,
-               input.elements ? " at first" : "", time_text(1e3 * cost.broken_bond));
+               batches            ? "each batch"
+               : softens(network) ? "each event"
+                                  : "each broken bond",
+               1e3 * each, input.elements ? " at first" : "", time_text(1e3 * each));
   }
   fmt::print("#   run                {}\n",
              run_text(input, set_up.seconds(), cost, softens(network)));
+  if (events && softens(network)) {
+    fmt::print(
+        "#   faster             event_tolerance = 0.05, a larger softening_error, [elements] "
+        "where nothing cracks,\n#                      control = \"steps\", or type = "
+        "\"explicit\"\n");
+  }
 }
 
 /// Prints the fundamental period, with which loading times are compared, but of bodies for which it
@@ -255,7 +266,7 @@ int check_case(const std::string& case_path, bool trust_geometry) {
   const Network& network = model.network;
   std::optional<FactorStatistics> factor;
   const bool by_boxes = input.analysis.type == AnalysisType::damage
-                            ? is_followed_by_boxes(input.analysis.solver)
+                            ? is_followed_by_boxes(model, damage_options(input, 1).engine)
                             : is_for_boxes(model, input.analysis.solver);
   if (model.elements || !by_boxes) {
     factor =

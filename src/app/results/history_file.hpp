@@ -38,7 +38,7 @@ class HistoryFile {
  private:
   void write(std::vector<double> row, std::span<const double> gauges, double seconds);
 
-  bool bonds_break_;  ///< and not particles
+  bool bonds_break_;                ///< and not particles
   std::vector<std::size_t> shown_;  ///< columns of quasistatic runs
   CsvWriter history_;
   CsvWriter timing_;

@@ -75,11 +75,12 @@ std::string text_of_ranks(const FactorStatistics& factor) {
 }
 
 std::string solver_text(const FactorStatistics& factor) {
-  const std::string work =
+  std::string work =
       factor.boxes > 0
           ? fmt::format("conjugate gradients with {} boxes, made {} time{}", factor.boxes,
                         factor.factorizations, factor.factorizations == 1 ? "" : "s")
           : fmt::format("{} factorisations", factor.factorizations);
+  if (factor.iterations > 0) work += fmt::format(", {} iterations", factor.iterations);
   return work + text_of_ranks(factor);
 }
 
@@ -202,6 +203,7 @@ void tell_quasistatic(Summary& summary, const CaseFile& input, const Model& mode
   }
   summary.add("notes", summary.notes);
   summary.add("factorizations", found.factor.factorizations);
+  if (found.factor.iterations > 0) summary.add("iterations", found.factor.iterations);
   summary.add("factor_bytes", found.factor.bytes);
   if (found.factor.ranks > 1) summary.add("ranks", found.factor.ranks);
   summary.line("solver", "{}, largest residual {:.1e}", found.solver, found.largest_residual);

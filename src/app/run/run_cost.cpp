@@ -12,7 +12,14 @@ namespace {
 
 /// Rough rates of a quiet server core (verification/benchmarks).
 constexpr double factor_flops_per_second = 15e9;
-constexpr double read_bytes_per_second = 36e9;
+/// Of a factor in the caches, and of one that is larger than them.
+constexpr double read_bytes_per_second = 36e9, read_bytes_beyond_caches = 15e9;
+constexpr double bytes_of_caches = 8e6;
+/// Passes through the factor for a batch of events: change, solution, sides of closed bonds
+/// (verification/studies/event_tolerance).
+constexpr double passes_per_batch = 2.5;
+/// Solutions from the last displacements, for the events and for the sides of closed bonds.
+constexpr double solutions_per_batch = 2.0;
 constexpr double search_seconds_per_bond = 1e-9;
 /// Boxes and some 55 iterations (verification/studies/large_bodies).
 constexpr double box_seconds_per_bond = 0.5e-6, box_seconds_per_frame_bond = 3e-6;
@@ -115,9 +122,11 @@ ExpectedCost expected_cost(const Network& network, const FactorStatistics& facto
   cost.memory = std::max(peak_memory_bytes(), 1.3 * factor.bytes + 300.0 * network.num_elements());
   cost.factorization = factor.flops / factor_flops_per_second;
   const double share = forces_alone ? share_that_is_kept(network) : 1.0;
-  cost.broken_bond =
-      passes_per_break(network) * share * 1.1 * factor.bytes / read_bytes_per_second +
-      search_seconds_per_bond * network.num_elements() + seconds_per_row;
+  const double pass = factor.bytes / (factor.bytes > bytes_of_caches ? read_bytes_beyond_caches
+                                                                     : read_bytes_per_second);
+  const double beside = search_seconds_per_bond * network.num_elements() + seconds_per_row;
+  cost.broken_bond = passes_per_break(network) * share * 1.1 * pass + beside;
+  cost.batch = passes_per_batch * pass + 4.0 * beside;
   cost.field_file = seconds_per_file + seconds_per_particle_of_file * network.particles.size();
   return cost;
 }
@@ -154,6 +163,7 @@ ExpectedCost expected_cost_of_boxes(const Network& network, bool events) {
                            : softens ? solutions_per_softening_event
                                      : solutions_per_event;
   cost.broken_bond = solutions * cost.factorization + seconds_per_row;
+  cost.batch = solutions_per_batch * cost.factorization;
   return cost;
 }
 

@@ -213,7 +213,7 @@ struct AnalysisSection {
   RigidBodyModes rigid_body_modes = RigidBodyModes::refuse;
   FactorRoute factor = FactorRoute::in_place;
   LinearSolver solver = LinearSolver::automatic;
-  std::optional<int> coarse_box;    ///< particles along an edge of a box
+  std::optional<int> coarse_box;  ///< particles along an edge of a box
   /// Elements whose laws have segments fail together within this part of the load factor; 0: one
   /// by one; absent: event_tolerance_of().
   std::optional<double> event_tolerance;

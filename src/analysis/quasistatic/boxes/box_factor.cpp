@@ -95,18 +95,6 @@ void BoxFactor::correct(std::vector<double>& residual, double energy) {
   energy > 0.0 ? solver_->correct(residual, residual, energy) : solver_->solve(residual, residual);
 }
 
-void BoxFactor::follow(std::vector<double>& residual, double energy) {
-  if (!window_.empty()) forget();
-  const int before = solver_->iterations();
-  correct(residual, energy);
-  const int iterations = solver_->iterations() - before;
-  if (following_iterations_ == 0) following_iterations_ = iterations;
-  if (iterations <= 1.5 * following_iterations_) return;
-  make_solver();
-  following_iterations_ = 0;
-  ++begun_;
-}
-
 /// What the vector is made of in the window, if it is.
 auto BoxFactor::parts_of(const SparseVector& x) const -> std::optional<std::vector<Part>> {
   std::vector<Part> parts;
@@ -393,6 +381,7 @@ FactorStatistics BoxFactor::statistics() const {
   // To begin anew costs two solutions: some hundred products of ten operations for each bond.
   result.flops = 1000.0 * static_cast<double>(network_.num_elements());
   result.factorizations = begun_;
+  result.iterations = all_iterations_;
   result.ranks = solver_ ? solver_->num_ranks() : 1;
   result.boxes = solver_ ? solver_->num_boxes() : 0;
   return result;

@@ -133,6 +133,7 @@ class BoxFactor final : public Factor {
   Secants secants_;
   const std::vector<double>* ground_ = nullptr;
   std::unique_ptr<BoxSolver> solver_;
+  int all_iterations_ = 0;            ///< of follow()
   int following_iterations_ = 0;      ///< of the first follow() with these boxes
   int first_iterations_ = 0;          ///< the first block took with these boxes
   std::vector<std::size_t> slot_of_;  ///< Unknowns::slots()

@@ -1,4 +1,4 @@
-// What a BoxFactor does with steps that its solution waits for.
+// Steps that the solution of a BoxFactor waits for, and solutions that follow batches.
 
 #include <algorithm>
 #include <cmath>
@@ -59,6 +59,20 @@ std::vector<double> BoxFactor::present_extensions(std::span<const SparseVector> 
     }
   }
   return result;
+}
+
+void BoxFactor::follow(std::vector<double>& residual, double energy) {
+  constexpr double many_more = 1.5;
+  if (!window_.empty()) forget();
+  const int before = solver_->iterations();
+  correct(residual, energy);
+  const int iterations = solver_->iterations() - before;
+  all_iterations_ += iterations;
+  if (following_iterations_ == 0) following_iterations_ = iterations;
+  if (iterations <= many_more * following_iterations_) return;
+  make_solver();
+  following_iterations_ = 0;
+  ++begun_;
 }
 
 }  // namespace perilink

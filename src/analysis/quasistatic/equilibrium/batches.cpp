@@ -24,6 +24,10 @@ constexpr double seconds_to_assemble = 3e-7, seconds_per_force = 1e-8;
 /// Time of a solution for forces on the elements of a batch over that of one for all forces.
 constexpr double share_of_solution = 0.7;
 
+/// Unknowns of a body in space from which on conjugate gradients with boxes follow a batch faster
+/// than any way with a factor (verification/studies/event_tolerance).
+constexpr Index fewest_for_boxes = 15000;
+
 /// Steps of conjugate gradients that are expected before any have been made.
 constexpr int expected_steps = 12;
 
@@ -54,9 +58,30 @@ auto Equilibrium::batch_of(std::span<const Weakening> changes) const -> Batch {
     }
     batch.was_first.push_back(secants_[element] == 1.0 ? 1 : 0);
     batch.breaks.push_back(secant == 0.0 ? 1 : 0);
-    batch.vectors += static_cast<std::size_t>(batch.removals.back().rank);
   }
   return batch;
+}
+
+bool is_followed_by_boxes(const LoadedNetwork& problem, const EquilibriumOptions& options) {
+  if (options.solver != LinearSolver::automatic) return options.solver == LinearSolver::iterative;
+  const Network& network = problem.network;
+  const bool is_solid = network.dim() == 3 && !network.shell && !network.is_beam();
+  const bool is_plain = !problem.carried && !problem.unknowns.carries() && problem.sets.empty() &&
+                        network.first_tie == network.num_elements() && !network.has_states();
+  if (!(options.event_tolerance > 0.0) || options.route != FactorRoute::in_place || !is_solid ||
+      !is_plain || problem.unknowns.count < fewest_for_boxes) {
+    return false;
+  }
+  for (Index e = 0; e < network.num_elements(); ++e) {
+    if (network.has_limit(e) && network.law(e).is_brittle()) return false;
+  }
+  return true;
+}
+
+FactorStatistics Equilibrium::factor_statistics() const {
+  FactorStatistics statistics = factor_->statistics();
+  statistics.iterations += gradient_steps_;
+  return statistics;
 }
 
 /// By counted work: the answer does not depend on the machine's load, nor on the number of threads.
@@ -199,6 +224,10 @@ bool Equilibrium::resists_without(const Batch& batch) {
   }
   const double work = scalar_product(forces, motion);
   return work >= 0.0 && work * doubtful_pivot < vectors;
+}
+
+void Equilibrium::bring_factor_up() {
+  if (lags_) factorize();
 }
 
 bool Equilibrium::change_factor(const Batch& batch, double& pivot) {

@@ -7,6 +7,7 @@
 
 #include "analysis/quasistatic/equilibrium/equilibrium.hpp"
 #include "assembly/stiffness.hpp"
+#include "base/error.hpp"
 
 namespace perilink {
 namespace {
@@ -21,6 +22,43 @@ double work_on(const Unknowns& unknowns, const Loads& loads, std::span<const dou
 }
 
 }  // namespace
+
+void Equilibrium::begin_stage(const Unknowns& unknowns, const Loads& loads,
+                              ConstantField constant) {
+  bring_factor_up();
+  keep_all_current();
+  const bool fewer_move = static_cast<std::size_t>(unknowns.count) != solution_.size();
+  if (fewer_move && !ground_stiffness_.empty()) {
+    throw SolverError("nothing can be gripped while ground springs hold a loose part");
+  }
+  // Springs hold what came loose where it is.
+  constant.ground_load = ground_load_;
+  for (std::size_t k = 0; constant_ && k < ground_load_.size(); ++k) {
+    constant.ground_load[k] = constant_->ground_load[k] + constant_->load_factor * ground_load_[k];
+  }
+  std::fill(ground_load_.begin(), ground_load_.end(), 0.0);
+  unknowns_ = &unknowns;
+  loads_ = &loads;
+  constant_ = std::move(constant);
+  find_driven_elements();
+  find_driven_slots();
+  displacement_ = unknowns.prescribed;
+  find_loaded_slots();
+  if (fewer_move) {
+    factorize_anew();
+  } else if (restored_) {
+    factorize();
+  }
+  restored_ = false;
+  events_to_follow_ = 0;
+  last_work_ = 0.0;
+  adopt_load();
+}
+
+void Equilibrium::restore(std::span<const Index> elements) {
+  for (const Index element : elements) set_secant(element, 1.0);
+  restored_ = restored_ || !elements.empty();
+}
 
 void Equilibrium::find_driven_slots() {
   const auto width = static_cast<std::size_t>(network_.width());

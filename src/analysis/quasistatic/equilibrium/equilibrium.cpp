@@ -31,16 +31,6 @@ constexpr double cancelled_work = 1e-7;
 /// summed over the elements again, as soon as displacements are exact.
 constexpr int most_events_to_follow = 16;
 
-/// A force on a prescribed displacement is a part of the reaction there, whose work counts.
-std::vector<std::size_t> loaded_slots(const Unknowns& unknowns, const Loads& loads) {
-  std::vector<std::size_t> slots;
-  for (std::size_t slot = 0; slot < unknowns.number.size(); ++slot) {
-    if (unknowns.number[slot] == no_index) continue;
-    if (loads.forces[slot] != 0.0) slots.push_back(slot);
-  }
-  return slots;
-}
-
 }  // namespace
 
 Equilibrium::Equilibrium(const LoadedNetwork& problem, const EquilibriumOptions& options)
@@ -50,7 +40,7 @@ Equilibrium::Equilibrium(const LoadedNetwork& problem, const EquilibriumOptions&
       options_(options),
       secants_(static_cast<std::size_t>(network_.num_elements()), 1.0),
       has_kept_(network_.has_kept_shear()) {
-  if (is_followed_by_boxes(options.solver)) {
+  if (is_followed_by_boxes(problem, options)) {
     if (problem.carried) throw std::invalid_argument("boxes do not follow what is carried");
     auto boxes = std::make_unique<BoxFactor>(network_, options.boxes);
     boxes_ = boxes.get();
@@ -93,6 +83,15 @@ void Equilibrium::find_driven_elements() {
   }
 }
 
+/// A force on a prescribed displacement is a part of the reaction there, whose work counts.
+void Equilibrium::find_loaded_slots() {
+  loaded_slots_.clear();
+  for (std::size_t slot = 0; slot < unknowns_->number.size(); ++slot) {
+    if (unknowns_->number[slot] == no_index) continue;
+    if (loads_->forces[slot] != 0.0) loaded_slots_.push_back(slot);
+  }
+}
+
 /// A new factor for the unknowns as they are.
 void Equilibrium::factorize_anew() {
   lags_ = false;
@@ -110,7 +109,7 @@ void Equilibrium::factorize_anew() {
 /// Equilibrium under the unknowns as they are, from a new factor.
 void Equilibrium::adopt_motion() {
   displacement_ = unknowns_->prescribed;
-  loaded_slots_ = loaded_slots(*unknowns_, *loads_);
+  find_loaded_slots();
   factorize_anew();
   choose_current_unknowns();
   adopt_load();
@@ -125,43 +124,6 @@ void Equilibrium::adopt_load() {
   std::vector<double> residual;
   fresh_residual_ = measure_residual(residual);
   refine(residual);
-}
-
-void Equilibrium::begin_stage(const Unknowns& unknowns, const Loads& loads,
-                              ConstantField constant) {
-  bring_factor_up();
-  keep_all_current();
-  const bool fewer_move = static_cast<std::size_t>(unknowns.count) != solution_.size();
-  if (fewer_move && !ground_stiffness_.empty()) {
-    throw SolverError("nothing can be gripped while ground springs hold a loose part");
-  }
-  // Springs hold what came loose where it is.
-  constant.ground_load = ground_load_;
-  for (std::size_t k = 0; constant_ && k < ground_load_.size(); ++k) {
-    constant.ground_load[k] = constant_->ground_load[k] + constant_->load_factor * ground_load_[k];
-  }
-  std::fill(ground_load_.begin(), ground_load_.end(), 0.0);
-  unknowns_ = &unknowns;
-  loads_ = &loads;
-  constant_ = std::move(constant);
-  find_driven_elements();
-  find_driven_slots();
-  displacement_ = unknowns.prescribed;
-  loaded_slots_ = loaded_slots(unknowns, loads);
-  if (fewer_move) {
-    factorize_anew();
-  } else if (restored_) {
-    factorize();
-  }
-  restored_ = false;
-  events_to_follow_ = 0;
-  last_work_ = 0.0;
-  adopt_load();
-}
-
-void Equilibrium::restore(std::span<const Index> elements) {
-  for (const Index element : elements) set_secant(element, 1.0);
-  restored_ = restored_ || !elements.empty();
 }
 
 Freedom Equilibrium::change_motion(const Unknowns& unknowns) {

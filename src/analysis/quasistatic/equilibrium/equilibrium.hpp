@@ -1,7 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -11,6 +9,8 @@
 
 #include "analysis/quasistatic/boxes/box_factor.hpp"
 #include "analysis/quasistatic/equilibrium/constant_field.hpp"
+#include "analysis/quasistatic/equilibrium/event_batch.hpp"
+#include "analysis/quasistatic/equilibrium/event_outcome.hpp"
 #include "analysis/quasistatic/equilibrium/removal.hpp"
 #include "assembly/internal_force.hpp"
 #include "base/error.hpp"
@@ -19,68 +19,6 @@
 #include "solver/linear_solver.hpp"
 
 namespace perilink {
-
-/// What became of an element that lost stiffness.
-struct EventOutcome {
-  bool mechanism = false;  ///< the element held the last load path, weak elastic supports not
-                           ///< counted: nothing was changed
-  double secant = 0.0;     ///< with it the element goes on, over its intact stiffness; 0: it broke
-  bool broke() const { return secant == 0.0; }
-  /// 1 - x' K^-1 x, of a micropolar bond the smallest of its modes; 0: cannot be told from zero
-  double pivot = 1.0;
-  /// Growth of f'u - R'd at load factor 1: k e^2 / pivot [force length]. The event dissipates
-  /// lambda_k lambda_(k+1) / 2 times this along the path drawn through the events.
-  double compliance_growth = 0.0;
-  double released = 0.0;      ///< energy that left the element, at load factor 1 [force length]
-  bool changed_side = false;  ///< a damaged bond closed or opened
-  /// Set by the engine: elements that broke, and that went on with a smaller secant.
-  Index broken = 0, yielded = 0;
-  Index exhausted = no_index;  ///< set by the engine: an element that no longer limits anything
-  Beside growth_beside = {}, released_beside = {};  ///< what constant loads add to both
-
-  /// What became of another element after this one.
-  void add(const EventOutcome& next) {
-    mechanism = next.mechanism;
-    secant = next.secant;
-    pivot = std::min(pivot, next.pivot);
-    broken += next.broken;
-    yielded += next.yielded;
-    if (next.exhausted != no_index) exhausted = next.exhausted;
-    if (mechanism) return;
-    compliance_growth += next.compliance_growth;
-    released += next.released;
-    growth_beside += next.growth_beside;
-    released_beside += next.released_beside;
-  }
-};
-
-/// A body that has become as many times as compliant by one event lies in two. Bonds that are
-/// parallel but for the last digits of a mesh, or of round-off, leave less.
-inline constexpr double next_to_infinite = 1e12;
-
-/// Work products at load factor 1 [force length].
-struct LoadWork {
-  double forces = 0.0;    ///< f'u: applied forces on their displacements
-  double supports = 0.0;  ///< R'd: reactions of driven particles on their displacements
-  /// The body no longer resists what drives it: nothing does, and both are zero, or what does is
-  /// next to nothing beside what it was.
-  bool separated = false;
-  ConstantWork constant = {};  ///< what constant loads add
-  double compliance() const { return forces - supports; }
-};
-
-/// Growth of the compliance f'u - R'd without an event, at load factor 1 [force length].
-struct Freedom {
-  double growth = 0.0;
-  Beside beside = {};  ///< what constant loads add
-};
-
-/// Figures that need a pass over the elements.
-struct Balance {
-  double residual = 0.0;       ///< |f - K u| / |f|
-  double stored_energy = 0.0;  ///< sum over elements of k e^2 / 2 at load factor 1 [force length]
-  Beside stored_beside = {};   ///< what constant loads add
-};
 
 /// Cracks that were there from the start have cut a piece off, and the first loads pull it away.
 class CracksSeparate : public SolverError {
@@ -100,9 +38,9 @@ struct EquilibriumOptions {
   double event_tolerance = 0.0;
 };
 
-/// Whether conjugate gradients take the place of a factor that follows every event: only where they
-/// are asked for (docs/theory/large_bodies.md, section 5).
-inline bool is_followed_by_boxes(LinearSolver solver) { return solver == LinearSolver::iterative; }
+/// Whether conjugate gradients take the place of a factor that follows every event: where they are
+/// asked for, and for batches in large bodies in space (docs/theory/large_bodies.md, section 5).
+bool is_followed_by_boxes(const LoadedNetwork& problem, const EquilibriumOptions& options);
 
 /// Pivots below this are computed again from energies: a body that is slender or about to separate
 /// has a condition number that takes most digits of what the factor says.
@@ -156,19 +94,16 @@ class Equilibrium {
   /// \throws SolverError where the latter does not end
   EventOutcome weaken(Index element, double secant);
 
-  struct Weakening {
-    Index element;
-    double secant;  ///< with which it goes on
-  };
   /// Elements that go on with smaller secants at once: one solution for all of them. Their factor
   /// is changed, made anew or left behind, whichever costs least (batches.cpp).
   /// \return nothing where one by one has to tell whether the body survives it: then all is as it
   ///         was
+  std::optional<EventOutcome> weaken_together(std::span<const Weakening> changes);
+
   /// Whether weaken() of an element alone costs no new factor and no columns.
   bool follows_single_events() const { return !lags_ && boxes_ == nullptr; }
   /// Twice the energy of what an element loses, at load factor 1 or at the present one of a stage.
   double energy_lost(const Weakening& change) const;
-  std::optional<EventOutcome> weaken_together(std::span<const Weakening> changes);
 
   /// The first damaged bond that closes or opens as the load factor of a stage moves on, and how
   /// far it has to.
@@ -208,6 +143,7 @@ class Equilibrium {
   Freedom change_motion(const Unknowns& unknowns);
 
   const Factor& factor() const { return *factor_; }
+  FactorStatistics factor_statistics() const;
   /// Smaller differences of displacements may be none, also between particles that do not move: the
   /// rest of the body leaves its errors there [length]. Of trusses by a factor zero.
   double noise() const { return 1e-12 * largest_motion_; }
@@ -252,7 +188,8 @@ class Equilibrium {
   void check_constant(Balance& balance);
 
  private:
-  using Deformations = std::array<double, Removal::capacity>;
+  using Deformations = Removal::Deformations;
+  using Batch = EventBatch;
   /// Columns by conjugate gradients leave more than a factor does: a larger residual is taken away
   /// before it grows.
   static constexpr double fine_residual = 1e-13;
@@ -273,6 +210,7 @@ class Equilibrium {
   void adopt_load();
   void factorize_anew();
   void find_driven_elements();
+  void find_loaded_slots();
   void choose_current_unknowns();
   void choose_glanced(const std::vector<std::uint8_t>& current);
   void factorize();
@@ -313,18 +251,6 @@ class Equilibrium {
 
   // Several elements at once: batches.cpp.
   enum class Way { change, renew, gradients };
-  struct Batch {
-    std::vector<Removal> removals;
-    std::vector<Deformations> before;     ///< of each by the loads that grow
-    std::vector<Deformations> beside;     ///< x'u of displacements by constant loads
-    std::vector<std::uint8_t> was_first;  ///< whether each was intact
-    std::vector<double> secants;          ///< of each before
-    std::vector<std::uint8_t> breaks;     ///< whether each loses all of its stiffness
-    std::vector<double> solution, constant_solution;  ///< before
-    bool tells_pivots = false;  ///< the factor has told the smallest
-    bool keeps_factor = false;  ///< the factor is that of before
-    std::size_t vectors = 0;
-  };
   Batch batch_of(std::span<const Weakening> changes) const;
   Way cheapest_way(const Batch& batch);
   void add_growth(const Removal& removal, Index element, const Deformations& before,
@@ -341,9 +267,7 @@ class Equilibrium {
   /// Whether solutions by conjugate gradients with boxes follow batches.
   bool follows_boxes() const { return boxes_ != nullptr && options_.event_tolerance > 0.0; }
   /// The factor is made anew where it lags behind the secants.
-  void bring_factor_up() {
-    if (lags_) factorize();
-  }
+  void bring_factor_up();
 
   // Damaged bonds that close: closing.cpp.
   bool is_closed(Index element) const { return axial_[element] > secants_[element]; }
@@ -418,11 +342,10 @@ class Equilibrium {
     secants_[element] = secant > 0.0 && keeps_shear(element) ? 1.0 : secant;
     if (!axial_.empty()) axial_[element] = secant;
   }
-  bool restored_ = false;  ///< since the last factorisation
-  /// The factor is that of an earlier body, and only preconditions: batches.cpp.
-  bool lags_ = false;
-  int gradient_steps_ = 0;  ///< of conjugate gradients, in all batches
-  int last_steps_ = 0;      ///< that the last batch took
+  bool restored_ = false;        ///< since the last factorisation
+  bool lags_ = false;            ///< the factor is that of an earlier body, and only preconditions
+  int gradient_steps_ = 0;       ///< of conjugate gradients, in all batches
+  int last_steps_ = 0;           ///< that the last batch took
   double missed_savings_ = 0.0;  ///< by changes of a factor that lags behind [time]
   std::vector<double> secants_;
   std::vector<double> axial_;  ///< the same against a change of length; empty where none differs

@@ -13,6 +13,7 @@ namespace perilink {
 /// modes, one of a bar and three or six of a micropolar bond.
 struct Removal {
   static constexpr int capacity = ElementVectors::capacity;
+  using Deformations = std::array<double, capacity>;
   int rank = 0;
   double fraction = 0.0;  ///< part of the intact stiffness that goes
   std::array<SparseVector, capacity> x;

@@ -195,7 +195,7 @@ EventOutcome SingleEventEngine::apply_one(const Event& event) {
 /// make that cheap, half of them first.
 EventOutcome SingleEventEngine::apply_all(std::span<const Index> elements, double load_factor) {
   std::vector<int> teeth;
-  std::vector<Equilibrium::Weakening> changes;
+  std::vector<Weakening> changes;
   for (const Index element : elements) {
     teeth.push_back(next_tooth(element));
     changes.push_back({element, law_of(element).tooth(teeth.back()).secant});

@@ -37,7 +37,7 @@ class SingleEventEngine : public EventEngine {
   void set_alert(std::span<const Index> elements, double fraction) override;
   std::vector<Index> near_events(const Event& event, double fraction) override;
   int factorizations() const override { return equilibrium_.factor().factorizations(); }
-  FactorStatistics factor_statistics() const override { return equilibrium_.factor().statistics(); }
+  FactorStatistics factor_statistics() const override { return equilibrium_.factor_statistics(); }
 
   /// Equilibrium::cut() of several elements, which have no events any more.
   int cut(std::span<const Index> elements);

@@ -1,7 +1,7 @@
 #include "io/case/sections/case_kinds.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 
 #include <cctype>
 #include <cmath>

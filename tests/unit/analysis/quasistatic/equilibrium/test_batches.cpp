@@ -60,9 +60,9 @@ class FollowedBody {
 
   /// Elements that may fail, are not broken and do not bear on closed cracks; some break, others go
   /// on with less than they have.
-  std::vector<Equilibrium::Weakening> random_batch(std::size_t count, unsigned seed) const {
+  std::vector<Weakening> random_batch(std::size_t count, unsigned seed) const {
     const Secants secants = equilibrium->secants();
-    std::vector<Equilibrium::Weakening> all, batch;
+    std::vector<Weakening> all, batch;
     for (Index e = 0; e < growing.network.num_elements(); ++e) {
       const bool closed = secants.axial(e) > secants[e];
       if (!growing.network.has_limit(e) || secants[e] < 0.1 || closed) continue;
@@ -99,7 +99,7 @@ class FollowedBody {
   }
 
   /// Lets a batch fail and looks at everything that it tells and leaves.
-  void expect_followed(const std::vector<Equilibrium::Weakening>& batch) {
+  void expect_followed(const std::vector<Weakening>& batch) {
     const Eigen::MatrixXd before = stiffness();
     const Eigen::VectorXd u = grown();
     const Eigen::VectorXd c = in_stages_ ? rested() : Eigen::VectorXd::Zero(u.size());
@@ -211,7 +211,7 @@ INSTANTIATE_TEST_SUITE_P(Blocks, TogetherFailing, testing::ValuesIn(batch_bodies
 
 enum class Took { change, renewal, gradients };
 
-Took way_of(FollowedBody& body, const std::vector<Equilibrium::Weakening>& batch) {
+Took way_of(FollowedBody& body, const std::vector<Weakening>& batch) {
   const int before = body.equilibrium->factor().factorizations();
   body.expect_followed(batch);
   if (body.equilibrium->factor().factorizations() > before) return Took::renewal;
@@ -262,7 +262,7 @@ TEST_P(Separating, BatchesAreRefusedAndLeaveAllAsItWas) {
   double end = 0.0;
   for (Index i = 0; i < particles.size(); ++i) end = std::max(end, particles.position(i)[0]);
   const auto right = [&](Index i) { return particles.position(i)[0] > 0.5 * end; };
-  std::vector<Equilibrium::Weakening> crossing;
+  std::vector<Weakening> crossing;
   const Secants secants = body.equilibrium->secants();
   for (Index e = 0; e < body.growing.network.num_elements(); ++e) {
     const Bonds& bonds = body.growing.network.bonds;
