@@ -20,7 +20,7 @@ struct FactorStatistics {
   double event_bytes = 0.0;  ///< part of L that the last downdate read (in place only)
   int factorizations = 0;    ///< so far
   int ranks = 1;             ///< processes that share the work
-  int iterations = 0;        ///< of conjugate gradients that follow batches of events
+  int iterations = 0;        ///< conjugate gradients after batches of events
   Index boxes = 0;           ///< where conjugate gradients stand in for a factor
 };
 

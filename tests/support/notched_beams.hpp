@@ -16,7 +16,7 @@ struct NotchedBeam {
   double spacing = 2.5;    ///< [length]
   double force = 0.0;      ///< on the top instead of a driven displacement
   double weight = 0.0;     ///< force on the top in a stage before
-  double tolerance = 0.0;  ///< event_tolerance; zero: left out
+  double tolerance = 0.0;  ///< event_tolerance
   std::string analysis;    ///< lines of [analysis]
   std::string stop = "load_fraction = 0.3";
   std::string sections;  ///< behind all others
@@ -56,7 +56,7 @@ inline std::string notched_beam_case(const NotchedBeam& beam) {
               : "[[displacements]]\nregion = \"top\"\ny = -0.05\n";
   if (beam.weight > 0.0) text += "stage = \"push\"\n";
   text += "[analysis]\n" + beam.analysis;
-  if (beam.tolerance > 0.0) text += fmt::format("event_tolerance = {}\n", beam.tolerance);
+  text += fmt::format("event_tolerance = {}\n", beam.tolerance);
   text += beam.weight > 0.0 ? "[[stages]]\nname = \"weight\"\nto = 1.0\n"
                               "[[stages]]\nname = \"push\"\nto = 2.5\n"
                             : "[stop]\n" + beam.stop + "\n";

@@ -62,8 +62,9 @@ void EventRun::doze() {
 void EventRun::note_late_conversions(const Event& event, double sense) {
   for (const auto& [bonds, alert] : freed_) {
     const bool freed = std::binary_search(bonds.begin(), bonds.end(), event.element);
+    const double near = std::max(tie_tolerance, options_.engine.event_tolerance);
     const bool earlier =
-        event.avalanche || sense * (alert - event.load_factor) > tie_tolerance * std::abs(alert);
+        event.avalanche || sense * (alert - event.load_factor) > near * std::abs(alert);
     const bool begins = row_.step == 0 && events_ == 0;  // nothing has happened by then
     if (begins || !freed || !earlier) continue;
     if (options_.begins_again) throw LateConversion{conversion_->whole()};

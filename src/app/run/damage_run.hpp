@@ -43,7 +43,7 @@ class DamageRun final : public NetworkRun, public StepObserver {
   std::vector<Index> broken_;   ///< bonds and ties, in the order of breaking
   std::vector<std::uint8_t> is_broken_;
   Index last_element_ = no_index;  ///< that failed at the end of the last row
-  Index last_events_ = 1;  ///< elements that failed with it
+  Index last_events_ = 1;          ///< elements that failed with it
   Index broken_at_fields_ = 0;     ///< number of broken bonds in the last field file
   Index last_stage_ = 0;           ///< where the last row was
   double highest_ = 0.0;           ///< |load| so far

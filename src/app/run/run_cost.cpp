@@ -12,7 +12,7 @@ namespace {
 
 /// Rough rates of a quiet server core (verification/benchmarks).
 constexpr double factor_flops_per_second = 15e9;
-/// Of a factor in the caches, and of one that is larger than them.
+/// A factor in the caches is read so fast, and one that is larger than them.
 constexpr double read_bytes_per_second = 36e9, read_bytes_beyond_caches = 15e9;
 constexpr double bytes_of_caches = 8e6;
 /// Passes through the factor for a batch of events: change, solution, sides of closed bonds

@@ -26,7 +26,7 @@ struct ExpectedCost {
   double memory = 0.0;         ///< [bytes]
   double factorization = 0.0;  ///< [s]
   double broken_bond = 0.0;    ///< with its row of the history [s]
-  double batch = 0.0;          ///< of events that go together [s]
+  double batch = 0.0;          ///< events that go together [s]
   double field_file = 0.0;     ///< [s]
 };
 

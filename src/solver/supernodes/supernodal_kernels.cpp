@@ -76,7 +76,7 @@ void dot_and_change_panel(double* c, Index rows, Index from, const double* p, co
   sums[4] = s4, sums[5] = s5, sums[6] = s6, sums[7] = s7;
 }
 
-/// Columns that a change by several vectors takes at once: a row of each vector is read for so many.
+/// Columns that a change by several vectors takes at once: each vector is read once for so many.
 constexpr Index change_width = 4;
 
 /// What a column of a panel takes from each vector, and gives to it.

@@ -39,13 +39,13 @@ void backward_and_change(double* block, Index rows, Index columns, const double*
 /// Vectors that change_together() takes at once.
 inline constexpr Index most_together = 16;
 
-/// The rank-one changes L D L' - w w' of several vectors one after the other, with L read once (Gill,
-/// Golub, Murray & Saunders 1974, method C1): for each column j and each w, d_j becomes
+/// The rank-one changes L D L' - w w' of several vectors one after the other, with L read once
+/// (Gill, Golub, Murray & Saunders 1974, method C1): for each column j and each w, d_j becomes
 /// d_j + sigma p^2 with p = w_j, w becomes w - p l_j and l_j becomes l_j + beta w, with
 /// beta = sigma p / d_j of the new d_j.
 /// \param count  number of vectors, most_together at most
 /// \param w      the vectors, shape (count, rows); on return without what the columns eliminate
-/// \param sigma  of each vector, -1 before its first column; at its last column -1 / sigma is the
+/// \param sigma  one number per vector, -1 before its first column; at its last column -1 / sigma is the
 ///               pivot 1 - x' K^-1 x, K with the changes by the vectors before it
 /// \return false where D does not stay positive: the block is then spoilt
 bool change_together(double* block, Index rows, Index columns, Index count, double* w,

@@ -133,8 +133,8 @@ class BoxFactor final : public Factor {
   Secants secants_;
   const std::vector<double>* ground_ = nullptr;
   std::unique_ptr<BoxSolver> solver_;
-  int all_iterations_ = 0;            ///< of follow()
-  int following_iterations_ = 0;      ///< of the first follow() with these boxes
+  int all_iterations_ = 0;            ///< all calls of follow()
+  int following_iterations_ = 0;      ///< the first follow() with these boxes took
   int first_iterations_ = 0;          ///< the first block took with these boxes
   std::vector<std::size_t> slot_of_;  ///< Unknowns::slots()
   std::vector<SparseVector> expected_;

@@ -92,7 +92,7 @@ auto Equilibrium::cheapest_way(const Batch& batch) -> Way {
   const double anew = factor.flops / factor_flops + seconds_to_assemble * elements + solution;
   const int steps = last_steps_ > 0 ? last_steps_ : expected_steps;
   const double search = steps * (solution + seconds_per_force * elements);
-  double numbers = 0.0;  // of the factor, counted for each vector
+  double numbers = 0.0;  // that the paths hold, counted for each vector
   for (const Removal& removal : batch.removals) numbers += factor_->path_of(removal.vectors());
   const double change = 4.0 * numbers / change_flops + share_of_solution * solution;
   if (!lags_ && change <= std::min(anew, search)) return Way::change;
@@ -145,7 +145,7 @@ std::optional<EventOutcome> Equilibrium::weaken_together(std::span<const Weakeni
   for (std::size_t k = 0; k < changes.size(); ++k) {
     add_growth(batch.removals[k], changes[k].element, batch.before[k], batch.beside[k], outcome);
   }
-  // Elements that are strained far more without their stiffness than before were what held the body.
+  // Elements that are strained far more without their stiffness than before held the body.
   const bool doubtful = !(outcome.compliance_growth * doubtful_pivot < removed) ||
                         !(outcome.pivot > doubtful_pivot) || !resists_without(batch);
   if (!doubtful) {
@@ -275,7 +275,7 @@ void Equilibrium::multiply(std::span<const double> q, std::span<double> result) 
 
 /// Adds what is missing to a solution. The older factor is near K, so that r'z is the energy of the
 /// error but for a factor near one.
-/// \param residual  of the solution, used up
+/// \param residual  what the solution leaves; used up
 /// \param energy    u'K u of the solution
 /// \return steps made; zero: it does not get there
 int Equilibrium::gradients(std::vector<double>& residual, std::span<double> solution,

@@ -40,7 +40,7 @@ class ForceOfElements {
   explicit ForceOfElements(std::size_t unknowns) : place_(unknowns, no_index) {}
   /// x times a deformation by the loads that grow and one by constant loads.
   void add(const SparseVector& x, double by_growing, double by_constant);
-  SparseVector growing, constant;  ///< of the same rows
+  SparseVector growing, constant;  ///< both have the same rows
 
  private:
   std::vector<Index> place_;  ///< per unknown: its place in them, or no_index

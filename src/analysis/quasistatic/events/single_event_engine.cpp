@@ -58,7 +58,7 @@ Event SingleEventEngine::next_event_below(double most) {
 
 /// Elements whose load factors are within the tolerance of that of the event, or below that of a
 /// step, fail with it, at the middle of their load factors.
-/// \param ratio  of its element at load factor 1
+/// \param ratio  stretch of its element over the limit, at load factor 1
 void SingleEventEngine::add_others(Event& event, double ratio, double most) {
   const bool in_step = !std::isinf(most);
   const double wanted = in_step ? 1.0 / most : (1.0 - tolerance_) * ratio;

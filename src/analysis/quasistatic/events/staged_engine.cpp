@@ -151,8 +151,8 @@ Event StagedEngine::next_event_below(double /*most*/) {
   return with_others({last.element, load_factor_ + last.distance});
 }
 
-/// Elements that are at their limits at the load factor of the event, by half of the tolerance, fail
-/// with it; all that are beyond them do where the load does not move.
+/// Elements that are at their limits at the load factor of the event, within half of the tolerance,
+/// fail with it; all that are beyond them do where the load does not move.
 Event StagedEngine::with_others(Event event) {
   if (!fails_with_others(event.element)) return event;
   std::vector<BreakSearch::Hit> hits =
