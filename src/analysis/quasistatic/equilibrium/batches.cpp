@@ -120,7 +120,7 @@ std::optional<EventOutcome> Equilibrium::weaken_together(std::span<const Weakeni
   for (std::size_t k = 0; k < changes.size(); ++k) {
     add_growth(batch.removals[k], changes[k].element, batch.before[k], batch.beside[k], outcome);
   }
-  // Elements that are strained far more without their stiffness than before were what held the body.
+  // Elements that are strained far more without their stiffness than before have held the body.
   const bool doubtful = !(outcome.compliance_growth * doubtful_pivot < removed) ||
                         !(outcome.pivot > doubtful_pivot) || !resists_without(batch);
   if (!doubtful) {
