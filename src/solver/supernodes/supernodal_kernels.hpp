@@ -45,8 +45,8 @@ inline constexpr Index most_together = 16;
 /// beta = sigma p / d_j of the new d_j.
 /// \param count  number of vectors, most_together at most
 /// \param w      the vectors, shape (count, rows); on return without what the columns eliminate
-/// \param sigma  one number per vector, -1 before its first column; at its last column -1 / sigma is the
-///               pivot 1 - x' K^-1 x, K with the changes by the vectors before it
+/// \param sigma  one number per vector, -1 before its first column; behind its last column
+///               -1 / sigma is the pivot 1 - x' K^-1 x, K with the changes by the vectors before it
 /// \return false where D does not stay positive: the block is then spoilt
 bool change_together(double* block, Index rows, Index columns, Index count, double* w,
                      double* sigma);

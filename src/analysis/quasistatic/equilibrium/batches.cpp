@@ -1,6 +1,6 @@
 // Several elements that lose stiffness at once: one equilibrium follows, by a change of the factor,
 // by a new one, or by conjugate gradients that an older one preconditions
-// (docs/theory/events_and_energy.md, section 9).
+// (docs/theory/events_and_energy.md, section 8).
 
 #include <algorithm>
 #include <cmath>
