@@ -79,7 +79,9 @@ TEST(ResidualStrength, IsNotThePeak) {
   for (const auto& [weak, strong, strength] :
        {std::array{80.0, 40.0, 12.0}, std::array{120.0, 60.0, 12.0},
         std::array{120.0, 40.0, 14.0}}) {
-    const test::WholeRun run(two_strips(weak, strong, strength, "[stop]\nload_fraction = 0.1\n"));
+    const std::string single_events = "[analysis]\nevent_tolerance = 0\n";
+    const test::WholeRun run(
+        two_strips(weak, strong, strength, single_events + "[stop]\nload_fraction = 0.1\n"));
     const auto told = [&](const char* key) { return run.summary.json.at(key).get<double>(); };
     const double first = 3.0 * (weak + strong), later = strength * strong;
     EXPECT_NEAR(told("peak_load"), first, 0.05 * first);
@@ -90,7 +92,8 @@ TEST(ResidualStrength, IsNotThePeak) {
     EXPECT_THAT(run.summary.text, HasSubstr("residual strength"));
 
     const test::WholeRun stages(
-        two_strips(weak, strong, strength, "[[stages]]\nname = \"pull\"\nload_fraction = 0.1\n"));
+        two_strips(weak, strong, strength,
+                   single_events + "[[stages]]\nname = \"pull\"\nload_fraction = 0.1\n"));
     const auto& stage = stages.summary.json.at("stages").at(0);
     for (const char* key : {"peak_load", "largest_load", "smoothed_peak_load"}) {
       EXPECT_NEAR(stage.at(key).get<double>(), told(key), 1e-6 * told(key)) << key;

@@ -45,6 +45,7 @@ double along(const SparseVector& x, std::span<const double> u) {
 
 auto Equilibrium::batch_of(std::span<const Weakening> changes) const -> Batch {
   Batch batch;
+  batch.lagged = lags_;
   batch.solution = solution_;
   if (constant_) batch.constant_solution = constant_->solution;
   for (const auto& [element, secant] : changes) {
@@ -146,7 +147,7 @@ std::optional<EventOutcome> Equilibrium::weaken_together(std::span<const Weakeni
     add_growth(batch.removals[k], changes[k].element, batch.before[k], batch.beside[k], outcome);
   }
   // Elements that are strained far more without their stiffness than before held the body.
-  const bool doubtful = !(outcome.compliance_growth * doubtful_pivot < removed) ||
+  const bool doubtful = !(outcome.compliance_growth * doubtful_pivot <= removed) ||
                         !(outcome.pivot > doubtful_pivot) || !resists_without(batch);
   if (!doubtful) {
     follow(outcome);
@@ -308,7 +309,11 @@ bool Equilibrium::search_equilibrium() {
   measure_residual(residual);
   const double energy = 2.0 * internal_.energy;
   if (boxes_ != nullptr) {
-    boxes_->follow(residual, energy);
+    try {
+      boxes_->follow(residual, energy);
+    } catch (const SolverError&) {
+      return false;
+    }
     for (std::size_t k = 0; k < residual.size(); ++k) solution_[k] += residual[k];
     scatter_solution();
     is_exact_ = true;
@@ -356,8 +361,10 @@ void Equilibrium::take_back(std::span<const Weakening> changes, const Batch& bat
   must_rebuild_ = false;
   events_to_follow_ = 0;
   if (!batch.keeps_factor) return factorize();
+  lags_ = batch.lagged;
   solution_ = batch.solution;
   scatter_solution();
+  stale_ = partial_ && !lags_;
   force_work_ = work_of_forces();
   if (!constant_) return;
   constant_->solution = batch.constant_solution;

@@ -24,7 +24,8 @@ struct EventBatch {
   std::vector<double> secants;
   std::vector<double> solution, constant_solution;
   bool tells_pivots = false;  ///< the factor has told the smallest
-  bool keeps_factor = false;  ///< the factor is that of before
+  bool keeps_factor = false;  ///< the factor is that of before ...
+  bool lagged = false;        ///< ... and was not that of the body then
 };
 
 }  // namespace perilink
