@@ -61,7 +61,10 @@ void EventRun::doze() {
 /// more than the alert allows for.
 void EventRun::note_late_conversions(const Event& event, double sense) {
   for (const auto& [bonds, alert] : freed_) {
-    const bool freed = std::binary_search(bonds.begin(), bonds.end(), event.element);
+    const auto is_freed = [&](Index element) {
+      return std::binary_search(bonds.begin(), bonds.end(), element);
+    };
+    const bool freed = is_freed(event.element) || std::ranges::any_of(event.others, is_freed);
     const double near = std::max(tie_tolerance, options_.engine.event_tolerance);
     const bool earlier =
         event.avalanche || sense * (alert - event.load_factor) > near * std::abs(alert);

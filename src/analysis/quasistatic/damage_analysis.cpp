@@ -240,7 +240,8 @@ bool EventRun::pass(const Event& event) {
             ? fmt::format("a mechanism: once the closed element {} has opened, a piece of the body "
                           "is free to move or to turn",
                           event.element)
-            : fmt::format("the body separated when element {} failed (pivot {:.1e})", event.element,
+            : fmt::format("the body separated when element {} failed (pivot {:.1e})",
+                          outcome.separating != no_index ? outcome.separating : event.element,
                           outcome.pivot));
     return false;
   }

@@ -102,10 +102,11 @@ void print_cost(const CaseFile& input, const Network& network,
   fmt::print("#   run                {}\n",
              run_text(input, set_up.seconds(), cost, softens(network)));
   if (events && softens(network)) {
+    const char* wider = event_tolerance_of(input) < 0.02 ? "event_tolerance = 0.02, " : "";
     fmt::print(
-        "#   faster             event_tolerance = 0.05, a larger softening_error, [elements] "
-        "where nothing cracks,\n#                      control = \"steps\", or type = "
-        "\"explicit\"\n");
+        "#   faster             {}[elements] where nothing cracks, control = \"steps\", or\n"
+        "#                      type = \"explicit\"\n",
+        wider);
   }
 }
 

@@ -15,8 +15,7 @@ constexpr double factor_flops_per_second = 15e9;
 /// A factor in the caches is read so fast, and one that is larger than them.
 constexpr double read_bytes_per_second = 36e9, read_bytes_beyond_caches = 15e9;
 constexpr double bytes_of_caches = 8e6;
-/// Passes through the factor for a batch of events: change, solution, sides of closed bonds
-/// (verification/studies/event_tolerance).
+/// Passes through the factor for a batch of events: change, solution, sides of closed bonds.
 constexpr double passes_per_batch = 2.5;
 /// Solutions from the last displacements, for the events and for the sides of closed bonds.
 constexpr double solutions_per_batch = 2.0;

@@ -25,7 +25,7 @@ constexpr double seconds_to_assemble = 3e-7, seconds_per_force = 1e-8;
 constexpr double share_of_solution = 0.7;
 
 /// Unknowns of a body in space from which on conjugate gradients with boxes follow a batch faster
-/// than any way with a factor (verification/studies/event_tolerance).
+/// than any way with a factor (docs/theory/large_bodies.md, section 5).
 constexpr Index fewest_for_boxes = 15000;
 
 /// Steps of conjugate gradients that are expected before any have been made.
@@ -46,6 +46,7 @@ double along(const SparseVector& x, std::span<const double> u) {
 auto Equilibrium::batch_of(std::span<const Weakening> changes) const -> Batch {
   Batch batch;
   batch.lagged = lags_;
+  batch.force_work = force_work_;
   batch.solution = solution_;
   if (constant_) batch.constant_solution = constant_->solution;
   for (const auto& [element, secant] : changes) {
@@ -151,7 +152,12 @@ std::optional<EventOutcome> Equilibrium::weaken_together(std::span<const Weakeni
                         !(outcome.pivot > doubtful_pivot) || !resists_without(batch);
   if (!doubtful) {
     follow(outcome);
-    if (!axial_.empty()) settle_closing(outcome);
+    try {
+      if (!axial_.empty()) settle_closing(outcome);
+    } catch (const SolverError&) {
+      outcome.mechanism = true;
+    }
+    if (outcome.mechanism) batch.keeps_factor = false;
   }
   if (doubtful || outcome.mechanism) {
     take_back(changes, batch);
@@ -365,7 +371,7 @@ void Equilibrium::take_back(std::span<const Weakening> changes, const Batch& bat
   solution_ = batch.solution;
   scatter_solution();
   stale_ = partial_ && !lags_;
-  force_work_ = work_of_forces();
+  force_work_ = batch.force_work;
   if (!constant_) return;
   constant_->solution = batch.constant_solution;
   scatter_constant();

@@ -200,12 +200,16 @@ bool Equilibrium::holds_apart(const std::vector<Index>& opened) const {
 /// What closes holds the body while others open. \return the bonds that have changed their side;
 /// none where all that ought to hold the body
 std::vector<Index> Equilibrium::change_sides(std::vector<Index> wrong) {
-  if (lags_ || follows_boxes()) {
+  // What opens and has no stiffness then may free a part that the load does not move.
+  const bool may_free = std::ranges::any_of(
+      wrong, [&](Index element) { return is_closed(element) && secants_[element] == 0.0; });
+  found_sides_ = (lags_ || follows_boxes()) && !may_free;
+  if (found_sides_) {
     turn(wrong);
-    if (search_equilibrium()) return wrong;
+    if ((found_sides_ = search_equilibrium())) return wrong;
     turn(wrong);
-    factorize();
   }
+  bring_factor_up();
   if (is_cheaper_anew(wrong.size()) && change_together(wrong)) return wrong;
   const auto opening = std::stable_partition(wrong.begin(), wrong.end(),
                                              [&](Index element) { return !is_closed(element); });
@@ -233,11 +237,10 @@ bool Equilibrium::follow_sides(const std::vector<Index>& wrong, EventOutcome& ou
   const std::vector<Index> changed = change_sides(wrong);
   if (changed.empty()) return false;
   changed_sides_.insert(changed_sides_.end(), changed.begin(), changed.end());
-  const bool is_followed = lags_ || follows_boxes();  // by a search already
-  if (!is_followed &&
-      (options_.event_tolerance == 0.0 || partial_ || factor_->factorizations() != factors)) {
+  if (!found_sides_ && (options_.event_tolerance == 0.0 || partial_ || boxes_ != nullptr ||
+                        factor_->factorizations() != factors)) {
     refresh();
-  } else if (!is_followed) {
+  } else if (!found_sides_) {
     ForceOfElements forces(solution_.size());
     for (std::size_t k = 0; k < wrong.size(); ++k) {
       const auto& [extension, was_closed] = before[k];

@@ -345,6 +345,7 @@ class Equilibrium {
   bool restored_ = false;        ///< since the last factorisation
   bool lags_ = false;            ///< the factor is that of an earlier body, and only preconditions
   int gradient_steps_ = 0;       ///< conjugate gradients have made, in all batches
+  bool found_sides_ = false;     ///< a search has found the last sides, and their equilibrium
   int last_steps_ = 0;           ///< that the last batch took
   double missed_savings_ = 0.0;  ///< by changes of a factor that lags behind [time]
   std::vector<double> secants_;

@@ -24,8 +24,9 @@ struct EventBatch {
   std::vector<double> secants;
   std::vector<double> solution, constant_solution;
   bool tells_pivots = false;  ///< the factor has told the smallest
-  bool keeps_factor = false;  ///< the factor is that of before ...
-  bool lagged = false;        ///< ... and was not that of the body then
+  bool keeps_factor = false;  ///< the factor has not been changed
+  bool lagged = false;        ///< the factor was that of an even earlier body
+  double force_work = 0.0;    ///< f'u before
 };
 
 }  // namespace perilink

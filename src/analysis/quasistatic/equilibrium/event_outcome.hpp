@@ -25,7 +25,8 @@ struct EventOutcome {
   bool changed_side = false;  ///< a damaged bond closed or opened
   /// Set by the engine: elements that broke, and that went on with a smaller secant.
   Index broken = 0, yielded = 0;
-  Index exhausted = no_index;  ///< set by the engine: an element that no longer limits anything
+  Index exhausted = no_index;   ///< set by the engine: an element that no longer limits anything
+  Index separating = no_index;  ///< set by the engine: the element of the mechanism
   Beside growth_beside = {}, released_beside = {};  ///< what constant loads add to both
 
   /// What became of another element after this one.
@@ -36,6 +37,10 @@ struct EventOutcome {
     broken += next.broken;
     yielded += next.yielded;
     if (next.exhausted != no_index) exhausted = next.exhausted;
+    if (mechanism) {
+      separating = next.separating;
+      pivot = next.pivot;
+    }
     if (mechanism) return;
     compliance_growth += next.compliance_growth;
     released += next.released;

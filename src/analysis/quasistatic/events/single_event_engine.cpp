@@ -56,15 +56,14 @@ Event SingleEventEngine::next_event_below(double most) {
   return event;
 }
 
-/// Elements whose load factors are within the tolerance of that of the event, or below that of a
+/// Elements whose load factors are within the tolerance of that of the event, and below that of a
 /// step, fail with it, at the middle of their load factors.
 /// \param ratio  stretch of its element over the limit, at load factor 1
 void SingleEventEngine::add_others(Event& event, double ratio, double most) {
-  const bool in_step = !std::isinf(most);
-  const double wanted = in_step ? 1.0 / most : (1.0 - tolerance_) * ratio;
+  const double wanted = std::max((1.0 - tolerance_) * ratio, 1.0 / most);
   std::vector<BreakSearch::Hit> hits = search_->list(equilibrium_.where_elements_fail(), wanted);
   const LoadWork work = equilibrium_.work();
-  if (!in_step) limit_batch(event, work.forces + work.supports, hits);
+  limit_batch(event, work.forces + work.supports, hits);
   double least = ratio;
   for (const BreakSearch::Hit& hit : hits) {
     if (hit.element == event.element || !fails_with_others(hit.element)) continue;
@@ -82,7 +81,8 @@ void SingleEventEngine::add_others(Event& event, double ratio, double most) {
 void SingleEventEngine::limit_batch(const Event& event, double energy,
                                     std::vector<BreakSearch::Hit>& hits) {
   constexpr double most_lost = 0.5, most_fall = 0.25, growth = 1.5;
-  const bool fell = event.load_factor < (1.0 - most_fall * tolerance_) * last_factor_;
+  const double factor = std::abs(event.load_factor);
+  const bool fell = factor < (1.0 - most_fall * tolerance_) * last_factor_;
   most_at_once_ = fell ? std::max(1.0, 0.5 * last_count_) : growth * most_at_once_;
   double left = most_lost * tolerance_ * energy;
   std::ranges::stable_sort(hits, std::greater(), &BreakSearch::Hit::ratio);
@@ -103,7 +103,7 @@ void SingleEventEngine::limit_batch(const Event& event, double energy,
   }
   hits.resize(std::max<std::size_t>(count, 1));
   last_count_ = static_cast<double>(hits.size());
-  last_factor_ = event.load_factor;
+  last_factor_ = factor;
 }
 
 /// Whether the element's extension lacks digits that a column of its own would tell.
@@ -185,6 +185,7 @@ EventOutcome SingleEventEngine::apply_one(const Event& event) {
       equilibrium_.weaken(event.element, law_of(event.element).tooth(next).secant);
   if (outcome.mechanism) {
     outcome.broken = outcome.broke() ? 1 : 0;
+    outcome.separating = event.element;
     return outcome;
   }
   pass_limit(event.element, next, outcome);

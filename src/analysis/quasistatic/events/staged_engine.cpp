@@ -83,7 +83,7 @@ void StagedEngine::begin_stage(std::size_t set, const Unknowns& held) {
   set_ = set;
   load_factor_ = load_factors_[set];
   changes_there_ = 0;
-  largest_factor_ = 0.0;
+  largest_factor_ = last_factor_ = 0.0;
   ConstantField constant;
   constant.unknowns = *unknowns_;
   constant.unknowns.prescribed = gripped_at_;
@@ -152,12 +152,18 @@ Event StagedEngine::next_event_below(double /*most*/) {
 }
 
 /// Elements that are at their limits at the load factor of the event, within half of the tolerance,
-/// fail with it; all that are beyond them do where the load does not move.
+/// fail with it; where the load does not move, those beyond their limits that are within the
+/// tolerance of the worst.
 Event StagedEngine::with_others(Event event) {
   if (!fails_with_others(event.element)) return event;
   std::vector<BreakSearch::Hit> hits =
       near_hits(event, event.avalanche ? 1.0 : 1.0 - 0.5 * tolerance_);
-  if (!event.avalanche) {
+  if (event.avalanche) {
+    double worst = 0.0;
+    for (const BreakSearch::Hit& hit : hits) worst = std::max(worst, hit.ratio);
+    std::erase_if(
+        hits, [&](const BreakSearch::Hit& hit) { return hit.ratio < (1.0 - tolerance_) * worst; });
+  } else {
     const LoadWork work = load_work();
     const Beside beside{2.0 * (work.constant.forces_on_motion + work.constant.growing_supports),
                         work.constant.forces + work.constant.supports};
