@@ -98,7 +98,7 @@ auto Equilibrium::cheapest_way(const Batch& batch) -> Way {
   for (const Removal& removal : batch.removals) numbers += factor_->path_of(removal.vectors());
   const double change = 4.0 * numbers / change_flops + share_of_solution * solution;
   if (!lags_ && change <= std::min(anew, search)) return Way::change;
-  // What a factor that did not lag behind would have saved by now pays for a new one.
+  // A new factor is made once changes of one would have saved as much time as it takes.
   if (lags_) missed_savings_ += std::max(0.0, search - change);
   return missed_savings_ + search < anew ? Way::gradients : Way::renew;
 }
@@ -262,7 +262,6 @@ void Equilibrium::follow_forces(const ForceOfElements& forces) {
   }
   scatter_current();
   if (constant_) scatter_constant();
-  force_work_ = partial_ ? force_work_ : work_of_forces();
 }
 
 /// K q by the elements as they are.

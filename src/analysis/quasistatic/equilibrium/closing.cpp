@@ -200,10 +200,9 @@ bool Equilibrium::holds_apart(const std::vector<Index>& opened) const {
 /// What closes holds the body while others open. \return the bonds that have changed their side;
 /// none where all that ought to hold the body
 std::vector<Index> Equilibrium::change_sides(std::vector<Index> wrong) {
-  // What opens and has no stiffness then may free a part that the load does not move.
-  const bool may_free = std::ranges::any_of(
-      wrong, [&](Index element) { return is_closed(element) && secants_[element] == 0.0; });
-  found_sides_ = (lags_ || follows_boxes()) && !may_free;
+  // Broken bonds that open may free a part that the load does not move.
+  const auto may_free = [&](Index e) { return is_closed(e) && secants_[e] == 0.0; };
+  found_sides_ = (lags_ || follows_boxes()) && std::ranges::none_of(wrong, may_free);
   if (found_sides_) {
     turn(wrong);
     if ((found_sides_ = search_equilibrium())) return wrong;
@@ -247,11 +246,12 @@ bool Equilibrium::follow_sides(const std::vector<Index>& wrong, EventOutcome& ou
       if (is_closed(wrong[k]) == was_closed) continue;
       const double fraction = 1.0 - secants_[wrong[k]];
       const Removal axial = make_axial_removal(network_, *unknowns_, wrong[k], fraction);
-      const double root = std::sqrt(network_.stiffness[wrong[k]] * fraction);
-      const double sign = was_closed ? 1.0 : -1.0;
-      forces.add(axial.x[0], sign * root * extension.growing, sign * root * extension.constant);
+      const double root =
+          std::sqrt(network_.stiffness[wrong[k]] * fraction) * (was_closed ? 1.0 : -1.0);
+      forces.add(axial.x[0], root * extension.growing, root * extension.constant);
     }
     follow_forces(forces);
+    force_work_ = work_of_forces();
   }
   events_to_follow_ = 0;
   for (std::size_t k = 0; k < wrong.size(); ++k) {

@@ -101,8 +101,9 @@ void SingleEventEngine::limit_batch(const Event& event, double energy,
     left -= equilibrium_.energy_lost({element, law_of(element).tooth(next_tooth(element)).secant});
     if (left < 0.0) break;
   }
-  hits.resize(std::max<std::size_t>(count, 1));
-  last_count_ = static_cast<double>(hits.size());
+  // Round-off may have left out the element of the event itself: then there are none.
+  hits.resize(std::min(hits.size(), std::max<std::size_t>(count, 1)));
+  last_count_ = std::max(1.0, static_cast<double>(hits.size()));
   last_factor_ = factor;
 }
 
