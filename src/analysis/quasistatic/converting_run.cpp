@@ -45,16 +45,10 @@ bool EventRun::converts(const Event& event, double sense, double most) {
 void EventRun::take_over(const Unknowns& unknowns, double load_factor) {
   adopt(unknowns);
   engine_->set_alert(conversion_->freed(), 1.0);
-  doze();
   freed_.emplace_back(conversion_->freed(), load_factor);
   ++result_.conversions;
   result_.unknowns = unknowns.count;
   result_.elements = conversion_->num_whole();
-}
-
-/// The strain of every element is looked at where that gives the alert.
-void EventRun::doze() {
-  if (!conversion_->strains()) engine_->doze(problem_.carried->carriers, conversion_->carriers());
 }
 
 /// A freed bond that fails before the load factor at which the alert came was beyond its limit by

@@ -36,7 +36,6 @@ EventRun::EventRun(const LoadedNetwork& problem, const DamageOptions& options,
     conversion_.emplace(network_, *problem.carried);
     state_.elements = &*conversion_;
     engine_->set_alert(conversion_->carried_bonds(), conversion_->alert());
-    doze();
     result_.elements = conversion_->num_whole();
   }
   const LoadWork work = begin_work();

@@ -70,7 +70,6 @@ class EventRun {
   // Finite elements that let go of particles: converting_run.cpp.
   bool converts(const Event& event, double sense = 1.0,
                 double most = std::numeric_limits<double>::infinity());
-  void doze();
   void take_over(const Unknowns& unknowns, double load_factor);
   void note_late_conversions(const Event& event, double sense);
   bool residual_may_be_large() const;

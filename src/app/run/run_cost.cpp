@@ -153,9 +153,7 @@ ExpectedCost expected_cost_of_boxes(const Network& network, bool events) {
   cost.field_file = seconds_per_file + seconds_per_particle_of_file * network.particles.size();
   if (!events) return cost;
   const double unknowns = static_cast<double>(network.particles.size()) * network.width();
-  const bool defers = network.num_elements() >= BoxSolverOptions().fewest_to_defer && !frames &&
-                      !network.has_closing();
-  const std::size_t window = columns_of_window(static_cast<std::size_t>(unknowns), defers);
+  const std::size_t window = columns_of_window(static_cast<std::size_t>(unknowns));
   cost.memory += 8.0 * unknowns * (static_cast<double>(window) + columns_beside_window);
   const bool softens = network.laws.size() > 1 || !network.laws[0].is_brittle();
   const double solutions = frames    ? solutions_per_event_of_frames

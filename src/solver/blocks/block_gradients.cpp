@@ -336,15 +336,6 @@ template GradientsReport block_conjugate_gradients<float>(
     const std::function<void(std::span<const float>, std::span<float>)>&, const SumOverParts&,
     BlockSpace<float>*);
 
-std::array<BlockRow, block_width> products_of(std::span<const double> a,
-                                              std::span<const double> b) {
-  PartSums sums;
-  for_each_part(a.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
-    add_gram<double>(a, b, begin / width, end / width, sums.parts[part]);
-  });
-  return sums.sum();
-}
-
 void add_combination(std::span<const double> columns, std::span<const double> weights,
                      std::span<double> result) {
   const double* column = columns.data();

@@ -76,9 +76,6 @@ GradientsReport block_conjugate_gradients(
 ///                block_width
 void recombine(std::vector<BlockVector<double>>& blocks, std::span<const double> shares);
 
-/// a'b of two blocks of shape (n, block_width): in row i what column i of a has with those of b.
-std::array<BlockRow, block_width> products_of(std::span<const double> a, std::span<const double> b);
-
 /// result += columns weights, the columns of shape (n, block_width).
 void add_combination(std::span<const double> columns, std::span<const double> weights,
                      std::span<double> result);

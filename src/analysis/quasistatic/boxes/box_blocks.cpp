@@ -111,13 +111,6 @@ GradientsReport BoxSolver::solve_block(std::span<double> right, std::span<double
   return report;
 }
 
-void BoxSolver::take_products(std::span<const double> motions, std::span<double> left) {
-  BlockVector<double>& products = single_space_.residual;
-  products.resize(left.size());
-  multiply_block(motions, products);
-  for (std::size_t k = 0; k < left.size(); ++k) left[k] -= products[k];
-}
-
 /// Steps in single precision; what they have found is added up in double precision, and so is what
 /// is left. Right sides count by the root of their local energies, so that none is too small.
 GradientsReport BoxSolver::search_in_single(std::span<const double> right,

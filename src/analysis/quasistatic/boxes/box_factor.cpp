@@ -21,12 +21,8 @@ constexpr double slower = 1.3;
 constexpr double small_pivot = 0.1;
 
 /// Errors of columns over those of solutions: an event moves the body by little, and what that
-/// leaves is taken away at every check. Where errors of columns are made to agree, their squares
-/// count.
-constexpr double coarser = 100.0, coarser_in_agreement = 3e5;
-
-/// Errors of solutions that ride with a block whose columns are made to agree.
-constexpr double error_of_riders = 1e-11;
+/// leaves is taken away at every check.
+constexpr double coarser = 100.0;
 
 /// Memory that the window may take where that leaves the fewest blocks.
 constexpr double most_bytes = 4e9;
@@ -60,7 +56,6 @@ BoxFactor::BoxFactor(const Network& network, const BoxSolverOptions& options)
 void BoxFactor::begin(const Unknowns& unknowns, Secants secants,
                       const std::vector<double>& ground) {
   unknowns_ = &unknowns;
-  if (deferred_) deferred_->unknowns = &unknowns;
   secants_ = secants;
   ground_ = &ground;
   slot_of_ = unknowns.slots();
@@ -112,7 +107,6 @@ auto BoxFactor::parts_of(const SparseVector& x) const -> std::optional<std::vect
 }
 
 void BoxFactor::forget() {
-  if (deferred_) deferred_->drop();
   std::ranges::fill(place_of_, no_index);
   span_.clear();
   window_.clear();
@@ -133,7 +127,6 @@ void BoxFactor::let_go(std::span<const SparseVector> x) {
 
 /// Half of the blocks are made free: the columns that were used last go over to what they are now.
 void BoxFactor::keep_latest() {
-  if (is_behind()) throw std::logic_error("columns go while a solution still needs them");
   const std::size_t kept = std::min(blocks_.size() / 2 * block_width, window_.size());
   std::vector<Eigen::Index> places(window_.size());
   std::iota(places.begin(), places.end(), 0);
@@ -148,7 +141,6 @@ void BoxFactor::keep_latest() {
   compliance_ = Eigen::MatrixXd(compliance_(places, places));
   shares_ = Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(columns),
                                       static_cast<Eigen::Index>(kept));
-  if (deferred_) deferred_->drop();
   const std::vector<SparseVector> window = std::move(window_);
   const std::vector<int> used = std::move(used_);
   window_.clear();
@@ -158,10 +150,9 @@ void BoxFactor::keep_latest() {
   for (const Eigen::Index place : places) put_in_window(window[place], used[place]);
 }
 
-std::size_t columns_of_window(std::size_t components, bool defers,
-                              const BoxSolverOptions& options) {
+std::size_t columns_of_window(std::size_t components, const BoxSolverOptions& options) {
   const double bytes = 8.0 * static_cast<double>(components) * block_width;
-  const auto wanted = static_cast<std::size_t>(defers ? 3 * options.window : options.window);
+  const auto wanted = static_cast<std::size_t>(options.window);
   const auto room = static_cast<std::size_t>(most_bytes / bytes);
   return block_width * std::max(fewest_blocks, std::min(room, blocks_of(wanted)));
 }
@@ -194,7 +185,7 @@ void BoxFactor::hold(std::span<const SparseVector> x, Correction* correction) {
   const std::size_t reserved = correction != nullptr ? 1 : 0;
   std::vector<SparseVector> chosen = choose(missing, reserved);
   if ((blocks_.size() + blocks_of(chosen.size())) * block_width >
-      columns_of_window(unknowns_->number.size(), deferred_.has_value(), options_)) {
+      columns_of_window(unknowns_->number.size(), options_)) {
     keep_latest();
     chosen = choose(missing_of(x), reserved);  // some may have gone
   }
@@ -243,17 +234,16 @@ std::vector<SparseVector> BoxFactor::choose(const std::vector<SparseVector>& mis
 void BoxFactor::take_in(std::span<const SparseVector> x, Correction* correction) {
   const auto before = static_cast<Eigen::Index>(window_.size());
   const auto size = before + static_cast<Eigen::Index>(x.size());
-  const double enough = (agree() ? coarser_in_agreement : coarser) * options_.tolerance;
+  const double enough = coarser * options_.tolerance;
   double size_of_last = 0.0;
   if (correction != nullptr && correction->energy > 0.0) {
-    const double wanted = agree() ? error_of_riders : options_.tolerance * BoxSolver::finer;
+    const double wanted = options_.tolerance * BoxSolver::finer;
     size_of_last = correction->energy * (wanted / enough) * (wanted / enough);
   }
   fill_right_sides(x, correction);
   blocks_.emplace_back(right_.size());
   const int iterations =
       solver_->solve_block(right_, blocks_.back(), enough, size_of_last).iterations;
-  if (agree()) find_left_over(x, correction);
   if (first_iterations_ == 0) first_iterations_ = iterations;
   if (iterations > slower * first_iterations_) make_solver();
   columns_solved_ += static_cast<Index>(x.size());
@@ -273,7 +263,28 @@ void BoxFactor::take_in(std::span<const SparseVector> x, Correction* correction)
   compliance_.conservativeResize(size, size);
   compliance_.rightCols(size - before) =
       on_columns(window_, blocks_.size() - 1).leftCols(size - before);
-  agree() ? make_agree(before, correction) : mirror_compliance(before);
+  mirror_compliance(before);
+}
+
+/// x'y of vectors x and the columns y of a block.
+Eigen::MatrixXd BoxFactor::on_columns(std::span<const SparseVector> x, std::size_t block) const {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(x.size()), block_width);
+  for (Eigen::Index w = 0; w < result.rows(); ++w) {
+    for (int m = 0; m < x[w].size(); ++m) {
+      const double* row = blocks_[block].data() + slot_of_[x[w].rows[m]] * block_width;
+      for (Eigen::Index c = 0; c < block_width; ++c) result(w, c) += x[w].values[m] * row[c];
+    }
+  }
+  return result;
+}
+
+/// Completes the compliance of new columns, those from `before` on, by symmetry.
+void BoxFactor::mirror_compliance(Eigen::Index before) {
+  const Eigen::Index count = compliance_.cols() - before;
+  compliance_.bottomLeftCorner(count, before) =
+      compliance_.topRightCorner(before, count).transpose();
+  const Eigen::MatrixXd own = compliance_.bottomRightCorner(count, count);
+  compliance_.bottomRightCorner(count, count) = 0.5 * (own + own.transpose());
 }
 
 void BoxFactor::fill_right_sides(std::span<const SparseVector> x, const Correction* correction) {
@@ -301,10 +312,10 @@ Eigen::VectorXd BoxFactor::in_window(const SparseVector& x) {
 }
 
 /// Blocks times weights, per unknown.
-std::vector<double> BoxFactor::motion_of(std::span<const double> weights) const {
+std::vector<double> BoxFactor::motion_of(const Eigen::VectorXd& weights) const {
   std::vector<double> motion(unknowns_->number.size(), 0.0);
-  for (std::size_t b = 0; b * block_width < weights.size(); ++b) {
-    const std::span<const double> own = weights.subspan(b * block_width, block_width);
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const std::span<const double> own(weights.data() + b * block_width, block_width);
     if (std::ranges::all_of(own, [](double weight) { return weight == 0.0; })) continue;
     add_combination(blocks_[b], own, motion);
   }
@@ -353,17 +364,29 @@ void BoxFactor::downdate(std::span<const SparseVector> x, std::span<const double
     if (!holds(column)) throw std::logic_error("columns are solved for before a change");
   }
   if (!solution.empty()) {
-    const std::vector<double> shares = present_extensions(x, load_changes, solution);
+    const std::vector<double> shares = extensions(x, load_changes, solution);
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(window_.size()));
     for (std::size_t a = 0; a < x.size(); ++a) sum += shares[a] / pivots[a] * in_window(x[a]);
-    move(shares_ * sum, solution);
+    const std::vector<double> motion = motion_of(shares_ * sum);
+    for (std::size_t k = 0; k < motion.size(); ++k) solution[k] += motion[k];
   }
   for (std::size_t a = 0; a < x.size(); ++a) change(in_window(x[a]), pivots[a], 1.0);
   // Errors of columns grow by as much as the motions do.
-  if (std::ranges::any_of(pivots, [](double pivot) { return pivot < small_pivot; })) {
-    catch_up(solution);
-    forget();
-  }
+  if (std::ranges::any_of(pivots, [](double pivot) { return pivot < small_pivot; })) forget();
+}
+
+void BoxFactor::follow(std::vector<double>& residual, double energy) {
+  constexpr double many_more = 1.5;
+  if (!window_.empty()) forget();
+  const int before = solver_->iterations();
+  correct(residual, energy);
+  const int iterations = solver_->iterations() - before;
+  all_iterations_ += iterations;
+  if (following_iterations_ == 0) following_iterations_ = iterations;
+  if (iterations <= many_more * following_iterations_) return;
+  make_solver();
+  following_iterations_ = 0;
+  ++begun_;
 }
 
 void BoxFactor::update(const SparseVector& x) {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "analysis/quasistatic/boxes/box_solver.hpp"
-#include "analysis/quasistatic/boxes/deferred_motion.hpp"
 #include "base/vector_span.hpp"
 #include "network/network.hpp"
 #include "solver/factor.hpp"
@@ -14,9 +13,7 @@
 namespace perilink {
 
 /// Columns that a window keeps, at most, in a body of so many components of displacement.
-/// \param defers  whether displacements wait, see BoxFactor::defer()
-std::size_t columns_of_window(std::size_t components, bool defers,
-                              const BoxSolverOptions& options = {});
+std::size_t columns_of_window(std::size_t components, const BoxSolverOptions& options = {});
 
 /// What a factor does for events, by conjugate gradients (docs/theory/large_bodies.md, section 4):
 /// a window of columns K^-1 e, the e vectors of elements that are near their events or, where
@@ -57,29 +54,6 @@ class BoxFactor final : public Factor {
   /// for.
   void forget();
 
-  /// Downdates note the steps of a solution from now on, and leave the solution as it is until
-  /// catch_up().
-  DeferredMotion& defer();
-  /// \throws std::logic_error while the solution lacks steps
-  void defer_no_more();
-  /// While solutions wait, columns have few digits, and are made to agree on what elements see.
-  bool agree() const { return deferred_.has_value(); }
-  /// What errors of columns may leave in a solution until it is corrected, in the norm of energy
-  /// and over that of the solution: an element holds a small part of the energy, and load factors
-  /// are to be right to 1e-9. noise(): the same of differences of displacements, over the largest
-  /// motion.
-  double most_drift() const { return agree() ? 1e-6 : 1e-10; }
-  double noise() const { return agree() ? 1e-7 : options_.tolerance; }
-  bool is_behind() const { return deferred_ && deferred_->is_behind(); }
-  /// Adds all noted steps.
-  void catch_up(std::span<double> solution);
-  /// The same to a copy of the solution, which still lacks them.
-  void add_steps(std::span<double> solution) const;
-  /// The solution has changed in another way.
-  void note_restart() {
-    if (deferred_) ++deferred_->restarts;
-  }
-
   void factorize(const SparseMatrix& matrix, std::span<const Index> groups) override;
   void refactorize(const SparseMatrix& matrix) override;
   void solve(std::span<const double> rhs, std::span<double> solution) override;
@@ -113,19 +87,9 @@ class BoxFactor final : public Factor {
   void fill_right_sides(std::span<const SparseVector> x, const Correction* correction);
   Eigen::MatrixXd on_columns(std::span<const SparseVector> x, std::size_t block) const;
   void mirror_compliance(Eigen::Index before);
-  void find_left_over(std::span<const SparseVector> x, const Correction* correction);
-  Eigen::MatrixXd with_left_over() const;
-  void make_agree(Eigen::Index before, Correction* correction);
   Eigen::VectorXd in_window(const SparseVector& x);
-  std::vector<double> motion_of(std::span<const double> weights) const;
-  std::vector<double> motion_of(const Eigen::VectorXd& weights) const {
-    return motion_of(std::span(weights.data(), static_cast<std::size_t>(weights.size())));
-  }
+  std::vector<double> motion_of(const Eigen::VectorXd& weights) const;
   void change(const Eigen::VectorXd& d, double pivot, double sign);
-  void move(const Eigen::VectorXd& weights, std::span<double> solution);
-  std::vector<double> present_extensions(std::span<const SparseVector> x,
-                                         std::span<const double> load_changes,
-                                         std::span<const double> solution) const;
 
   const Network& network_;
   BoxSolverOptions options_;
@@ -149,7 +113,6 @@ class BoxFactor final : public Factor {
   BlockVector<double> right_;   ///< right sides of a block, of the same shape
   Eigen::MatrixXd shares_;      ///< F: the present columns are those of the blocks times F
   Eigen::MatrixXd compliance_;  ///< H: e' K^-1 e of the present columns
-  std::optional<DeferredMotion> deferred_;
   int begun_ = 0;
   Index columns_solved_ = 0;
 };

@@ -25,10 +25,7 @@ struct BoxSolverOptions {
   Index edge = 0;  ///< particles along an edge of a box; 0: as many as serve the body best
   /// Whether solve_block() is wanted; the errors of solve() then count each by its own energy.
   bool blocks = false;
-  /// Elements from which on it pays that displacements wait until a search asks for them.
-  Index fewest_to_defer = 200'000;
-  /// Columns that a BoxFactor keeps where every event adds them up for the whole body; three times
-  /// as many, where memory allows, if displacements wait.
+  /// Columns that a BoxFactor keeps.
   Index window = 256;
   Ranks* ranks = nullptr;  ///< that share the work, where there are several
 };
@@ -68,9 +65,6 @@ class BoxSolver {
   /// \throws SolverError as solve()
   GradientsReport solve_block(std::span<double> right, std::span<double> solution, double enough,
                               double size_of_last = 0.0);
-
-  /// left -= K motions of such a block, by the network in double precision.
-  void take_products(std::span<const double> motions, std::span<double> left);
 
   /// A solution less exact, of what is left of another one.
   /// \param energy  that the error counts by, of the whole solution; positive

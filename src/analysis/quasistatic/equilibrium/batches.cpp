@@ -309,7 +309,6 @@ int Equilibrium::gradients(std::vector<double>& residual, std::span<double> solu
 /// From the last displacements by conjugate gradients. \return false where they do not get there
 bool Equilibrium::search_equilibrium() {
   if (stale_) refresh();
-  spread();
   std::vector<double> residual;
   measure_residual(residual);
   const double energy = 2.0 * internal_.energy;
@@ -321,7 +320,6 @@ bool Equilibrium::search_equilibrium() {
     }
     for (std::size_t k = 0; k < residual.size(); ++k) solution_[k] += residual[k];
     scatter_solution();
-    is_exact_ = true;
     force_work_ = work_of_forces();
     if (constant_) refresh_constant();
     return true;
@@ -331,7 +329,6 @@ bool Equilibrium::search_equilibrium() {
   gradient_steps_ += last_steps_;
   if (last_steps_ == 0) return false;
   scatter_solution();
-  is_exact_ = true;
   force_work_ = work_of_forces();
   return !constant_ || constant_->rests || search_constant();
 }

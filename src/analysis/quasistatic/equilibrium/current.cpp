@@ -8,12 +8,19 @@
 /// What the events of an equilibrium keep current: displacements, columns of boxes.
 
 namespace perilink {
+namespace {
+
+/// Errors of columns may leave so much in a solution, in the norm of energy and over that of the
+/// solution: an element holds a small part of the energy.
+constexpr double most_drift = 1e-10;
+
+}  // namespace
 
 /// Under forces alone an event needs the displacements of elements that can fail, and no others:
 /// the backward pass then leaves out the parts of the body where nothing can. f'u follows the
 /// events by its growth. Driven bodies and stages need the reactions and keep all.
 void Equilibrium::choose_current_unknowns() {
-  partial_ = dozing_ = false;
+  partial_ = false;
   moving_slots_.clear();
   current_slots_.clear();
   for (std::size_t slot = 0; unknowns_->carries() && slot < displacement_.size(); ++slot) {
@@ -65,27 +72,11 @@ void Equilibrium::choose_glanced(const std::vector<std::uint8_t>& current) {
 
 /// The displacements that events keep current, by the unknowns as they are.
 void Equilibrium::scatter_current() {
-  if (boxes_ != nullptr && boxes_->is_behind()) {
-    spread_ = false;
-  } else if (dozing_) {
-    unknowns_->expand(solution_, awake_slots_, displacement_);
-    spread_ = false;
-  } else if (partial_ && unknowns_->carries()) {
+  if (partial_ && unknowns_->carries()) {
     unknowns_->expand(solution_, current_slots_, displacement_);
   } else {
     scatter_solution();
   }
-}
-
-/// What dozes is made current.
-void Equilibrium::spread() {
-  if (spread_) return;
-  if (boxes_ != nullptr) {
-    boxes_->catch_up(solution_);
-    return scatter_solution();
-  }
-  unknowns_->expand(solution_, partial_ ? current_slots_ : moving_slots_, displacement_);
-  spread_ = true;
 }
 
 double Equilibrium::work_of_forces() const {
@@ -94,49 +85,13 @@ double Equilibrium::work_of_forces() const {
   return work;
 }
 
-/// Takes away what events have left, whatever that costs.
-void Equilibrium::correct() {
-  std::vector<double> residual;
-  measure_residual(residual);
-  refine(residual);
-}
-
 /// Observers must not change the run: what is missing of displacements is found aside.
 std::span<const double> Equilibrium::displacement() {
-  if (boxes_ != nullptr && boxes_->is_behind()) {
-    std::vector<double> all = solution_;
-    boxes_->add_steps(all);
-    observed_ = unknowns_->expand(all);
-    return observed_;
-  }
   if (!stale_) return where_elements_fail();
   std::vector<double> all = present_load();
   factor_->solve(all, all);
   observed_ = unknowns_->expand(all);
   return observed_;
-}
-
-const DeferredMotion& Equilibrium::defer() {
-  DeferredMotion& motion = boxes_->defer();
-  motion.solution = &solution_;
-  motion.displacement = &displacement_;
-  return motion;
-}
-
-/// Work is summed at loaded and driven particles, and damaged bonds may close.
-void Equilibrium::doze(std::vector<std::uint8_t> awake) {
-  const auto width = static_cast<std::size_t>(network_.width());
-  for (const std::size_t slot : loaded_slots_) awake[slot / width] = 1;
-  for (const std::vector<Index>* elements : {&driven_elements_, &damaged_}) {
-    for (const Index e : *elements) {
-      awake[network_.bonds.first[e]] = awake[network_.bonds.second[e]] = 1;
-    }
-  }
-  awake_slots_.clear();
-  for (const std::size_t slot : partial_ ? current_slots_ : moving_slots_) {
-    if (awake[slot / width] != 0) awake_slots_.push_back(slot);
-  }
-  dozing_ = true;
 }
 
 double Equilibrium::residual_of_current() {
@@ -158,8 +113,7 @@ double Equilibrium::residual_of_current() {
 void Equilibrium::keep_all_current() {
   if (partial_) factor_->keep_current(std::vector<std::uint8_t>(solution_.size(), 1));
   if (stale_) refresh();
-  spread();
-  partial_ = dozing_ = false;
+  partial_ = false;
 }
 
 double Equilibrium::largest_of(std::span<const double> displacement) const {
@@ -184,9 +138,8 @@ void Equilibrium::find_largest_motion() {
 void Equilibrium::judge_columns(std::span<const double> missing,
                                 std::span<const double> correction) {
   const double error = std::inner_product(missing.begin(), missing.end(), correction.begin(), 0.0);
-  const double most = boxes_->most_drift();
   // Written so that an energy that is not a number is too much.
-  if (!(error <= most * most * 2.0 * internal_.energy)) boxes_->forget();
+  if (!(error <= most_drift * most_drift * 2.0 * internal_.energy)) boxes_->forget();
 }
 
 /// Takes away what errors of columns have left in the displacements.
@@ -198,7 +151,7 @@ double Equilibrium::refine_followed(double size, std::vector<double>& residual) 
   const std::vector<double> missing = residual;
   refine(residual);  // which is then the correction
   judge_columns(missing, residual);
-  if (!(size <= std::max(options_.residual_tolerance, boxes_->most_drift()))) look_closer_ = true;
+  if (!(size <= std::max(options_.residual_tolerance, most_drift))) look_closer_ = true;
   return measure_residual(residual);
 }
 
@@ -223,13 +176,8 @@ void Equilibrium::prepare(Index element, std::span<const Index> expected) {
   const std::vector<double> missing = residual;
   if (!boxes_->hold_and_correct(own, residual, 2.0 * internal_.energy)) return;
   for (std::size_t k = 0; k < residual.size(); ++k) solution_[k] += residual[k];
-  boxes_->note_restart();
   scatter_solution();
   force_work_ = work_of_forces();
-  if (columns_agree()) {
-    is_exact_ = true;
-    work();  // summed now if it is due
-  }
   judge_columns(missing, residual);
 }
 

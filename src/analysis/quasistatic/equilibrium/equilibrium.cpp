@@ -179,10 +179,8 @@ std::vector<double> Equilibrium::present_load() const {
 /// Solves for all displacements with the factor as it stands.
 void Equilibrium::refresh() {
   factor_->solve(present_load(), solution_);
-  if (boxes_ != nullptr) boxes_->note_restart();
   scatter_solution();
   stale_ = false;
-  is_exact_ = true;
   force_work_ = work_of_forces();
   if (constant_) refresh_constant();
 }
@@ -191,18 +189,15 @@ void Equilibrium::refresh() {
 void Equilibrium::refine(std::vector<double>& residual) {
   if (boxes_ != nullptr) {
     boxes_->correct(residual, 2.0 * internal_.energy);
-    boxes_->note_restart();
   } else {
     factor_->solve(residual, residual);
   }
   for (std::size_t k = 0; k < residual.size(); ++k) solution_[k] += residual[k];
   scatter_solution();
-  is_exact_ = true;
   force_work_ = work_of_forces();
 }
 
 void Equilibrium::scatter_solution() {
-  spread_ = true;
   if (unknowns_->carries()) {
     unknowns_->expand(solution_, moving_slots_, displacement_);
     return;
@@ -215,15 +210,13 @@ void Equilibrium::scatter_solution() {
 /// compliance tells the same.
 LoadWork Equilibrium::work() {
   // Work grows with the compliance.
-  if (partial_ || (!spread_ && driven_elements_.empty())) return {force_work_, 0.0};
+  if (partial_) return {force_work_, 0.0};
   const double forces = work_of_forces();
   if (driven_elements_.empty()) return {forces, 0.0};
   LoadWork work{forces, forces - followed_compliance_};
   const double whole = work.forces + work.supports;
   const bool halved = whole < 0.5 * followed_from_;
   if (events_to_follow_ <= 0 || halved) {
-    if (!is_exact_ && !halved && events_to_follow_ > sum_at_once) return work;  // soon it will be
-    if (!is_exact_) correct();
     work = sum_work();
     if ((work.forces + work.supports) * next_to_infinite < last_work_) work.separated = true;
     followed_from_ = work.forces + work.supports;
@@ -235,7 +228,6 @@ LoadWork Equilibrium::work() {
 }
 
 LoadWork Equilibrium::sum_work() {
-  spread();
   LoadWork work{work_of_forces(), driven_spring_work_};
   double sizes = driven_spring_work_;
   for (const Index e : driven_elements_) {

@@ -60,31 +60,9 @@ class Equilibrium {
 
   /// Displacements at load factor 1, rotations included, shape (particles, width), right wherever
   /// an element can fail; elsewhere they may be those of an earlier event.
-  std::span<const double> where_elements_fail() {
-    spread();
-    return displacement_;
-  }
+  std::span<const double> where_elements_fail() const { return displacement_; }
 
-  /// The same, but of particles that elements carry right only where the search has looked.
-  std::span<const double> where_search_looks() const { return displacement_; }
-  std::vector<double>& searched_displacement() { return displacement_; }
-  const std::vector<double>& solution() const { return solution_; }
-  const Unknowns& unknowns() const { return *unknowns_; }
-  /// Whether events leave it to the search to make displacements of carried particles current.
-  bool may_doze() const { return unknowns_->carries() && !constant_ && boxes_ == nullptr; }
-  /// \param awake  per particle: its displacements are kept current all the same
-  void doze(std::vector<std::uint8_t> awake);
-  /// Whether the search may keep current what it looks at alone, while columns tell the rest.
-  bool may_defer() const {
-    return boxes_ != nullptr && !constant_ && axial_.empty() && !network_.carries_moments() &&
-           (driven_elements_.empty() || loaded_slots_.empty()) &&
-           network_.num_elements() >= options_.boxes.fewest_to_defer;
-  }
-  /// Events leave it to the search from now on.
-  const DeferredMotion& defer();
-  void defer_no_more() { boxes_->defer_no_more(); }
-
-  /// The same, right everywhere: costs a solve where some are not.
+  /// Displacements at load factor 1, right everywhere: costs a solve where some are not.
   std::span<const double> displacement();
 
   LoadWork work();
@@ -148,14 +126,10 @@ class Equilibrium {
   /// rest of the body leaves its errors there [length]. Of trusses by a factor zero.
   double noise() const { return 1e-12 * largest_motion_; }
 
-  /// The same after events, whose errors the next check() takes away.
+  /// noise() after events by columns, whose errors the next check() takes away [length].
   double noise_of_events() const {
-    return boxes_ == nullptr ? noise() : boxes_->noise() * largest_motion_;
+    return boxes_ == nullptr ? noise() : options_.boxes.tolerance * largest_motion_;
   }
-
-  /// Whether columns have few digits but agree: without one of its own an element is found to have
-  /// come less far or farther than it has.
-  bool columns_agree() const { return boxes_ != nullptr && boxes_->agree(); }
 
   /// Whether an event of the element costs no solution by conjugate gradients.
   bool is_prepared(Index element) const;
@@ -193,7 +167,6 @@ class Equilibrium {
   /// Columns by conjugate gradients leave more than a factor does: a larger residual is taken away
   /// before it grows.
   static constexpr double fine_residual = 1e-13;
-  static constexpr int sum_at_once = -100;  ///< so few events_to_follow_: whatever it costs
   static double norm(std::span<const double> values);
   void refresh_constant();
   void polish_constant();
@@ -222,8 +195,6 @@ class Equilibrium {
   double refine_followed(double size, std::vector<double>& residual);
   void judge_columns(std::span<const double> missing, std::span<const double> correction);
   void scatter_current();
-  void spread();
-  void correct();
   double work_of_forces() const;
   LoadWork sum_work();
   std::pair<double, double> driven_work_of(Index element) const;
@@ -360,15 +331,13 @@ class Equilibrium {
   std::vector<Index> glanced_elements_;  ///< all elements of the unknowns glanced at
   std::vector<std::uint8_t> glanced_;    ///< per unknown, while partial_
   bool partial_ = false;     ///< events keep only the displacements current that a search looks at
-  bool dozing_ = false;      ///< even fewer, where elements carry particles
-  bool spread_ = true;       ///< but now none is missing
   bool stale_ = false;       ///< the other displacements are those of an earlier event
   double force_work_ = 0.0;  ///< f'u, followed through the events while partial_
   double driven_spring_work_ = 0.0;   ///< work of elastic supports at driven displacements
   std::vector<std::size_t> slot_of_;  ///< Unknowns::slots()
   /// Where something carries particles: slots that unknowns move, of all particles and, while
   /// partial_, of those that the search looks at.
-  std::vector<std::size_t> moving_slots_, current_slots_, awake_slots_;
+  std::vector<std::size_t> moving_slots_, current_slots_;
   std::vector<double> solution_;  ///< per unknown
   std::vector<double> displacement_;
   double noise_of_sides_ = 0.0;   ///< extensions below it are on neither side [length]
@@ -381,7 +350,6 @@ class Equilibrium {
   ForcesAndEnergy<long double> fine_;
   double stiffness_sum_ = 0.0;        ///< sum over all elements and supports
   bool must_rebuild_ = false;         ///< the pivot is known better than the factor can follow
-  bool is_exact_ = true;              ///< no event by columns of few digits since a correction
   bool look_closer_ = false;          ///< pivots that are not small may be noise too
   bool supports_alone_ = false;       ///< elastic supports hold most of the motion looked at last
   bool resists_ = true;               ///< the polished body stores energy that is no round-off

@@ -135,7 +135,7 @@ double Equilibrium::pivot_by_energy(const SparseVector& x, Index element, double
 /// held it before.
 bool Equilibrium::hangs_on_weak_supports(double compliance_growth) const {
   if (!supports_alone_ || !driven_elements_.empty()) return false;
-  const double before = partial_ || !spread_ ? force_work_ : work_of_forces();
+  const double before = partial_ ? force_work_ : work_of_forces();
   return before < least_support * (before + compliance_growth);
 }
 
@@ -160,7 +160,6 @@ bool Equilibrium::rebuild_without(Index element, double kept) {
 Balance Equilibrium::polish() {
   look_closer_ = true;
   if (stale_) refresh();
-  spread();
   std::vector<double> load = unknowns_->restrict(loads_->forces);
   for (std::size_t k = 0; k < ground_load_.size(); ++k) load[k] += ground_load_[k];
   FineMotion motion{{solution_.begin(), solution_.end()},
@@ -177,7 +176,6 @@ Balance Equilibrium::polish() {
   for (std::size_t k = 0; k < solution_.size(); ++k) {
     solution_[k] = static_cast<double>(motion.unknowns[k]);
   }
-  if (boxes_ != nullptr) boxes_->note_restart();
   scatter_solution();
   force_work_ = work_of_forces();
   factor_error_ = refined.factor_error;

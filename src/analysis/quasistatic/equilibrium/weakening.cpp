@@ -151,7 +151,7 @@ void Equilibrium::follow(const EventOutcome& outcome) {
   // Small events leave the displacements as exact as they were.
   const bool sure = outcome.pivot > doubtful_pivot && !look_closer_ &&
                     outcome.compliance_growth < 0.01 * last_work_;
-  events_to_follow_ = sure ? events_to_follow_ - 1 : sum_at_once;
+  events_to_follow_ = sure ? events_to_follow_ - 1 : 0;
 }
 
 void Equilibrium::commit(const Removal& removal, Index element, double secant) {
@@ -169,7 +169,6 @@ void Equilibrium::commit(const Removal& removal, Index element, double secant) {
     factor_->downdate(removal.vectors(), removal.load_changes(), removal.pivots(), solution_);
   }
   if (boxes_ != nullptr && secant == 0.0) boxes_->let_go(removal.vectors());
-  if (columns_agree()) is_exact_ = false;
   scatter_current();
   if (constant_) scatter_constant();
   stale_ = partial_;

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "analysis/quasistatic/events/break_search.hpp"
-#include "analysis/quasistatic/events/dozing_blocks.hpp"
 #include "base/types.hpp"
 
 namespace perilink {
@@ -29,19 +28,15 @@ inline double largest_or_nan(double largest, double zero_times_all) {
 /// answer does not depend on the number of threads.
 /// \param elements          those to search
 /// \param block_largest     work space, one per block
-/// \param dozing            blocks that may be left out where they cannot hold the answer; values
-///                          are the ratios of DozingBlocks or, in a search of frames, their squares
 /// \param fewest_parallel   blocks from which on several threads are faster than one
 /// \param largest_in        largest value in the positions [begin, end), see largest_or_nan()
 /// \param value_at          value at one position
 /// \throws SolverError where a value is not finite
-/// \param seminorm_in       bound of the values whatever their signs, see DozingBlocks
-template <typename Dozing, typename LargestIn, typename ValueAt, typename SeminormIn>
+template <typename LargestIn, typename ValueAt>
 BreakSearch::Hit find_first_largest(const std::vector<Index>& elements,
-                                    std::vector<double>& block_largest, Dozing& dozing,
-                                    double share, int threads, Index fewest_parallel,
-                                    const LargestIn& largest_in, const ValueAt& value_at,
-                                    const SeminormIn& seminorm_in) {
+                                    std::vector<double>& block_largest, double share, int threads,
+                                    Index fewest_parallel, const LargestIn& largest_in,
+                                    const ValueAt& value_at) {
   const Index count = static_cast<Index>(elements.size());
   const Index blocks = static_cast<Index>(block_largest.size());
   const auto end_of = [count](Index block) {
@@ -50,23 +45,9 @@ BreakSearch::Hit find_first_largest(const std::vector<Index>& elements,
 #pragma omp parallel for schedule(static) \
     num_threads(threads) if (threads > 1 && blocks > fewest_parallel)
   for (Index b = 0; b < blocks; ++b) {
-    block_largest[b] = dozing.may_doze(b) ? 0.0 : largest_in(b * search_block_size, end_of(b));
+    block_largest[b] = largest_in(b * search_block_size, end_of(b));
   }
   double largest = 0.0;
-  for (Index b = 0; dozing.any() && b < blocks; ++b) largest = std::max(largest, block_largest[b]);
-  const auto wake_up = [&](Index b) {
-    dozing.look(b);
-    block_largest[b] = largest_in(b * search_block_size, end_of(b));
-    dozing.remember(b, seminorm_in(b * search_block_size, end_of(b)));
-    largest = std::max(largest, block_largest[b]);
-  };
-  if (const Index likeliest = dozing.likeliest(); likeliest != no_index) wake_up(likeliest);
-  for (Index b = 0; dozing.any() && b < blocks; ++b) {
-    // Written so that a bound that is not a number is looked into.
-    if (!dozing.may_doze(b) || dozing.bound(b) < largest * share) continue;
-    wake_up(b);
-  }
-  largest = 0.0;
   for (Index b = 0; b < blocks; ++b) {
     if (!std::isfinite(block_largest[b])) {
       for (Index k = b * search_block_size; k < end_of(b); ++k) {

@@ -13,9 +13,6 @@
 
 namespace perilink {
 
-struct CarriedParticles;
-struct DeferredMotion;
-
 /// Finds the element that is nearest to the limit of its law.
 class BreakSearch {
  public:
@@ -40,19 +37,6 @@ class BreakSearch {
 
   /// The same of an element with teeth in compression of its own.
   virtual void set_limits(Index element, double tension, double compression) = 0;
-
-  /// From now on elements that are carried whole are looked at where their motion says so alone
-  /// (DozingBlocks); find() then makes the displacements there current.
-  /// \param carried  kept by reference
-  /// \return per particle, whether its displacements must be current at each find()
-  virtual std::vector<std::uint8_t> doze(const CarriedParticles& carried) = 0;
-  /// From now on displacements follow by columns: find() makes those current that it looks at, and
-  /// looks where bounds say so alone (DozingColumns). Elsewhere they are those of earlier events.
-  /// \param motion  kept by reference
-  /// \return false where this search must have all
-  virtual bool doze_by_columns(const DeferredMotion& /*motion*/) { return false; }
-  /// All elements are looked at again.
-  virtual void wake() = 0;
 };
 
 /// The ratio of an element's measure to its limit. One that is not a number compares as nothing and

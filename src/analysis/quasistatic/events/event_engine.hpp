@@ -55,11 +55,6 @@ class EventEngine {
   /// Equilibrium::change_motion().
   virtual Freedom change_motion(const Unknowns& unknowns) = 0;
 
-  /// Elements of these that carry their particles whole cost next to nothing at events from now on,
-  /// until the unknowns change.
-  /// \param carrier  per particle, the element that carries it, or no_index
-  virtual void doze(const Carriers& carriers, const std::vector<Index>& carrier) = 0;
-
   /// From now on the elements have their next event at this fraction of its limit.
   virtual void set_alert(std::span<const Index> elements, double fraction) = 0;
 

@@ -119,22 +119,17 @@ FrameLimitSearch::Hit FrameLimitSearch::find_in(const double* u, double toleranc
   const auto value_at = [&](Index k) {
     return sections ? section_ratio<Dim>(k, u) : squared_ratio<Dim>(bonds_[k], u);
   };
-  const auto largest_of = [](Index begin, Index end, const auto& value_of) {
+  const auto largest_in = [&](Index begin, Index end) {
     double largest = 0.0, zero_times_all = 0.0;
     for (Index k = begin; k < end; ++k) {
-      const double value = value_of(k);
+      const double value = value_at(k);
       largest = std::max(largest, value);
       zero_times_all += 0.0 * value;
     }
     return largest_or_nan(largest, zero_times_all);
   };
-  const auto largest_in = [&](Index begin, Index end) { return largest_of(begin, end, value_at); };
-  const auto seminorm_in = [&](Index begin, Index end) {
-    return largest_of(begin, end, [&](Index k) { return squared_ratio<Dim>(bonds_[k], u, true); });
-  };
-  Hit hit =
-      find_first_largest(elements_, block_largest_, dozing_, (1.0 - tolerance) * (1.0 - tolerance),
-                         threads, fewest_parallel_frames, largest_in, value_at, seminorm_in);
+  Hit hit = find_first_largest(elements_, block_largest_, (1.0 - tolerance) * (1.0 - tolerance),
+                               threads, fewest_parallel_frames, largest_in, value_at);
   hit.ratio = std::sqrt(hit.ratio);
   return hit;
 }
@@ -164,30 +159,10 @@ std::vector<FrameLimitSearch::Hit> FrameLimitSearch::list(std::span<const double
 void FrameLimitSearch::set_limit(Index element, double limit) {
   const auto found = std::lower_bound(elements_.begin(), elements_.end(), element);
   if (found == elements_.end() || *found != element) return;
-  dozing_.wake(static_cast<std::size_t>(found - elements_.begin()));
   Bond& bond = bonds_[found - elements_.begin()];
   bond.inverse = inverse_of(element, limit);
   const bool none = std::isinf(limit);
   if (none || network_.law(element).sense() == Sense::both) bond.compressed = bond.inverse;
-}
-
-/// Bounds of extension, shear and bending, added. Values are squares: their roots are compared.
-std::vector<std::uint8_t> FrameLimitSearch::doze(const CarriedParticles& carried) {
-  std::vector<std::uint8_t> awake(static_cast<std::size_t>(network_.particles.size()), 1);
-  if (network_.has_sections()) return awake;  // beams have few bonds
-  const auto slope_of = [&](std::size_t place, double across, double at_end) -> Slope {
-    const Bond& bond = bonds_[place];
-    const double twists = dim_ == 3 ? std::sqrt(torsion_) : 0.0;
-    const double scale = std::sqrt(std::max(bond.inverse, bond.compressed));
-    const double shear = std::sqrt(bond.bending_share), bend = std::sqrt(bond.rotation_share);
-    return {scale * across * (1.0 + shear),
-            scale * (shear * (std::abs(bond.first_arm) + std::abs(bond.second_arm)) * at_end +
-                     bend * across * std::max(1.0, twists))};
-  };
-  dozing_ = DozingBlocks(network_, carried, elements_, search_block_size, true, slope_of);
-  std::fill(awake.begin(), awake.end(), 0);
-  dozing_.mark_awake(network_, elements_, awake);
-  return awake;
 }
 
 void FrameLimitSearch::set_limits(Index element, double tension, double compression) {

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "analysis/quasistatic/events/break_search.hpp"
-#include "analysis/quasistatic/events/dozing_blocks.hpp"
 
 namespace perilink {
 
@@ -32,8 +31,6 @@ class FrameLimitSearch final : public BreakSearch {
   std::vector<Hit> list(std::span<const double> displacement, double least) const override;
   void set_limit(Index element, double limit) override;
   void set_limits(Index element, double tension, double compression) override;
-  std::vector<std::uint8_t> doze(const CarriedParticles& carried) override;
-  void wake() override { dozing_ = {}; }
 
  private:
   struct Bond {
@@ -61,7 +58,6 @@ class FrameLimitSearch final : public BreakSearch {
   std::vector<Index> elements_;
   std::vector<Bond> bonds_;
   std::vector<double> block_largest_;
-  DozingBlocks dozing_;
 };
 
 }  // namespace perilink

@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "analysis/quasistatic/events/block_search.hpp"
-#include "base/lanes.hpp"
 
 namespace perilink {
 namespace {
@@ -81,18 +80,10 @@ double LimitSearch::ratio_at(const Group& group, const double* u, Index place) {
 template <int Dim, Sense sense>
 LimitSearch::Hit LimitSearch::find_in(Group& group, const double* u, double tolerance,
                                       int threads) {
-  const auto largest_in = [&](Index begin, Index end) {
-    return largest_between<Dim, sense>(group, u, begin, end);
-  };
-  const auto find_with = [&](auto& dozing) {
-    return find_first_largest(
-        group.elements, group.block_largest, dozing, 1.0 - tolerance, threads,
-        fewest_parallel_bonds, largest_in,
-        [&](Index place) { return ratio_at<Dim, sense>(group, u, place); }, largest_in);
-  };
-  if (!group.by_columns.any()) return find_with(group.dozing);
-  group.by_columns.follow();
-  return find_with(group.by_columns);
+  return find_first_largest(
+      group.elements, group.block_largest, 1.0 - tolerance, threads, fewest_parallel_bonds,
+      [&](Index begin, Index end) { return largest_between<Dim, sense>(group, u, begin, end); },
+      [&](Index place) { return ratio_at<Dim, sense>(group, u, place); });
 }
 
 template <int Dim>
@@ -104,8 +95,6 @@ LimitSearch::Hit LimitSearch::find_in_all(const double* u, double tolerance, int
   const double apart = std::abs(pulled.ratio - strained.ratio);
   if (larger.element == no_index || apart > 2.0 * tolerance * larger.ratio) return larger;
   // A tie across the groups: one threshold for both.
-  pulled_.dozing.look_everywhere();
-  strained_.dozing.look_everywhere();
   const std::span<const double> all(u, network_.particles.positions.size());
   const std::vector<Hit> hits = list(all, larger.ratio * (1.0 - 2.0 * tolerance));
   double largest = 0.0;
@@ -144,87 +133,7 @@ void LimitSearch::set_limit(Index element, double limit) {
   Group& group = network_.law(element).sense() == Sense::both ? strained_ : pulled_;
   const auto found = std::lower_bound(group.elements.begin(), group.elements.end(), element);
   const auto place = static_cast<std::size_t>(found - group.elements.begin());
-  const auto square_of_gradient = [&] {
-    double square = 0.0;
-    for (int a = 0; a < dim_; ++a) square += group.gradient[a][place] * group.gradient[a][place];
-    return square;
-  };
-  const double before = square_of_gradient();
   set_gradient(group, place, limit);
-  group.dozing.wake(place);
-  group.by_columns.wake(static_cast<Index>(place) / search_block_size,
-                        square_of_gradient() > before);
-}
-
-std::vector<std::uint8_t> LimitSearch::doze(const CarriedParticles& carried) {
-  std::vector<std::uint8_t> awake(static_cast<std::size_t>(network_.particles.size()), 0);
-  for (Group* group : {&pulled_, &strained_}) {
-    const auto slope_of = [&](std::size_t place, double across, double) -> Slope {
-      double square = 0.0;
-      for (int a = 0; a < dim_; ++a) square += std::pow(group->gradient[a][place], 2);
-      return {across * std::sqrt(square), 0.0};
-    };
-    group->dozing =
-        DozingBlocks(network_, carried, group->elements, search_block_size, false, slope_of);
-    group->dozing.mark_awake(network_, group->elements, awake);
-  }
-  return awake;
-}
-
-bool LimitSearch::doze_by_columns(const DeferredMotion& motion) {
-  if (!strained_.elements.empty()) return false;  // ties across groups look at all
-  const Group& group = pulled_;
-  const auto places_of = [&group](Index block) {
-    const std::size_t begin = static_cast<std::size_t>(block) * search_block_size;
-    return std::pair(begin, std::min(begin + search_block_size, group.elements.size()));
-  };
-  pulled_.by_columns = DozingColumns(
-      motion, static_cast<Index>(group.block_largest.size()), dim_,
-      [this, places_of](Index block, const double* columns) {
-        const auto [begin, end] = places_of(block);
-        return largest_of_columns(begin, end, columns);
-      },
-      [&group, places_of](Index block, const std::function<void(std::size_t)>& visit) {
-        const auto [begin, end] = places_of(block);
-        for (std::size_t k = begin; k < end; ++k) {
-          visit(group.first[k]);
-          visit(group.second[k]);
-        }
-      });
-  return true;
-}
-
-std::array<double, block_width> LimitSearch::largest_of_columns(std::size_t begin, std::size_t end,
-                                                                const double* columns) const {
-  const Group& group = pulled_;
-  // Comparisons of vectors that are longer than registers are made one number at a time.
-  constexpr int in_register = lanes_of<double>(block_width), count = block_width / in_register;
-  using Part = Lanes<double, in_register>;
-  using InMemory = LanesInMemory<double, in_register>;
-  const auto motion_at = [columns](Index slot) {
-    return reinterpret_cast<const InMemory*>(columns +
-                                             static_cast<std::size_t>(slot) * block_width);
-  };
-  Part most[count] = {}, zero_times_all[count] = {};
-  for (std::size_t k = begin; k < end; ++k) {
-    const InMemory* first = motion_at(group.first[k]);
-    const InMemory* second = motion_at(group.second[k]);
-    Part ratio[count] = {};
-    for (int a = 0; a < dim_; ++a) {
-      for (int c = 0; c < count; ++c) ratio[c] += group.gradient[a][k] * (*second++ - *first++);
-    }
-    for (int c = 0; c < count; ++c) {
-      const Part size = ratio[c] < 0.0 ? -ratio[c] : ratio[c];
-      most[c] = size > most[c] ? size : most[c];
-      zero_times_all[c] += 0.0 * size;
-    }
-  }
-  std::array<double, block_width> result;
-  for (int c = 0; c < block_width; ++c) {
-    const int lanes = c / in_register, lane = c % in_register;
-    result[c] = largest_or_nan(most[lanes][lane], zero_times_all[lanes][lane]);
-  }
-  return result;
 }
 
 void LimitSearch::set_limits(Index /*element*/, double /*tension*/, double /*compression*/) {

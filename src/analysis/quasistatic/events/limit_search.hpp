@@ -4,8 +4,6 @@
 #include <vector>
 
 #include "analysis/quasistatic/events/break_search.hpp"
-#include "analysis/quasistatic/events/dozing_blocks.hpp"
-#include "analysis/quasistatic/events/dozing_columns.hpp"
 #include "base/types.hpp"
 
 namespace perilink {
@@ -23,9 +21,6 @@ class LimitSearch final : public BreakSearch {
   std::vector<Hit> list(std::span<const double> displacement, double least) const override;
   void set_limit(Index element, double limit) override;
   void set_limits(Index element, double tension, double compression) override;
-  std::vector<std::uint8_t> doze(const CarriedParticles& carried) override;
-  bool doze_by_columns(const DeferredMotion& motion) override;
-  void wake() override { pulled_.dozing = strained_.dozing = {}; }
 
  private:
   /// Elements whose events come in tension, or those that have them in compression as well.
@@ -34,13 +29,9 @@ class LimitSearch final : public BreakSearch {
     std::vector<Index> first, second;  ///< particle times dim
     std::vector<double> gradient[3];   ///< g, one array per component
     std::vector<double> block_largest;
-    DozingBlocks dozing;
-    DozingColumns by_columns;
   };
   void add(Index element, Group& group);
   void set_gradient(Group& group, std::size_t place, double limit);
-  std::array<double, block_width> largest_of_columns(std::size_t begin, std::size_t end,
-                                                     const double* columns) const;
   template <int Dim, Sense sense>
   static double ratio_at(const Group& group, const double* displacement, Index place);
   template <int Dim, Sense sense>

@@ -20,28 +20,19 @@ SingleEventEngine::SingleEventEngine(const LoadedNetwork& problem,
       closes_(network_.has_closing()),
       teeth_(static_cast<std::size_t>(network_.num_elements()), 0) {
   if (network_.has_crushing()) crushing_.emplace(network_);
-  if (tolerance_ > 0.0 || !problem.sets.empty() || !equilibrium_.may_defer()) return;
-  if (!search_->doze_by_columns(equilibrium_.defer())) equilibrium_.defer_no_more();
 }
 
 Event SingleEventEngine::next_event_below(double most) {
   const auto find = [&] {
-    const std::span<const double> displacement = equilibrium_.where_search_looks();
+    const std::span<const double> displacement = equilibrium_.where_elements_fail();
     BreakSearch::Hit hit;
     threads_.run([&](int threads) { hit = search_->find(displacement, tie_tolerance, threads); });
     return hit;
   };
   BreakSearch::Hit hit = find();
-  const double noise = equilibrium_.noise();
-  if (hit.element != no_index && equilibrium_.noise_of_events() > noise &&
-      is_within(equilibrium_.noise_of_events(), hit)) {
+  const double noise = equilibrium_.noise(), noise_of_events = equilibrium_.noise_of_events();
+  if (hit.element != no_index && noise_of_events > noise && is_within(noise_of_events, hit)) {
     equilibrium_.check();
-    hit = find();
-  }
-  // A column of its own tells all digits of what an element has come to; it may not be the next.
-  constexpr int most_tries = 4;
-  for (int k = 0; k < most_tries && may_err(hit, noise); ++k) {
-    prepare({hit.element, 1.0 / hit.ratio});
     hit = find();
   }
   if (hit.element == no_index) return {};
@@ -107,12 +98,6 @@ void SingleEventEngine::limit_batch(const Event& event, double energy,
   last_factor_ = factor;
 }
 
-/// Whether the element's extension lacks digits that a column of its own would tell.
-bool SingleEventEngine::may_err(const BreakSearch::Hit& hit, double noise) const {
-  return equilibrium_.columns_agree() && hit.element != no_index && !is_within(noise, hit) &&
-         !equilibrium_.is_prepared(hit.element);
-}
-
 /// Whether the extension of the element that comes next is nothing but round-off of the motion of
 /// its ends, and noise beside it: then no element is in tension at all, and the load factor would
 /// mean nothing.
@@ -127,7 +112,7 @@ bool SingleEventEngine::is_within(double noise, const BreakSearch::Hit& hit) con
 
 auto SingleEventEngine::extension_of(Index element) const -> Extension {
   constexpr double digits = 1e-12;
-  const std::span<const double> u = equilibrium_.where_search_looks();
+  const std::span<const double> u = equilibrium_.where_elements_fail();
   const std::span<const double> n = network_.bonds.direction(element);
   const std::size_t i = static_cast<std::size_t>(network_.bonds.first[element]) * network_.width();
   const std::size_t j = static_cast<std::size_t>(network_.bonds.second[element]) * network_.width();
@@ -143,7 +128,6 @@ auto SingleEventEngine::extension_of(Index element) const -> Extension {
 /// round-off names. On springs that are too weak the whole body moves, and strains are lost in it.
 void SingleEventEngine::refuse_hidden_strains(double noise, const BreakSearch::Hit& hit) {
   constexpr double far_more = 1e3;
-  equilibrium_.where_elements_fail();  // all of them
   for (Index e = 0; e < network_.num_elements(); ++e) {
     if (secants()[e] == 0.0) continue;
     const Extension change = extension_of(e);
@@ -217,8 +201,8 @@ EventOutcome SingleEventEngine::apply_all(std::span<const Index> elements, doubl
 }
 
 int SingleEventEngine::next_tooth(Index element) const {
-  const bool compressed =
-      law_of(element).crushes() && is_shorter(network_, element, equilibrium_.where_search_looks());
+  const bool compressed = law_of(element).crushes() &&
+                          is_shorter(network_, element, equilibrium_.where_elements_fail());
   return BondLaw::after(teeth_[element], compressed);
 }
 
@@ -261,13 +245,6 @@ const BondLaw& SingleEventEngine::law_of(Index element) const {
 double SingleEventEngine::stretch_of(Index element) const {
   const auto own = own_laws_.find(element);
   return own == own_laws_.end() ? network_.critical_stretch[element] : own->second.stretch;
-}
-
-void SingleEventEngine::doze(const Carriers& carriers, const std::vector<Index>& carrier) {
-  if (!equilibrium_.may_doze()) return;
-  carried_.emplace(carriers, carrier, equilibrium_.unknowns(), equilibrium_.solution(),
-                   equilibrium_.searched_displacement());
-  equilibrium_.doze(search_->doze(*carried_));
 }
 
 void SingleEventEngine::set_alert(std::span<const Index> elements, double fraction) {

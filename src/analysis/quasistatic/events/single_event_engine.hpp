@@ -7,7 +7,6 @@
 
 #include "analysis/quasistatic/events/break_search.hpp"
 #include "analysis/quasistatic/events/crushing_bonds.hpp"
-#include "analysis/quasistatic/events/dozing_blocks.hpp"
 #include "analysis/quasistatic/events/event_engine.hpp"
 #include "base/thread_choice.hpp"
 
@@ -29,11 +28,8 @@ class SingleEventEngine : public EventEngine {
   Balance check_equilibrium() override { return equilibrium_.check(); }
   Balance glance_at_equilibrium() override { return equilibrium_.glance(); }
   Freedom change_motion(const Unknowns& unknowns) override {
-    search_->wake();  // what it knows of carried particles is no more
-    carried_.reset();
     return equilibrium_.change_motion(unknowns);
   }
-  void doze(const Carriers& carriers, const std::vector<Index>& carrier) override;
   void set_alert(std::span<const Index> elements, double fraction) override;
   std::vector<Index> near_events(const Event& event, double fraction) override;
   int factorizations() const override { return equilibrium_.factor().factorizations(); }
@@ -77,7 +73,6 @@ class SingleEventEngine : public EventEngine {
   };
   Extension extension_of(Index element) const;
   bool is_within(double noise, const BreakSearch::Hit& hit) const;
-  bool may_err(const BreakSearch::Hit& hit, double noise) const;
   void refuse_hidden_strains(double noise, const BreakSearch::Hit& hit);
 
   const Network& network_;
@@ -87,10 +82,9 @@ class SingleEventEngine : public EventEngine {
   double most_at_once_ = 1.0, last_count_ = 1.0, last_factor_ = 0.0;
   Equilibrium equilibrium_;
   std::unique_ptr<BreakSearch> search_;
-  std::optional<CarriedParticles> carried_;  ///< what the search leaves out while it dozes
-  bool closes_;                              ///< Network::has_closing()
-  std::optional<CrushingBonds> crushing_;    ///< where there are some
-  std::vector<int> teeth_;                   ///< present tooth of each element
+  bool closes_;                            ///< Network::has_closing()
+  std::optional<CrushingBonds> crushing_;  ///< where there are some
+  std::vector<int> teeth_;                 ///< present tooth of each element
   /// Where bars have flowed.
   struct OwnLaw {
     BondLaw law;

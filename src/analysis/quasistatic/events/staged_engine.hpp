@@ -53,7 +53,6 @@ class StagedEngine final : public SingleEventEngine {
   Freedom change_motion(const Unknowns& unknowns) override;
   void set_alert(std::span<const Index> elements, double fraction) override;
   /// Constant loads change all displacements.
-  void doze(const Carriers&, const std::vector<Index>&) override {}
 
  private:
   std::vector<BreakSearch::Hit> near_hits(const Event& event, double fraction) override;
