@@ -1,5 +1,5 @@
 // The concrete tests of Nikravesh (2017) by explicit lattices: peak forces, energies and their
-// balance. Writes a table of README.md for every kind of test, or only those whose names are given.
+// balance. Writes one table for every kind of test, or only those whose names are given.
 
 #include <algorithm>
 #include <string>

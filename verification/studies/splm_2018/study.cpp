@@ -1,5 +1,5 @@
 // The concrete tests of Nikravesh & Gerstle (2018) by explicit lattices: peak forces, energies and
-// their balance by all three sets of rules. Writes a table of README.md for every kind of test, or
+// their balance by all three sets of rules. Writes one table for every kind of test, or
 // only those whose names are given.
 
 #include <fmt/format.h>
