@@ -36,7 +36,7 @@ struct BondRunRules {
 /// The energies of a row balance to round-off, since every force works over the mean of the old and
 /// the new velocity, the stored energy is u_(n-1)' K u_n / 2, and a bond that breaks at step n
 /// loses its own part of that. Of Green strains they balance but for a part of the kinetic energy
-/// as small as the stretches, docs/theory/explicit_bonds.md, section 3.
+/// as small as the stretches, docs/theory/explicit_bonds.md, section 5.
 /// \param options  `reference` is not looked at. Ranks share the work where there are blocks of
 ///                 particles for all of them; every sum is the same as without them
 /// \throws std::invalid_argument where the time step exceeds the critical one (unless
