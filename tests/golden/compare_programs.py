@@ -144,8 +144,12 @@ def compare_all(options, cases, scratch):
     start = time.monotonic()
     with concurrent.futures.ThreadPoolExecutor(max_workers=options.jobs) as pool:
         pending = {pool.submit(comparison.execute, each): each for each in cases}
-        for done in concurrent.futures.as_completed(pending):
-            comparison.report(pending[done], *done.result())
+        try:
+            for done in concurrent.futures.as_completed(pending):
+                comparison.report(pending[done], *done.result())
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
     failed = f", {comparison.failed} not as their names say" if comparison.failed else ""
     print(
         f"{len(cases)} cases: {len(cases) - comparison.differ} equal, {comparison.differ} differ"

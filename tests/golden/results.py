@@ -9,6 +9,7 @@ import subprocess
 
 import bodies
 import case_text
+import mesh_bodies
 import options
 import space_cases
 import thin_bodies
@@ -41,7 +42,7 @@ class Case:
 
 def small_cases():
     """Returns the cases of the tables."""
-    known = {**bodies.BODIES, **thin_bodies.THIN_BODIES}
+    known = {**bodies.BODIES, **mesh_bodies.MESH_BODIES, **thin_bodies.THIN_BODIES}
     found = []
     for name, body, names, shows, more in space_cases.CASES:
         text = case_text.CaseText().add(known[body])
@@ -201,6 +202,9 @@ def missing_features(run):
         return []  # the case is there for its refusal
     if status != 0:
         return [f"exit status {status}"]
-    summary = json.loads((run.folder / "summary.json").read_text())
-    history = history_of(run.folder)
-    return [word for word in run.case.shows if not SHOWN[word](history, summary, run.folder)]
+    try:
+        summary = json.loads((run.folder / "summary.json").read_text())
+        history = history_of(run.folder)
+        return [word for word in run.case.shows if not SHOWN[word](history, summary, run.folder)]
+    except (OSError, ValueError, LookupError) as error:
+        return [f"results that can be read ({error!r})"]
