@@ -149,6 +149,7 @@ class Run:
 
 CHANGING = [
     (re.compile(r"results_\d+/"), "results/"),
+    (re.compile(r"(?m)^.* so far$\n?"), ""),  # progress, by the clock
     (re.compile(r"/[\w./-]*/(cases|results)/"), r"\1/"),
     (re.compile(r"\d{4}-\d\d-\d\d[T ]\d\d:\d\d:\d\d(\.\d+)?"), "TIME"),
     (re.compile(r"\b\d+(\.\d+)?(e[+-]?\d+)? ?(s|ms|min|h|MB|GB|kB)\b"), "N"),
