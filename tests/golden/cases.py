@@ -207,10 +207,47 @@ case("beam_elements_release", "beam", "", "release", """
 [elements]
 spacings = 4
 """)
-case("beam_elements_softening_stages", "beam", "linear reloaded", "release yield stages", """
+case("beam_elements_softening_stages", "beam", "linear reloaded", "release freed yield stages", """
 [elements]
 spacings = 4
 particles = ["load"]
+""")
+# Tests of embedded particles have the same beam: an alert as late as this misses a bond.
+case("beam_elements_missed_release", "beam", "force", "missed", """
+[body]
+spacing = 2
+[[regions]] 1
+x = [-80, 80]
+y = [0, 40]
+[[regions]] 2
+x = [-80, -20]
+y = [0, 40]
+[[regions]] 3
+x = [20, 80]
+y = [0, 40]
+[[regions]] 4
+x = [-70, -66]
+[[regions]] 5
+x = [66, 70]
+[[regions]] 6
+x = [-2, 2]
+y = [40, 40]
+[[regions]]
+name = "top"
+x = [-20, 20]
+y = [32, 40]
+[[materials]] 2
+regions = ["left end", "right end", "top"]
+[[cracks]] 1
+points = [[1, -1], [1, 13]]
+-[[gauges]]
+-[stop]
+[stop]
+broken_bonds = 120
+[elements]
+spacings = 4
+alert = 0.99
+halo = 0.01
 """)
 case("beam_elements_alert_strain_linear", "beam", "hexagonal", "release", """
 [elements]

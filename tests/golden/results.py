@@ -149,7 +149,7 @@ class Run:
 
 CHANGING = [
     (re.compile(r"results_\d+/"), "results/"),
-    (re.compile(r"(?m)^.* so far$\n?"), ""),  # progress, by the clock
+    (re.compile(r"(?m)^.*, [\w ]+ (so far|left)$\n?"), ""),  # progress, by the clock
     (re.compile(r"/[\w./-]*/(cases|results)/"), r"\1/"),
     (re.compile(r"\d{4}-\d\d-\d\d[T ]\d\d:\d\d:\d\d(\.\d+)?"), "TIME"),
     (re.compile(r"\b\d+(\.\d+)?(e[+-]?\d+)? ?(s|ms|min|h|MB|GB|kB)\b"), "N"),
@@ -186,6 +186,8 @@ SHOWN = {
     "plastic": lambda history, summary, folder: summary["plastic_energy"] > 0,
     "dissipated": lambda history, summary, folder: summary["dissipated_energy"] > 0,
     "release": lambda history, summary, folder: summary["conversions"] > 0,
+    "missed": lambda history, summary, folder: summary["late_conversions"] > 0,
+    "freed": lambda history, summary, folder: summary["freed_energy"] > 0,
     "bars": lambda history, summary, folder: any(folder.glob("bars_*.csv")),
     "stages": lambda history, summary, folder: len(history["stage"]) > 0
     and history["stage"][-1] == len(summary["stages"])
