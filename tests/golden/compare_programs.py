@@ -4,8 +4,8 @@
     compare_programs.py OLD/bin/perilink NEW/bin/perilink
     compare_programs.py --base-results KEPT OLD/bin/perilink NEW/bin/perilink
 
-With --base-results the results of the first program are kept and used again. A changed case or a
-missing result is run again with the first program. Exit status: 0 equal, 1 different, 2 misuse.
+With --base-results the results of the first program are kept and used again. Cases that changed or
+have no result yet run with the first program, too. Exit status: 0 equal, 1 different, 2 misuse.
 """
 
 import argparse
@@ -141,6 +141,8 @@ def compare_all(options, cases, scratch):
     comparison = Comparison(options, scratch)
     for home in (comparison.base_home, comparison.new_home):
         results.write_inputs(home, cases)
+    if not results.check_program(comparison.base_home, comparison.base):
+        refuse(f"{options.base_results} holds results of another program than {options.base}")
     start = time.monotonic()
     with concurrent.futures.ThreadPoolExecutor(max_workers=options.jobs) as pool:
         pending = {pool.submit(comparison.execute, each): each for each in cases}

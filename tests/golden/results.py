@@ -1,5 +1,6 @@
 """Runs of a program: the inputs of all cases, one run, and what its results show."""
 
+import hashlib
 import json
 import os
 import pathlib
@@ -29,7 +30,7 @@ LONG = {
 
 
 class Case:
-    """A case: its name, its group, its text, words that the results must bear out."""
+    """A case: its name, its group, its text, features that its results must show."""
 
     def __init__(self, name, group, text, shows=()):
         self.name, self.group, self.text, self.shows = name, group, text, shows
@@ -91,6 +92,15 @@ def copy_if_new(source, target):
     """Copies a file unless the target has its bytes."""
     if not target.exists() or target.read_bytes() != source.read_bytes():
         shutil.copyfile(source, target)
+
+
+def check_program(home, program):
+    """Returns whether kept results are those of a program. Notes the program in a new folder."""
+    note = home / "program.sha256"
+    digest = hashlib.sha256(program.read_bytes()).hexdigest()
+    if not note.exists():
+        note.write_text(digest)
+    return note.read_text() == digest
 
 
 class Run:
@@ -199,7 +209,7 @@ SHOWN = {
 
 
 def missing_features(run):
-    """Returns the words of `shows` that results do not bear out, and a bad exit status."""
+    """Returns the features of `shows` that results lack, or a bad exit status."""
     status = run.load()["status"]
     if status == 2 and run.case.group in ("bases", "fuzz"):
         return []  # the case is there for its refusal
