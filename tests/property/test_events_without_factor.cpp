@@ -20,12 +20,12 @@ struct Outcome {
   std::vector<StepRecord> rows;
 };
 
-Outcome outcome_of(const AnalysisBody& body, bool boxes, std::vector<double> load_factors,
-                   Index fewest_to_defer = BoxSolverOptions().fewest_to_defer) {
+Outcome outcome_of(const AnalysisBody& body, bool subdomains, std::vector<double> load_factors,
+                   Index fewest_to_defer = SubdomainSolverOptions().fewest_to_defer) {
   DamageOptions options;
-  options.engine.boxes.fewest_to_defer = fewest_to_defer;
-  options.engine.solver = boxes ? LinearSolver::iterative : LinearSolver::direct;
-  options.engine.boxes.edge = 3;
+  options.engine.subdomains.fewest_to_defer = fewest_to_defer;
+  options.engine.solver = subdomains ? LinearSolver::iterative : LinearSolver::direct;
+  options.engine.subdomains.edge = 3;
   options.load_factors = std::move(load_factors);
   Recorder recorder;
   Outcome outcome;
@@ -60,7 +60,7 @@ TEST_P(Blocks, BreakAlike) {
   EXPECT_GT(expected.rows.size(), 50u);
   expect_the_same(found, expected, before_separation);
   EXPECT_EQ(found.rows.size(), expected.rows.size());
-  EXPECT_EQ(found.result.ending, expected.result.ending) << found.result.reason;
+  EXPECT_EQ(found.result.termination, expected.result.termination) << found.result.reason;
 }
 
 /// Displacements that wait until the search asks for them.
@@ -69,7 +69,7 @@ TEST_P(Blocks, BreakAlikeWhileDisplacementsWait) {
   const Outcome expected = outcome_of(body, false, {}), found = outcome_of(body, true, {}, 0);
   expect_the_same(found, expected, before_separation);
   EXPECT_EQ(found.rows.size(), expected.rows.size());
-  EXPECT_EQ(found.result.ending, expected.result.ending) << found.result.reason;
+  EXPECT_EQ(found.result.termination, expected.result.termination) << found.result.reason;
 }
 
 /// Forces that are beyond what a body bears take it apart within a step.

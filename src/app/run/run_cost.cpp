@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/quasistatic/boxes/box_factor.hpp"
+#include "analysis/quasistatic/subdomains/subdomain_factor.hpp"
 #include "app/run/summary.hpp"
 #include "base/timer.hpp"
 
@@ -138,7 +138,7 @@ Index field_files(const OutputSection& output, Index broken_bonds) {
   return files;
 }
 
-ExpectedCost expected_cost_of_boxes(const Network& network, bool events) {
+ExpectedCost expected_cost_of_subdomains(const Network& network, bool events) {
   const double bonds = network.num_elements();
   ExpectedCost cost;
   const bool frames = network.carries_moments();
@@ -153,8 +153,8 @@ ExpectedCost expected_cost_of_boxes(const Network& network, bool events) {
   cost.field_file = seconds_per_file + seconds_per_particle_of_file * network.particles.size();
   if (!events) return cost;
   const double unknowns = static_cast<double>(network.particles.size()) * network.width();
-  const bool defers = network.num_elements() >= BoxSolverOptions().fewest_to_defer && !frames &&
-                      !network.has_closing();
+  const bool defers = network.num_elements() >= SubdomainSolverOptions().fewest_to_defer &&
+                      !frames && !network.has_closing();
   const std::size_t window = columns_of_window(static_cast<std::size_t>(unknowns), defers);
   cost.memory += 8.0 * unknowns * (static_cast<double>(window) + columns_beside_window);
   const bool softens = network.laws.size() > 1 || !network.laws[0].is_brittle();

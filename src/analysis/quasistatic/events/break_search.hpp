@@ -13,7 +13,7 @@
 
 namespace perilink {
 
-struct CarriedParticles;
+struct EmbeddedParticles;
 struct DeferredMotion;
 
 /// Finds the element that is nearest to the limit of its law.
@@ -45,7 +45,7 @@ class BreakSearch {
   /// (DozingBlocks); find() then makes the displacements there current.
   /// \param carried  kept by reference
   /// \return per particle, whether its displacements must be current at each find()
-  virtual std::vector<std::uint8_t> doze(const CarriedParticles& carried) = 0;
+  virtual std::vector<std::uint8_t> doze(const EmbeddedParticles& embedded) = 0;
   /// From now on displacements follow by columns: find() makes those current that it looks at, and
   /// looks where bounds say so alone (DozingColumns). Elsewhere they are those of earlier events.
   /// \param motion  kept by reference

@@ -14,11 +14,10 @@ namespace {
 constexpr double margin = 1e-9;
 
 /// The unknown of each component of each node, no_index where a support holds it.
-std::vector<Index> unknowns_of_nodes(const Network& network, const CarriedParticles& carried) {
+std::vector<Index> unknowns_of_nodes(const Network& network, const EmbeddedParticles& embedded) {
   const auto width = static_cast<std::size_t>(network.width());
-  const Unknowns& unknowns = carried.unknowns;
-  std::vector<Index> table(static_cast<std::size_t>(carried.carriers.num_nodes()) * width,
-                           no_index);
+  const Unknowns& unknowns = embedded.unknowns;
+  std::vector<Index> table(static_cast<std::size_t>(embedded.hosts.num_nodes()) * width, no_index);
   const std::vector<Index> owners = unknowns.owners();
   const std::vector<std::size_t> slots = unknowns.slots();
   for (std::size_t k = 0; k < owners.size(); ++k) {
@@ -31,25 +30,25 @@ std::vector<Index> unknowns_of_nodes(const Network& network, const CarriedPartic
 }
 
 /// Shape functions at a carried particle, by the nodes of its element.
-std::span<const double> weights_at(const CarriedParticles& carried, Index particle) {
-  const Index element = carried.carrier[particle];
-  const auto inside = carried.carriers.inside.row(element);
+std::span<const double> weights_at(const EmbeddedParticles& embedded, Index particle) {
+  const Index element = embedded.host[particle];
+  const auto inside = embedded.hosts.inside.row(element);
   const auto place = std::lower_bound(inside.begin(), inside.end(), particle) - inside.begin();
-  return carried.carriers.weights_at(element, static_cast<std::size_t>(place));
+  return embedded.hosts.weights_at(element, static_cast<std::size_t>(place));
 }
 
 /// Adds and subtracts the shape functions of both ends of a bond.
 class Differences {
  public:
-  explicit Differences(const CarriedParticles& carried)
-      : carried_(carried), of_node_(static_cast<std::size_t>(carried.carriers.num_nodes()), 0.0) {}
+  explicit Differences(const EmbeddedParticles& embedded)
+      : embedded_(embedded), of_node_(static_cast<std::size_t>(embedded.hosts.num_nodes()), 0.0) {}
 
   /// Sum over the nodes of |N(j) - N(i)|, and the largest sum of |N| at an end.
   std::array<double, 2> between(Index i, Index j) {
     double at_end = 0.0, across = 0.0;
     for (const Index end : {i, j}) {
-      const auto nodes = carried_.carriers.nodes_of.row(carried_.carrier[end]);
-      const auto weights = weights_at(carried_, end);
+      const auto nodes = embedded_.hosts.nodes_of.row(embedded_.host[end]);
+      const auto weights = weights_at(embedded_, end);
       double sum = 0.0;
       for (std::size_t c = 0; c < nodes.size(); ++c) {
         of_node_[nodes[c]] += end == j ? weights[c] : -weights[c];
@@ -58,7 +57,7 @@ class Differences {
       at_end = std::max(at_end, sum);
     }
     for (const Index end : {i, j}) {
-      for (const Index node : carried_.carriers.nodes_of.row(carried_.carrier[end])) {
+      for (const Index node : embedded_.hosts.nodes_of.row(embedded_.host[end])) {
         across += std::abs(of_node_[node]);
         of_node_[node] = 0.0;
       }
@@ -67,7 +66,7 @@ class Differences {
   }
 
  private:
-  const CarriedParticles& carried_;
+  const EmbeddedParticles& embedded_;
   std::vector<double> of_node_;
 };
 
@@ -88,17 +87,17 @@ class Listed {
 }  // namespace
 
 DozingBlocks::DozingBlocks(
-    const Network& network, const CarriedParticles& carried, std::span<const Index> elements,
+    const Network& network, const EmbeddedParticles& embedded, std::span<const Index> elements,
     Index block_size, bool squares,
     const std::function<Slope(std::size_t place, double across, double at_end)>& slope_of)
-    : carried_(&carried),
+    : embedded_(&embedded),
       dim_(network.dim()),
       width_(network.width()),
       block_size_(block_size),
       squares_(squares) {
-  const std::vector<Index> table = unknowns_of_nodes(network, carried);
-  Differences differences(carried);
-  Listed listed_nodes(carried.carriers.num_nodes()), listed_particles(network.particles.size());
+  const std::vector<Index> table = unknowns_of_nodes(network, embedded);
+  Differences differences(embedded);
+  Listed listed_nodes(embedded.hosts.num_nodes()), listed_particles(network.particles.size());
   const auto count = static_cast<Index>(elements.size());
   for (Index begin = 0; begin < count; begin += block_size) {
     const Index end = std::min(count, begin + block_size);
@@ -107,11 +106,11 @@ DozingBlocks::DozingBlocks(
     bool dozes = true;
     for (Index k = begin; k < end && dozes; ++k) {
       const Index i = network.bonds.first[elements[k]], j = network.bonds.second[elements[k]];
-      dozes = carried.carrier[i] != no_index && carried.carrier[j] != no_index;
+      dozes = embedded.host[i] != no_index && embedded.host[j] != no_index;
       if (!dozes) break;
       for (const Index particle : {i, j}) {
         listed_particles.add(particle, begin, particles);
-        for (const Index node : carried.carriers.nodes_of.row(carried.carrier[particle])) {
+        for (const Index node : embedded.hosts.nodes_of.row(embedded.host[particle])) {
           listed_nodes.add(node, begin, nodes);
         }
       }
@@ -147,7 +146,7 @@ void DozingBlocks::add_group(const std::vector<Index>& nodes) {
   const auto place_of = [&](Index node) {
     Eigen::Vector3d place = Eigen::Vector3d::Zero();
     for (int a = 0; a < dim_; ++a) {
-      place[a] = carried_->carriers.nodes[static_cast<std::size_t>(node) * dim_ + a];
+      place[a] = embedded_->hosts.nodes[static_cast<std::size_t>(node) * dim_ + a];
     }
     return place;
   };
@@ -174,7 +173,7 @@ double DozingBlocks::bound(Index block) {
   double mean[3] = {0.0, 0.0, 0.0}, moment[3] = {0.0, 0.0, 0.0}, turn[3] = {0.0, 0.0, 0.0};
   for (std::size_t k = 0; k < moved_.size(); ++k) {
     const Index unknown = unknowns_[first + k];
-    moved_[k] = unknown == no_index ? 0.0 : carried_->solution[unknown] - reference_[first + k];
+    moved_[k] = unknown == no_index ? 0.0 : embedded_->solution[unknown] - reference_[first + k];
     if (static_cast<int>(k % width) < dim_) mean[k % width] += moved_[k];
   }
   for (double& component : mean) component /= static_cast<double>(nodes);
@@ -223,7 +222,7 @@ void DozingBlocks::look(Index block) {
   const auto width = static_cast<std::size_t>(width_);
   const std::size_t first = group.first_node * width;
   for (std::size_t k = first; k < first + static_cast<std::size_t>(group.nodes) * width; ++k) {
-    reference_[k] = unknowns_[k] == no_index ? 0.0 : carried_->solution[unknowns_[k]];
+    reference_[k] = unknowns_[k] == no_index ? 0.0 : embedded_->solution[unknowns_[k]];
   }
 }
 
@@ -237,10 +236,10 @@ void DozingBlocks::move_particles(const Group& group) {
   for (std::size_t k = group.first_particle; k < group.last_particle; ++k) {
     for (std::size_t a = 0; a < width; ++a) {
       const std::size_t slot = static_cast<std::size_t>(particles_[k]) * width + a;
-      if (carried_->unknowns.number[slot] != no_index) slots_.push_back(slot);
+      if (embedded_->unknowns.number[slot] != no_index) slots_.push_back(slot);
     }
   }
-  carried_->unknowns.expand(carried_->solution, slots_, carried_->displacement);
+  embedded_->unknowns.expand(embedded_->solution, slots_, embedded_->displacement);
 }
 
 void DozingBlocks::remember(Index block, double largest) {

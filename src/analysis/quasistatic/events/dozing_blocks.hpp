@@ -6,16 +6,16 @@
 #include <vector>
 
 #include "base/csr.hpp"
-#include "discretization/carriers/carriers.hpp"
+#include "discretization/hosts/hosts.hpp"
 #include "network/network.hpp"
 #include "network/unknowns.hpp"
 
 namespace perilink {
 
 /// Where a search finds what finite elements carry.
-struct CarriedParticles {
-  const Carriers& carriers;
-  std::vector<Index> carrier;  ///< per particle, its element; no_index: it moves by itself
+struct EmbeddedParticles {
+  const Hosts& hosts;
+  std::vector<Index> host;  ///< per particle, its element; no_index: it moves by itself
   const Unknowns& unknowns;
   const std::vector<double>& solution;  ///< q, as it is at each search
   std::vector<double>& displacement;  ///< by it, shape (particles, width); current where asked for
@@ -45,7 +45,7 @@ class DozingBlocks {
   /// \param slope_of    slope for the bond at a place of the search, from the sum over the nodes of
   ///                    |N(second end) - N(first end)| and the largest sum of |N| at an end
   DozingBlocks(
-      const Network& network, const CarriedParticles& carried, std::span<const Index> elements,
+      const Network& network, const EmbeddedParticles& embedded, std::span<const Index> elements,
       Index block_size, bool squares,
       const std::function<Slope(std::size_t place, double across, double at_end)>& slope_of);
 
@@ -81,7 +81,7 @@ class DozingBlocks {
   void add_group(const std::vector<Index>& nodes);
   void move_particles(const Group& group);
 
-  const CarriedParticles* carried_ = nullptr;
+  const EmbeddedParticles* embedded_ = nullptr;
   int dim_ = 2, width_ = 2;
   Index block_size_ = 0;
   bool squares_ = false;

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "analysis/quasistatic/boxes/deferred_motion.hpp"
+#include "analysis/quasistatic/subdomains/deferred_motion.hpp"
 #include "base/block.hpp"
 #include "base/types.hpp"
 

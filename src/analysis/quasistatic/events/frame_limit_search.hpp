@@ -32,7 +32,7 @@ class FrameLimitSearch final : public BreakSearch {
   std::vector<Hit> list(std::span<const double> displacement, double least) const override;
   void set_limit(Index element, double limit) override;
   void set_limits(Index element, double tension, double compression) override;
-  std::vector<std::uint8_t> doze(const CarriedParticles& carried) override;
+  std::vector<std::uint8_t> doze(const EmbeddedParticles& embedded) override;
   void wake() override { dozing_ = {}; }
 
  private:
@@ -47,7 +47,7 @@ class FrameLimitSearch final : public BreakSearch {
   };
   template <int Dim>
   double section_ratio(Index k, const double* u) const;
-  double ribbon_ratio(Index element, const Bond& bond, const double* u) const;
+  double shell_bond_ratio(Index element, const Bond& bond, const double* u) const;
   /// \param either_way  as if it were in tension and in compression
   template <int Dim>
   double squared_ratio(const Bond& bond, const double* u, bool either_way = false) const;

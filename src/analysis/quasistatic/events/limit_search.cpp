@@ -35,7 +35,7 @@ void LimitSearch::add(Index element, Group& group) {
   group.second.push_back(network_.bonds.second[element] * dim_);
   for (int a = 0; a < dim_; ++a) group.gradient[a].push_back(0.0);
   set_gradient(group, group.elements.size() - 1,
-               network_.critical_stretch[element] * network_.law(element).tooth(0).limit);
+               network_.critical_stretch[element] * network_.law(element).segment(0).limit);
 }
 
 /// Zero without a limit.
@@ -156,7 +156,7 @@ void LimitSearch::set_limit(Index element, double limit) {
                         square_of_gradient() > before);
 }
 
-std::vector<std::uint8_t> LimitSearch::doze(const CarriedParticles& carried) {
+std::vector<std::uint8_t> LimitSearch::doze(const EmbeddedParticles& embedded) {
   std::vector<std::uint8_t> awake(static_cast<std::size_t>(network_.particles.size()), 0);
   for (Group* group : {&pulled_, &strained_}) {
     const auto slope_of = [&](std::size_t place, double across, double) -> Slope {
@@ -165,7 +165,7 @@ std::vector<std::uint8_t> LimitSearch::doze(const CarriedParticles& carried) {
       return {across * std::sqrt(square), 0.0};
     };
     group->dozing =
-        DozingBlocks(network_, carried, group->elements, search_block_size, false, slope_of);
+        DozingBlocks(network_, embedded, group->elements, search_block_size, false, slope_of);
     group->dozing.mark_awake(network_, group->elements, awake);
   }
   return awake;

@@ -23,7 +23,7 @@ class LimitSearch final : public BreakSearch {
   std::vector<Hit> list(std::span<const double> displacement, double least) const override;
   void set_limit(Index element, double limit) override;
   void set_limits(Index element, double tension, double compression) override;
-  std::vector<std::uint8_t> doze(const CarriedParticles& carried) override;
+  std::vector<std::uint8_t> doze(const EmbeddedParticles& embedded) override;
   bool doze_by_columns(const DeferredMotion& motion) override;
   void wake() override { pulled_.dozing = strained_.dozing = {}; }
 

@@ -27,14 +27,14 @@ class SingleEventEngine : public EventEngine {
   LoadWork load_work() override { return equilibrium_.work(); }
   Secants secants() const override { return equilibrium_.secants(); }
   Balance check_equilibrium() override { return equilibrium_.check(); }
-  Balance glance_at_equilibrium() override { return equilibrium_.glance(); }
+  Balance check_cheaply() override { return equilibrium_.check_cheaply(); }
   Freedom change_motion(const Unknowns& unknowns) override {
     search_->wake();  // what it knows of carried particles is no more
-    carried_.reset();
+    embedded_.reset();
     return equilibrium_.change_motion(unknowns);
   }
-  void doze(const Carriers& carriers, const std::vector<Index>& carrier) override;
-  void set_alert(std::span<const Index> elements, double fraction) override;
+  void doze(const Hosts& hosts, const std::vector<Index>& host) override;
+  void set_release_threshold(std::span<const Index> elements, double fraction) override;
   std::vector<Index> near_events(const Event& event, double fraction) override;
   int factorizations() const override { return equilibrium_.factor().factorizations(); }
   FactorStatistics factor_statistics() const override { return equilibrium_.factor_statistics(); }
@@ -52,8 +52,8 @@ class SingleEventEngine : public EventEngine {
   void limit_batch(const Event& event, double energy, std::vector<BreakSearch::Hit>& hits);
   EventOutcome apply_one(const Event& event);
   EventOutcome apply_all(std::span<const Index> elements, double load_factor);
-  int next_tooth(Index element) const;
-  void pass_limit(Index element, int tooth, EventOutcome& outcome);
+  int next_segment(Index element) const;
+  void pass_limit(Index element, int segment, EventOutcome& outcome);
 
   /// Elements whose ratio at the load factor of the event is at least this, in the order of their
   /// numbers.
@@ -66,7 +66,9 @@ class SingleEventEngine : public EventEngine {
   const BondLaw& law_of(Index element) const;
   double stretch_of(Index element) const;
 
-  double alert_of(Index element) const { return alert_.empty() ? 1.0 : alert_[element]; }
+  double release_threshold_of(Index element) const {
+    return release_threshold_.empty() ? 1.0 : release_threshold_[element];
+  }
 
   /// Tells the search the next limits of an element after its event.
   void set_limits(Index element);
@@ -87,17 +89,18 @@ class SingleEventEngine : public EventEngine {
   double most_at_once_ = 1.0, last_count_ = 1.0, last_factor_ = 0.0;
   Equilibrium equilibrium_;
   std::unique_ptr<BreakSearch> search_;
-  std::optional<CarriedParticles> carried_;  ///< what the search leaves out while it dozes
-  bool closes_;                              ///< Network::has_closing()
-  std::optional<CrushingBonds> crushing_;    ///< where there are some
-  std::vector<int> teeth_;                   ///< present tooth of each element
+  std::optional<EmbeddedParticles> embedded_;  ///< what the search leaves out while it dozes
+  bool closes_;                                ///< Network::has_closing()
+  std::optional<CrushingBonds> crushing_;      ///< where there are some
+  std::vector<int> segments_;                  ///< present tooth of each element
   /// Where bars have flowed.
   struct OwnLaw {
     BondLaw law;
     double stretch;
   };
   std::map<Index, OwnLaw> own_laws_;
-  std::vector<double> alert_;  ///< per element: fraction of its limit that counts; empty: all of it
+  std::vector<double>
+      release_threshold_;  ///< per element: fraction of its limit that counts; empty: all of it
 };
 
 }  // namespace perilink

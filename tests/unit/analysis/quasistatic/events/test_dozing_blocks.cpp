@@ -8,7 +8,7 @@
 
 #include "analysis/quasistatic/events/break_search.hpp"
 #include "analysis/quasistatic/events/event_engine.hpp"
-#include "network/carried_motion.hpp"
+#include "network/embedded_motion.hpp"
 #include "support/analysis_bodies.hpp"
 #include "support/micropolar_networks.hpp"
 
@@ -30,14 +30,14 @@ struct CarriedBodyInMotion {
       }
       for (int k = 0; k <= 3; ++k) divisions[a].push_back(lower + (upper - lower) * k / 3.0);
     }
-    carriers = carriers_on_grid(particles, {}, divisions, 2, 1e-9);
+    hosts = hosts_on_grid(particles, {}, divisions, 2, 1e-9);
     const std::size_t slots = static_cast<std::size_t>(particles.size()) * network.width();
     const Unknowns free = number_unknowns(network.width(), std::vector<std::uint8_t>(slots, 0),
                                           std::vector<double>(slots, 0.0));
-    std::vector<std::uint8_t> whole(static_cast<std::size_t>(carriers.size()), 1);
+    std::vector<std::uint8_t> whole(static_cast<std::size_t>(hosts.size()), 1);
     whole[0] = 0;
-    unknowns = carried_motion(carriers, free, whole);
-    carrier = carrier_of_particles(carriers, whole, particles.size());
+    unknowns = embedded_motion(hosts, free, whole);
+    host = host_of_particles(hosts, whole, particles.size());
     solution.resize(static_cast<std::size_t>(unknowns.count), 0.0);
     places = places_of_unknowns();
   }
@@ -57,9 +57,9 @@ struct CarriedBodyInMotion {
   }
 
   Network network;
-  Carriers carriers;
+  Hosts hosts;
   Unknowns unknowns;
-  std::vector<Index> carrier;
+  std::vector<Index> host;
   std::vector<double> solution;
   std::vector<std::pair<Vector3, int>> places;
 
@@ -72,7 +72,7 @@ struct CarriedBodyInMotion {
       const Index node = owners[k] - network.particles.size();
       Vector3 x{};
       for (int a = 0; a < network.dim(); ++a) {
-        x[a] = node >= 0 ? carriers.nodes[static_cast<std::size_t>(node) * network.dim() + a]
+        x[a] = node >= 0 ? hosts.nodes[static_cast<std::size_t>(node) * network.dim() + a]
                          : network.particles.position(owners[k])[a];
       }
       result.emplace_back(x, static_cast<int>(slots[k]) % network.width());
@@ -88,9 +88,9 @@ void expect_same_answers(CarriedBodyInMotion body) {
   std::mt19937 random(7);
   body.move(random, 0.3, 1e-3);
   std::vector<double> displacement = body.unknowns.expand(body.solution);
-  const CarriedParticles carried{body.carriers, body.carrier, body.unknowns, body.solution,
-                                 displacement};
-  const std::vector<std::uint8_t> awake = search->doze(carried);
+  const EmbeddedParticles embedded{body.hosts, body.host, body.unknowns, body.solution,
+                                   displacement};
+  const std::vector<std::uint8_t> awake = search->doze(embedded);
   ASSERT_TRUE(std::count(awake.begin(), awake.end(), 0) > 0);
   std::size_t left_alone = 0;
   for (int step = 0; step < 60; ++step) {
@@ -129,11 +129,11 @@ TEST(DozingBlocks, OfFramesAnswerAsASearchAmongAll) {
 TEST(DozingBlocks, BoundsGrowByTheSlope) {
   CarriedBodyInMotion body(make_network({"plane", Pattern::rectangular, Surface::none}, 31));
   std::vector<double> displacement = body.unknowns.expand(body.solution);
-  const CarriedParticles carried{body.carriers, body.carrier, body.unknowns, body.solution,
-                                 displacement};
+  const EmbeddedParticles embedded{body.hosts, body.host, body.unknowns, body.solution,
+                                   displacement};
   std::vector<Index> elements(static_cast<std::size_t>(body.network.num_elements()));
   for (std::size_t e = 0; e < elements.size(); ++e) elements[e] = static_cast<Index>(e);
-  DozingBlocks blocks(body.network, carried, elements, 64, false, [](std::size_t, double, double) {
+  DozingBlocks blocks(body.network, embedded, elements, 64, false, [](std::size_t, double, double) {
     return Slope{2.0, 0.0};
   });
   Index block = 0;
