@@ -12,8 +12,8 @@ namespace {
 
 /// The node of a bar that an end of a segment is, or moves with but for a prestrain.
 Index node_of(const Network& network, Index end) {
-  if (!network.is_anchor(end)) return end;
-  return network.anchors.particles.row(end - network.first_anchor())[0];
+  if (!network.is_embedded_point(end)) return end;
+  return network.embedded_points.particles.row(end - network.first_embedded_point())[0];
 }
 
 /// Motion of the solid at the nodes of bars, shape (particles, dim); that of particles elsewhere.
@@ -26,16 +26,16 @@ std::vector<double> motion_of_solid(const Network& network, std::span<const doub
   for (Index i = 0; i < count; ++i) {
     for (Eigen::Index a = 0; a < dim; ++a) found[i * dim + a] = motion[i * width + a];
   }
-  const bool anchored = network.anchors.size() > 0;
-  const Index end = anchored ? network.first_anchored_tie : network.first_segment;
+  const bool embedded = network.embedded_points.size() > 0;
+  const Index end = embedded ? network.first_embedded_slip_spring : network.first_bar_element;
   const Csr ties = sorted_into_rows(count, [&](auto&& act) {
-    for (Index e = network.first_tie; e < end; ++e) act(network.bonds.second[e], e);
+    for (Index e = network.first_slip_spring; e < end; ++e) act(network.bonds.second[e], e);
   });
-  for (Index e = end; e < network.first_segment; e += static_cast<Index>(dim)) {
+  for (Index e = end; e < network.first_bar_element; e += static_cast<Index>(dim)) {
     const Index node = network.bonds.first[e];
-    const Index anchor = network.bonds.second[e] - network.first_anchor();
-    const auto particles = network.anchors.particles.row(anchor);
-    const auto weights = network.anchors.weights_of(anchor);
+    const Index embedded_point = network.bonds.second[e] - network.first_embedded_point();
+    const auto particles = network.embedded_points.particles.row(embedded_point);
+    const auto weights = network.embedded_points.weights_of(embedded_point);
     for (Eigen::Index a = 0; a < dim; ++a) {
       double& moved = found[node * dim + a] = 0.0;
       for (std::size_t k = 0; k < particles.size(); ++k) {
@@ -71,7 +71,7 @@ std::vector<double> motion_of_solid(const Network& network, std::span<const doub
 std::vector<std::array<std::size_t, 2>> neighbours_of(const Network& network) {
   const Bars& bars = network.bars;
   const auto nodes = [&](std::size_t s) {
-    const Index e = network.first_segment + static_cast<Index>(s);
+    const Index e = network.first_bar_element + static_cast<Index>(s);
     return std::array{node_of(network, network.bonds.first[e]),
                       node_of(network, network.bonds.second[e])};
   };
@@ -94,9 +94,10 @@ std::vector<std::array<std::size_t, 2>> neighbours_of(const Network& network) {
 }
 
 /// Per particle the tie that holds it along its bar; no_index where it has no anchor.
-std::vector<Index> ties_along_bars(const Network& network) {
+std::vector<Index> slip_springs_along_bars(const Network& network) {
   std::vector<Index> ties(static_cast<std::size_t>(network.particles.size()), no_index);
-  for (Index e = network.first_anchored_tie; e < network.first_segment; e += network.dim()) {
+  for (Index e = network.first_embedded_slip_spring; e < network.first_bar_element;
+       e += network.dim()) {
     ties[network.bonds.first[e]] = e;  // those across the bar come behind it
   }
   return ties;
@@ -111,12 +112,12 @@ class BarEnds {
         secants_(secants),
         motion_(motion),
         solid_(solid),
-        ties_(ties_along_bars(network)) {}
+        ties_(slip_springs_along_bars(network)) {}
 
   /// \param otherwise  where the end has no anchor
   double given(std::size_t segment, bool begin, double otherwise) const {
     const auto dim = static_cast<std::size_t>(network_.dim());
-    const Index e = network_.first_segment + static_cast<Index>(segment);
+    const Index e = network_.first_bar_element + static_cast<Index>(segment);
     const bool turned = network_.bars.turned[segment] != 0;
     const Index end = begin != turned ? network_.bonds.first[e] : network_.bonds.second[e];
     const auto node = static_cast<std::size_t>(node_of(network_, end));
@@ -153,7 +154,7 @@ std::vector<double> bond_stresses(const Network& network, const std::vector<doub
     // At a node the solid takes the difference of the forces of its segments, over half of each; at
     // an end of the bar what its tie bears, or else all of it.
     const auto length_of = [&](std::size_t k) {
-      return network.bonds.length(network.first_segment + static_cast<Index>(k));
+      return network.bonds.length(network.first_bar_element + static_cast<Index>(k));
     };
     const std::size_t before = neighbours[s][0], after = neighbours[s][1];
     const double at_begin =
@@ -177,7 +178,7 @@ BarState bar_state(const Network& network, Secants secants, std::span<const doub
   const std::vector<double> solid = motion_of_solid(network, motion);
   BarState state;
   for (std::size_t s = 0; s < bars.bar.size(); ++s) {
-    const Index e = network.first_segment + static_cast<Index>(s);
+    const Index e = network.first_bar_element + static_cast<Index>(s);
     const std::size_t ends[] = {static_cast<std::size_t>(bonds.first[e]),
                                 static_cast<std::size_t>(bonds.second[e])};
     const std::size_t nodes[] = {static_cast<std::size_t>(node_of(network, bonds.first[e])),

@@ -27,17 +27,17 @@ bool fit_linear(std::span<const double> offsets, std::span<double> weights) {
 }
 
 template <int Dim>
-void fill_principal_strains(const Network& network, const Csr& families, Secants secants,
+void fill_principal_strains(const Network& network, const Csr& neighbourhoods, Secants secants,
                             std::span<const double> displacement, std::vector<double>& strains) {
   using Matrix = Eigen::Matrix<double, Dim, Dim>;
   constexpr Index block = NeighborGradients<Dim>::block;
 #pragma omp parallel for schedule(dynamic)
-  for (Index begin = 0; begin < families.rows(); begin += block) {
+  for (Index begin = 0; begin < neighbourhoods.rows(); begin += block) {
     NeighborGradients<Dim> gradients(network.particles, displacement, Dim, fit_linear<Dim>);
     std::vector<Index> neighbors;
-    for (Index i = begin; i < std::min(begin + block, families.rows()); ++i) {
+    for (Index i = begin; i < std::min(begin + block, neighbourhoods.rows()); ++i) {
       neighbors.clear();
-      for (const Index e : families.row(i)) {
+      for (const Index e : neighbourhoods.row(i)) {
         if (secants[e] > 0.0) neighbors.push_back(network.bonds.other_end(e, i));
       }
       Matrix gradient;
@@ -92,13 +92,14 @@ void for_each_frame_energy(const Network& network, Secants secants, std::span<co
 
 }  // namespace
 
-std::vector<double> particle_damage(const Network& network, const Csr& families, Secants secants) {
-  std::vector<double> damage(static_cast<std::size_t>(families.rows()), 0.0);
+std::vector<double> particle_damage(const Network& network, const Csr& neighbourhoods,
+                                    Secants secants) {
+  std::vector<double> damage(static_cast<std::size_t>(neighbourhoods.rows()), 0.0);
   if (secants.size() == 0) return damage;  // nothing is damaged
-  for (Index i = 0; i < families.rows(); ++i) {
+  for (Index i = 0; i < neighbourhoods.rows(); ++i) {
     double all = 0.0;
     double lost = 0.0;
-    for (const Index e : families.row(i)) {
+    for (const Index e : neighbourhoods.row(i)) {
       const std::vector<Index>& cut = network.cut_elements;
       if (std::binary_search(cut.begin(), cut.end(), e)) continue;
       const double volume = network.particles.volumes[network.bonds.other_end(e, i)];
@@ -153,18 +154,19 @@ std::vector<double> strain_energy_density(const Network& network, Secants secant
   return density;
 }
 
-std::vector<double> face_strains(const Network& network, const Csr& families, Secants secants,
+std::vector<double> face_strains(const Network& network, const Csr& neighbourhoods, Secants secants,
                                  std::span<const double> motion) {
   using Matrix = Eigen::Matrix2d;
   const Shell& shell = *network.shell;
-  std::vector<double> strains(static_cast<std::size_t>(families.rows()) * 3, 0.0);
-  for (Index i = 0; i < families.rows(); ++i) {
+  std::vector<double> strains(static_cast<std::size_t>(neighbourhoods.rows()) * 3, 0.0);
+  for (Index i = 0; i < neighbourhoods.rows(); ++i) {
     // Least squares of G xi = (e + z e') n + (g - z g') t of every bond, z = t/2 and -t/2.
     Matrix shape = Matrix::Zero(), faces[2] = {Matrix::Zero(), Matrix::Zero()};
-    for (const Index e : families.row(i)) {
+    for (const Index e : neighbourhoods.row(i)) {
       if (!(secants[e] > 0.0)) continue;
       const Index ends[2] = {network.bonds.first[e], network.bonds.second[e]};
-      const auto from = shell.sheet.position(ends[0]), to = shell.sheet.position(ends[1]);
+      const auto from = shell.mid_surface.position(ends[0]),
+                 to = shell.mid_surface.position(ends[1]);
       const Eigen::Vector2d xi(to[0] - from[0], to[1] - from[1]);
       const Eigen::Vector2d n = xi.normalized(), t(-n[1], n[0]);
       const FrameModes<3> modes = frame_modes<3>(network, e);
@@ -197,13 +199,13 @@ std::vector<double> face_strains(const Network& network, const Csr& families, Se
   return strains;
 }
 
-std::vector<double> principal_strains(const Network& network, const Csr& families, Secants secants,
-                                      std::span<const double> displacement) {
+std::vector<double> principal_strains(const Network& network, const Csr& neighbourhoods,
+                                      Secants secants, std::span<const double> displacement) {
   std::vector<double> strains(displacement.size(), 0.0);
   if (network.dim() == 2) {
-    fill_principal_strains<2>(network, families, secants, displacement, strains);
+    fill_principal_strains<2>(network, neighbourhoods, secants, displacement, strains);
   } else {
-    fill_principal_strains<3>(network, families, secants, displacement, strains);
+    fill_principal_strains<3>(network, neighbourhoods, secants, displacement, strains);
   }
   return strains;
 }

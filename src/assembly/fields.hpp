@@ -13,7 +13,8 @@ namespace perilink {
 
 /// Damage: the part of the stiffness that bonds have lost, weighted by the volumes at their
 /// other ends, per particle [-]. Bars that yield are not damaged.
-std::vector<double> particle_damage(const Network& network, const Csr& families, Secants secants);
+std::vector<double> particle_damage(const Network& network, const Csr& neighbourhoods,
+                                    Secants secants);
 
 /// The displacements without the rotations, shape (particles, dim).
 /// \param motion  shape (particles, width)
@@ -32,12 +33,12 @@ std::vector<double> strain_energy_density(const Network& network, Secants secant
 /// Principal strains, largest first, of the least-squares displacement gradient over the intact
 /// bonds of each particle; shape (particles, dim). Zero where the bonds do not span the space.
 /// \param displacement  shape (particles, dim)
-std::vector<double> principal_strains(const Network& network, const Csr& families, Secants secants,
-                                      std::span<const double> displacement);
+std::vector<double> principal_strains(const Network& network, const Csr& neighbourhoods,
+                                      Secants secants, std::span<const double> displacement);
 
 /// Principal strains of a shell within its faces, largest first, of that face where the largest is
 /// larger, by the same rule; the third is zero. Shape (particles, 3).
-std::vector<double> face_strains(const Network& network, const Csr& families, Secants secants,
+std::vector<double> face_strains(const Network& network, const Csr& neighbourhoods, Secants secants,
                                  std::span<const double> motion);
 
 }  // namespace perilink

@@ -70,7 +70,7 @@ std::vector<double> eigenvalues_of(std::span<const double> tensors) {
 }  // namespace
 
 SparseMatrix assemble_stiffness(const LinearElements& elements, const Unknowns& unknowns) {
-  expect_nothing_carried(unknowns);
+  expect_nothing_embedded(unknowns);
   return elements.dim() == 2 ? LowerTriangle(CellBlocks<2>(elements), unknowns).build()
                              : LowerTriangle(CellBlocks<3>(elements), unknowns).build();
 }

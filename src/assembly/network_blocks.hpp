@@ -22,14 +22,14 @@ class NetworkBlocks {
   NetworkBlocks(const Network& network, Secants secants)
       : network_(network),
         secants_(secants),
-        families_(bonds_of_particles(network.bonds, network.particles.size())) {
+        neighbourhoods_(bonds_of_particles(network.bonds, network.particles.size())) {
     if (network.cells) cells_.emplace(*network.cells);
   }
 
-  Index num_particles() const { return families_.rows(); }
+  Index num_particles() const { return neighbourhoods_.rows(); }
 
   void visit(Index i, auto&& sink) const {
-    for (const Index e : families_.row(i)) visit_element(e, i, sink);
+    for (const Index e : neighbourhoods_.row(i)) visit_element(e, i, sink);
     visit_support(i, sink);
     if (cells_) visit_cells(i, sink);
   }
@@ -58,7 +58,7 @@ class NetworkBlocks {
 
   const Network& network_;
   Secants secants_;
-  Csr families_;
+  Csr neighbourhoods_;
   std::optional<CellBlocks<Element::dim>> cells_;
 };
 
@@ -78,7 +78,7 @@ class StateBlocks : public NetworkBlocks<Truss<Dim>> {
 
   void visit(Index i, auto&& sink) const {
     visit_state(i, own_[i], sink);
-    for (const Index e : this->families_.row(i)) {
+    for (const Index e : this->neighbourhoods_.row(i)) {
       this->visit_element(e, i, sink);
       const bool outward = this->network_.bonds.first[e] == i;
       const double part = outward ? -counted(e, second_end) : counted(e, first_end);
@@ -105,7 +105,7 @@ class StateBlocks : public NetworkBlocks<Truss<Dim>> {
     const Vector column = this->network_.state_stiffness[center] * by_i;
     const Vector& own = own_[center];
     sink(center, [&](int row, int col) { return own[row] * column[col]; });
-    for (const Index e : this->families_.row(center)) {
+    for (const Index e : this->neighbourhoods_.row(center)) {
       const bool outward = this->network_.bonds.first[e] == center;
       const double part = outward ? counted(e, first_end) : -counted(e, second_end);
       const double* n = this->network_.bonds.direction(e).data();

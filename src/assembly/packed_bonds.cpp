@@ -183,8 +183,8 @@ void PackedBonds::follow(Secants secants) {
 
 /// Forces of the bonds of a place, with what the row holds.
 template <int Dim, class Row>
-void PackedBonds::place_forces(std::size_t place, const typename Row::Number* motions,
-                               typename Row::Number* forces) const {
+void PackedBonds::region_forces(std::size_t place, const typename Row::Number* motions,
+                                typename Row::Number* forces) const {
   using Pull = typename Row::Pull;
   constexpr std::size_t ahead = 128;  // one row of memory is read faster than processors foresee
   const Row motion(motions + place * Row::size);
@@ -222,7 +222,7 @@ void PackedBonds::part_forces(std::size_t part, const typename Row::Number* moti
   std::fill(forces + told * Row::size, forces + end * Row::size, typename Row::Number{});
   for (std::size_t place = told; place < end; ++place) {
     for (std::size_t from = 0; from < Row::vectors; from += Row::lanes) {
-      place_forces<Dim, Row>(place, motions + from, forces + from);
+      region_forces<Dim, Row>(place, motions + from, forces + from);
     }
     // Bonds behind end at places behind, or add nothing to the other end.
     if (place + 1 < told + together && place + 1 < end) continue;

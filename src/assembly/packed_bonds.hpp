@@ -52,8 +52,8 @@ class PackedBonds {
   template <template <int> class Row, class Number, class Done>
   void all_forces(const Number* motions, Number* forces, const Done& done) const;
   template <int Dim, class Row>
-  void place_forces(std::size_t place, const typename Row::Number* motions,
-                    typename Row::Number* forces) const;
+  void region_forces(std::size_t place, const typename Row::Number* motions,
+                     typename Row::Number* forces) const;
   template <int Dim, class Row, class Done>
   void part_forces(std::size_t part, const typename Row::Number* motions,
                    typename Row::Number* forces, const Done& done) const;

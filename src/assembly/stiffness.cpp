@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "assembly/carried_stiffness.hpp"
+#include "assembly/embedded_stiffness.hpp"
 #include "assembly/internal_force.hpp"
 #include "assembly/lower_triangle.hpp"
 #include "assembly/network_blocks.hpp"
@@ -11,7 +11,7 @@
 namespace perilink {
 
 SparseMatrix assemble_stiffness(const Network& network, Secants secants, const Unknowns& unknowns) {
-  if (unknowns.carries()) return assemble_carried(network, secants, unknowns);
+  if (unknowns.carries()) return assemble_embedded(network, secants, unknowns);
   return with_blocks(network, secants,
                      [&](const auto& blocks) { return LowerTriangle(blocks, unknowns).build(); });
 }

@@ -12,7 +12,7 @@ namespace {
 
 /// Seconds per free bond, of lattices (their free bonds lie along the surface) and of clouds.
 struct Rates {
-  double lattice, cloud;
+  double lattice, particle_set;
 };
 
 // Measured on bodies of 16 000 to 165 000 free bonds, alone on one core; lattices in space without
@@ -47,7 +47,7 @@ constexpr double worth_a_try = 2.0;
 /// mostly left out: 74 in all).
 constexpr double bytes_of_any_bond = 75.0, bytes_where_held = 100.0, bytes_where_shared = 32.0;
 constexpr double most_of_few = 0.5;
-constexpr double bytes_of_bond = 1300.0, bytes_in_cloud = 450.0;
+constexpr double bytes_of_bond = 1300.0, bytes_in_unstructured = 450.0;
 constexpr double bytes_by_factor = 20000.0, bytes_of_equations = 0.36, bytes_of_equation = 6000.0;
 /// The factor of their equations is nearly full, and its time grows with the third power.
 constexpr double most_alike_equations = 20000.0;
@@ -76,7 +76,7 @@ double cost_of_single_bonds(const CalibrationInput& input, bool moments) {
   const Rates& rates = in_plane_only ? moments ? in_plane_with_moments : in_plane
                        : moments     ? in_space_with_moments
                                      : in_space;
-  double rate = input.all_free() ? rates.cloud : rates.lattice;
+  double rate = input.all_free() ? rates.particle_set : rates.lattice;
   const double free_bonds = count_free(input);
   if (by_factor(input, moments)) {
     rate = in_space_by_factor * free_bonds / bonds_by_factor;
@@ -91,9 +91,9 @@ double cost_of_single_bonds(const CalibrationInput& input, bool moments) {
 
 double bytes_of_single_bonds(const CalibrationInput& input, bool moments) {
   if (input.particles.dim == 2) return 0.0;  // less than the run takes
-  const bool cloud = input.all_free() && !moments;
+  const bool particle_set = input.all_free() && !moments;
   const double bytes = by_factor(input, moments) ? bytes_by_factor
-                       : cloud                   ? bytes_in_cloud
+                       : particle_set            ? bytes_in_unstructured
                                                  : bytes_of_bond;
   return bytes * count_free(input);
 }

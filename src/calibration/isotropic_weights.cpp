@@ -50,7 +50,7 @@ double partial_volume(double length, double horizon, double spacing) {
 }
 
 void make_isotropic(int dim, std::span<const Vector3> offsets, double volume,
-                    const LameConstants& constants, FamilyStiffness& stiffness) {
+                    const LameConstants& constants, NeighbourhoodStiffness& stiffness) {
   const bool bending = !stiffness.bending.empty();
   const ModuliRows rows{dim, bending};
   const std::vector<std::size_t> opposite = opposites(offsets);

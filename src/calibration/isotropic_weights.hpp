@@ -9,7 +9,7 @@
 namespace perilink {
 
 /// Stiffness of the bonds of a lattice particle, by the vector to its neighbour.
-struct FamilyStiffness {
+struct NeighbourhoodStiffness {
   std::vector<double> axial;    ///< [force/length]
   std::vector<double> bending;  ///< [force/length]; empty where bonds carry no moment
 };
@@ -22,7 +22,7 @@ struct FamilyStiffness {
 /// \param stiffness  where the change starts; on return what it led to
 /// \throws std::invalid_argument where the neighbours are too few for it
 void make_isotropic(int dim, std::span<const Vector3> offsets, double volume,
-                    const LameConstants& constants, FamilyStiffness& stiffness);
+                    const LameConstants& constants, NeighbourhoodStiffness& stiffness);
 
 /// Part of a neighbour's cell that lies within the horizon, taken as falling linearly over one
 /// spacing around it: min(1, (delta + h/2 - xi) / h) (Hu, Ha & Bobaru 2010).

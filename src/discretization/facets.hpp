@@ -28,10 +28,10 @@ struct Facets {
 
   /// Nonzero where an ordinary finite element holds the other side: its nodes take equal shares,
   /// and so must these; empty: nowhere.
-  std::vector<std::uint8_t> glued = {};
+  std::vector<std::uint8_t> tied = {};
 
   Index size() const { return static_cast<Index>(inside.size()); }
-  bool is_glued(Index facet) const { return !glued.empty() && glued[facet] != 0; }
+  bool is_tied(Index facet) const { return !tied.empty() && tied[facet] != 0; }
   bool on_surface(Index facet) const { return outside[facet] == no_index; }
   std::span<const double> area_vector(Index facet) const {
     return {area_vectors.data() + static_cast<std::size_t>(facet) * dim,

@@ -63,8 +63,8 @@ Csr search(std::span<const double> points, std::span<const double> queries, cons
   result.offsets.assign(static_cast<std::size_t>(num_queries) + 1, 0);
   if (points.empty() || num_queries == 0) return result;
 
-  const PointCloud cloud{points, Dim};
-  Tree<Dim> tree(Dim, cloud, tree_parameters);
+  const PointCloud particle_set{points, Dim};
+  Tree<Dim> tree(Dim, particle_set, tree_parameters);
 
   // Chunks are searched in parallel and joined in order, so the result does not depend on threads.
   constexpr Index chunk_size = 4096;
@@ -122,8 +122,8 @@ std::vector<double> nearest(std::span<const double> positions, int count) {
   const std::size_t size = positions.size() / Dim;
   std::vector<double> distances(size, std::numeric_limits<double>::infinity());
   if (size <= static_cast<std::size_t>(count)) return distances;
-  const PointCloud cloud{positions, Dim};
-  Tree<Dim> tree(Dim, cloud, tree_parameters);
+  const PointCloud particle_set{positions, Dim};
+  Tree<Dim> tree(Dim, particle_set, tree_parameters);
 #pragma omp parallel
   {
     const std::size_t wanted = static_cast<std::size_t>(count) + 1;  // with the point itself

@@ -10,11 +10,11 @@ namespace perilink {
 
 /// What a particle stands for.
 enum class ParticleKind : std::uint8_t {
-  solid,   ///< material of the body
-  ghost,   ///< Peri2D's ghost layer: no modulus of its own, bonds to solid particles at half
-           ///< stiffness
-  rebar,   ///< node of a reinforcing bar
-  anchor,  ///< point that moves with particles around it (Anchors)
+  solid,  ///< material of the body
+  ghost,  ///< Peri2D's ghost layer: no modulus of its own, bonds to solid particles at half
+          ///< stiffness
+  rebar,  ///< node of a reinforcing bar
+  embedded_point,  ///< point that moves with particles around it (Anchors)
 };
 
 /// Whether it is held and driven by itself: a solid particle or a node of a bar.

@@ -78,7 +78,7 @@ std::vector<Index> place_nodes(Particles& particles, std::span<const double> wan
   return placed;
 }
 
-std::vector<Index> place_anchored(Particles& particles, const std::vector<Vector3>& nodes,
+std::vector<Index> place_embedded(Particles& particles, const std::vector<Vector3>& nodes,
                                   double spacing, double cell_volume) {
   std::vector<Index> placed;
   const bool closed = norm(minus(nodes.back(), nodes.front())) <= merge_tolerance * spacing;
@@ -90,25 +90,25 @@ std::vector<Index> place_anchored(Particles& particles, const std::vector<Vector
 }
 
 /// Adds what anchors need to know of the nodes of a bar.
-void note_anchored(const std::vector<Vector3>& nodes, const std::vector<Index>& placed, Index bar,
+void note_embedded(const std::vector<Vector3>& nodes, const std::vector<Index>& placed, Index bar,
                    RebarMesh& mesh) {
-  const std::size_t count = nodes.size(), own = mesh.anchored.size();
+  const std::size_t count = nodes.size(), own = mesh.embedded.size();
   const bool closed = placed.back() == placed.front();
   for (std::size_t k = 0; k < (closed ? count - 1 : count); ++k) {
-    mesh.anchored.push_back(
+    mesh.embedded.push_back(
         {placed[k], bar, {}, 0.0, !closed && k == 0, !closed && k + 1 == count});
   }
   for (std::size_t k = 0; k + 1 < count; ++k) {
     const Vector3 way = minus(nodes[k + 1], nodes[k]);
     const double length = norm(way);
     for (BarNode* node :
-         {&mesh.anchored[own + k], &mesh.anchored[own + (closed && k + 2 == count ? 0 : k + 1)]}) {
+         {&mesh.embedded[own + k], &mesh.embedded[own + (closed && k + 2 == count ? 0 : k + 1)]}) {
       node->length += 0.5 * length;
       for (int a = 0; a < 3; ++a) node->along[a] += way[a] / length;
     }
   }
-  for (std::size_t k = own; k < mesh.anchored.size(); ++k) {
-    BarNode& node = mesh.anchored[k];
+  for (std::size_t k = own; k < mesh.embedded.size(); ++k) {
+    BarNode& node = mesh.embedded[k];
     double length = norm(node.along);
     if (length < 1e-6) {  // the bar turns back
       const std::size_t from = std::max<std::size_t>(k - own, 1) - 1;
@@ -120,7 +120,7 @@ void note_anchored(const std::vector<Vector3>& nodes, const std::vector<Index>& 
 }
 
 /// Bonds between the solid particles and the new nodes, in the order of Bonds.
-Bonds tie_nodes(const Particles& particles, Index first_node, double horizon) {
+Bonds join_nodes(const Particles& particles, Index first_node, double horizon) {
   const int dim = particles.dim;
   const auto first_other = std::find_if(particles.kind.begin(), particles.kind.end(),
                                         [](auto kind) { return kind != ParticleKind::solid; });
@@ -149,7 +149,7 @@ RebarMesh add_rebar(Particles& particles, const std::vector<RebarLine>& bars, do
   std::vector<double> wanted;
   for (std::size_t bar = 0; bar < bars.size(); ++bar) {
     nodes.push_back(nodes_of(bars[bar], dim, spacing, bar));
-    if (bars[bar].anchored) continue;
+    if (bars[bar].embedded) continue;
     for (const Vector3& point : nodes.back()) {
       wanted.insert(wanted.end(), point.begin(), point.begin() + dim);
     }
@@ -158,14 +158,14 @@ RebarMesh add_rebar(Particles& particles, const std::vector<RebarLine>& bars, do
   mesh.segments.dim = dim;
   const Index first_node = particles.size();
   const std::vector<Index> bonded = place_nodes(particles, wanted, spacing, cell_volume);
-  mesh.ties = tie_nodes(particles, first_node, horizon);
+  mesh.ties = join_nodes(particles, first_node, horizon);
   std::size_t next = 0;
   for (std::size_t bar = 0; bar < bars.size(); ++bar) {
     const std::size_t count = nodes[bar].size();
     std::vector<Index> placed;
-    if (bars[bar].anchored) {
-      placed = place_anchored(particles, nodes[bar], spacing, cell_volume);
-      note_anchored(nodes[bar], placed, static_cast<Index>(bar), mesh);
+    if (bars[bar].embedded) {
+      placed = place_embedded(particles, nodes[bar], spacing, cell_volume);
+      note_embedded(nodes[bar], placed, static_cast<Index>(bar), mesh);
     } else {
       const auto first = bonded.begin() + static_cast<std::ptrdiff_t>(next);
       placed.assign(first, first + static_cast<std::ptrdiff_t>(count));
@@ -174,7 +174,7 @@ RebarMesh add_rebar(Particles& particles, const std::vector<RebarLine>& bars, do
     for (std::size_t k = 0; k + 1 < count; ++k) {
       const auto [low, high] = std::minmax(placed[k], placed[k + 1]);
       mesh.segments.append(particles, low, high);
-      mesh.bar_of_segment.push_back(static_cast<Index>(bar));
+      mesh.bar_of_element.push_back(static_cast<Index>(bar));
       mesh.turned.push_back(placed[k] > placed[k + 1]);
     }
   }

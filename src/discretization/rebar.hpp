@@ -16,7 +16,7 @@ struct RebarLine {
   std::vector<Vector3> bends = {};  ///< between the ends, in their order
   /// Nodes are joined to the body by anchors; otherwise they are bonded like particles of the solid
   /// to those within the horizon.
-  bool anchored = false;
+  bool embedded = false;
 };
 
 /// A node of an anchored bar.
@@ -34,12 +34,12 @@ struct RebarMesh {
   /// Bonds between neighbouring nodes of a bar (the bar itself), in the order along the bars, and
   /// the bar that each belongs to.
   Bonds segments;
-  std::vector<Index> bar_of_segment;
+  std::vector<Index> bar_of_element;
   std::vector<std::uint8_t> turned;  ///< nonzero: the second end comes first along the bar
   /// Bonds between nodes of bars and solid particles within the horizon, sorted as in Bonds; the
   /// second end is the node. A node that is a solid particle has that particle's bonds and no ties.
   Bonds ties;
-  std::vector<BarNode> anchored;  ///< nodes of anchored bars, bar after bar
+  std::vector<BarNode> embedded;  ///< nodes of anchored bars, bar after bar
 };
 
 /// Divides each straight piece of a bar into equal segments of about the spacing and appends their

@@ -8,16 +8,16 @@
 namespace perilink {
 namespace {
 
-void check_teeth(const std::vector<Tooth>& teeth) {
-  Tooth last{2.0, 0.0};
-  for (const Tooth& tooth : teeth) {
-    const bool falls = tooth.secant > 0.0 && tooth.secant < last.secant;
-    if (!falls || !(tooth.limit > last.limit)) {
+void check_segments(const std::vector<Segment>& segments) {
+  Segment last{2.0, 0.0};
+  for (const Segment& segment : segments) {
+    const bool falls = segment.secant > 0.0 && segment.secant < last.secant;
+    if (!falls || !(segment.limit > last.limit)) {
       throw std::invalid_argument("secants of a saw-tooth law fall and its limits rise");
     }
-    last = tooth;
+    last = segment;
   }
-  if (teeth.empty() || teeth.front().secant != 1.0) {
+  if (segments.empty() || segments.front().secant != 1.0) {
     throw std::invalid_argument("the first secant of a saw-tooth law is one");
   }
 }
@@ -31,17 +31,17 @@ BondLaw BondLaw::plateau(double ratio) {
   return {Sense::both, {{1.0, std::sqrt(ratio)}}, ratio};
 }
 
-BondLaw BondLaw::both_ways(std::vector<Tooth> teeth, double ratio) {
-  check_teeth(teeth);
+BondLaw BondLaw::both_ways(std::vector<Segment> segments, double ratio) {
+  check_segments(segments);
   if (ratio != 0.0 && !(ratio > 1.0)) {
     throw std::invalid_argument("teeth of a plateau have a ratio above one");
   }
-  return {Sense::both, std::move(teeth), ratio};
+  return {Sense::both, std::move(segments), ratio};
 }
 
-BondLaw BondLaw::saw_tooth(std::vector<Tooth> teeth) {
-  check_teeth(teeth);
-  return {Sense::tension, std::move(teeth), 0.0};
+BondLaw BondLaw::saw_tooth(std::vector<Segment> segments) {
+  check_segments(segments);
+  return {Sense::tension, std::move(segments), 0.0};
 }
 
 BondLaw BondLaw::closing() const {
@@ -50,28 +50,28 @@ BondLaw BondLaw::closing() const {
   return law;
 }
 
-BondLaw BondLaw::crushing(std::vector<Tooth> teeth, double scale, bool keeps_shear) const {
-  check_teeth(teeth);
+BondLaw BondLaw::crushing(std::vector<Segment> segments, double scale, bool keeps_shear) const {
+  check_segments(segments);
   if (!(scale > 0.0) || endless() || closes_) {
     throw std::invalid_argument("bonds with teeth in compression neither yield nor close");
   }
-  for (Tooth& tooth : teeth) tooth.limit *= scale;
+  for (Segment& segment : segments) segment.limit *= scale;
   BondLaw law = *this;
   law.sense_ = Sense::each;
-  law.crushing_ = std::move(teeth);
+  law.crushing_ = std::move(segments);
   law.keeps_shear_ = keeps_shear;
   return law;
 }
 
-Tooth BondLaw::first_in_compression() const { return crushing_.front(); }
+Segment BondLaw::first_in_compression() const { return crushing_.front(); }
 
-Tooth BondLaw::tooth(int k) const {
-  const std::vector<Tooth>& branch = k < 0 ? crushing_ : teeth_;
+Segment BondLaw::segment(int k) const {
+  const std::vector<Segment>& branch = k < 0 ? crushing_ : segments_;
   const auto place = static_cast<std::size_t>(std::abs(k));
   if (place < branch.size()) return branch[place];
   if (endless() && k > 0) {
-    const double growth = std::pow(ratio_, k + 1 - static_cast<int>(teeth_.size()));
-    return {teeth_.back().secant / growth, teeth_.back().limit * growth};
+    const double growth = std::pow(ratio_, k + 1 - static_cast<int>(segments_.size()));
+    return {segments_.back().secant / growth, segments_.back().limit * growth};
   }
   return {0.0, std::numeric_limits<double>::infinity()};
 }

@@ -18,7 +18,7 @@
 namespace perilink {
 
 /// One secant of a law.
-struct Tooth {
+struct Segment {
   double secant;  ///< stiffness as a fraction of the intact one [-]
   double limit;   ///< stretch of the next event over the critical one; infinity: there is none
 };
@@ -48,14 +48,14 @@ class BondLaw {
   /// Given teeth, in tension; a bond that has passed the last one is broken.
   /// \param teeth  the first secant is 1; secants fall and limits rise
   /// \throws std::invalid_argument where they do not
-  static BondLaw saw_tooth(std::vector<Tooth> teeth);
+  static BondLaw saw_tooth(std::vector<Segment> segments);
 
   /// Given teeth in tension and compression alike.
   /// \param teeth  as those of saw_tooth()
   /// \param ratio  above one: behind the last tooth the force stays, by ever more teeth of this
   ///               ratio, as that of a plateau does; zero: the element breaks
   /// \throws std::invalid_argument as saw_tooth() and plateau()
-  static BondLaw both_ways(std::vector<Tooth> teeth, double ratio);
+  static BondLaw both_ways(std::vector<Segment> segments, double ratio);
 
   /// The same law of bonds that close: once damaged they resist compression like intact ones. Shear
   /// and bending stay as they are, or the energy would jump.
@@ -69,12 +69,12 @@ class BondLaw {
   /// \param keeps_shear  only the stiffness against a change of length falls until the bond breaks
   /// \throws std::invalid_argument as saw_tooth(), unless the scale is positive, for endless laws
   ///         and for those that close
-  BondLaw crushing(std::vector<Tooth> teeth, double scale, bool keeps_shear) const;
+  BondLaw crushing(std::vector<Segment> segments, double scale, bool keeps_shear) const;
 
   /// \param k  below zero: in compression, of a law without teeth there a broken bond's
-  Tooth tooth(int k) const;
+  Segment segment(int k) const;
   /// The first tooth in compression, of an intact bond.
-  Tooth first_in_compression() const;
+  Segment first_in_compression() const;
   /// Where a bond on tooth k goes by an event.
   static int after(int k, bool compressed) {
     return k < 0 || (k == 0 && compressed) ? k - 1 : k + 1;
@@ -85,11 +85,11 @@ class BondLaw {
   /// An endless law that has stretched its last force so many times is a mechanism.
   static constexpr double most_stretched = 100.0;
   bool is_exhausted(double secant) const {
-    return endless() && secant < teeth_.back().secant / most_stretched;
+    return endless() && secant < segments_.back().secant / most_stretched;
   }
   /// Whether the first event, in tension, breaks the bond for good.
   bool is_brittle() const {
-    return !endless() && teeth_.size() == 1 && !closes_ && sense_ == Sense::tension;
+    return !endless() && segments_.size() == 1 && !closes_ && sense_ == Sense::tension;
   }
   bool closes() const { return closes_; }
   /// Whether it has teeth in compression of its own.
@@ -101,7 +101,7 @@ class BondLaw {
   template <class Law, class Visit>
   static void for_each_member(Law& law, Visit visit) {
     visit(law.sense_);
-    visit(law.teeth_);
+    visit(law.segments_);
     visit(law.ratio_);
     visit(law.closes_);
     visit(law.crushing_);
@@ -109,14 +109,14 @@ class BondLaw {
   }
 
  private:
-  BondLaw(Sense sense, std::vector<Tooth> teeth, double ratio)
-      : sense_(sense), teeth_(std::move(teeth)), ratio_(ratio) {}
+  BondLaw(Sense sense, std::vector<Segment> segments, double ratio)
+      : sense_(sense), segments_(std::move(segments)), ratio_(ratio) {}
 
   Sense sense_;
-  std::vector<Tooth> teeth_;  ///< before the bond breaks
+  std::vector<Segment> segments_;  ///< before the bond breaks
   double ratio_;  ///< between neighbouring teeth behind the last one; 0: the bond breaks
   bool closes_ = false;
-  std::vector<Tooth> crushing_;  ///< in compression, before the bond breaks
+  std::vector<Segment> crushing_;  ///< in compression, before the bond breaks
   bool keeps_shear_ = false;
 };
 

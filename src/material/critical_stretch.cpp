@@ -19,8 +19,8 @@ double mean_cosine(Problem problem) {
   return problem == Problem::three_dimensional ? 0.5 : 2.0 * std::numbers::inv_pi;
 }
 
-double fracture_sum_of_family(Problem problem, std::span<const Vector3> offsets,
-                              std::span<const double> stiffness, double cell_volume) {
+double fracture_sum_of_neighbourhood(Problem problem, std::span<const Vector3> offsets,
+                                     std::span<const double> stiffness, double cell_volume) {
   double sum = 0.0;
   for (std::size_t k = 0; k < offsets.size(); ++k) {
     const double length = std::hypot(offsets[k][0], offsets[k][1], offsets[k][2]);

@@ -29,8 +29,8 @@ double mean_cosine(Problem problem);
 /// The fracture sum of bonds whose stiffness does not follow from one micromodulus: the mean over
 /// all normals of Q(e) = sum over unordered neighbours of k xi^2 |xi . e| / V [force/length].
 /// \param stiffness  k of the bond to each neighbour [force/length]
-double fracture_sum_of_family(Problem problem, std::span<const Vector3> offsets,
-                              std::span<const double> stiffness, double cell_volume);
+double fracture_sum_of_neighbourhood(Problem problem, std::span<const Vector3> offsets,
+                                     std::span<const double> stiffness, double cell_volume);
 
 /// Critical stretch with which a straight crack through the lattice releases G_F.
 double lattice_critical_stretch(double fracture_energy, double fracture_sum);

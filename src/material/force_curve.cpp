@@ -112,11 +112,12 @@ BondLaw law_of(const ForceCurve& curve, double ratio) {
   const double end = end_of(curve), last = curve.force(end) / end;
   const double fall = std::log(stiffness / last) / std::log(ratio);
   const int count = static_cast<int>(std::ceil(fall - round_off));
-  std::vector<Tooth> teeth;
+  std::vector<Segment> segments;
   double secant = stiffness, begin = first;
   const auto add = [&](double next_secant, double next, double taken) {
     const double energy = taken + 0.5 * (secant * begin * begin - next_secant * next * next);
-    teeth.push_back({secant / stiffness, std::sqrt(2.0 * energy / (secant - next_secant)) / first});
+    segments.push_back(
+        {secant / stiffness, std::sqrt(2.0 * energy / (secant - next_secant)) / first});
     secant = next_secant;
     begin = next;
   };
@@ -129,10 +130,10 @@ BondLaw law_of(const ForceCurve& curve, double ratio) {
   if (stays(curve)) {
     const double next = begin * ratio;
     add(secant / ratio, next, curve.points.back()[1] * (next - begin));
-    return BondLaw::both_ways(std::move(teeth), ratio);
+    return BondLaw::both_ways(std::move(segments), ratio);
   }
   add(0.0, begin, curve.area(curve.points.back()[0]) - curve.area(begin));
-  return BondLaw::both_ways(std::move(teeth), 0.0);
+  return BondLaw::both_ways(std::move(segments), 0.0);
 }
 
 }  // namespace perilink

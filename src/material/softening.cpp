@@ -12,16 +12,18 @@ namespace {
 constexpr double negligible_force = 1e-4;
 
 /// A tooth that leaves the curve at two points.
-struct ToothBetween {
+struct SegmentBetween {
   double secant, next_secant, limit;
 
-  ToothBetween(const SofteningCurve& curve, double begin, double end)
+  SegmentBetween(const SofteningCurve& curve, double begin, double end)
       : secant(curve.force(begin) / begin), next_secant(curve.force(end) / end) {
     const double energy = curve.area(end) - curve.area(begin) +
                           0.5 * (secant * begin * begin - next_secant * end * end);
     limit = std::sqrt(2.0 * energy / (secant - next_secant));
   }
-  double ripple(const SofteningCurve& curve) const { return secant * limit - curve.force(limit); }
+  double overshoot(const SofteningCurve& curve) const {
+    return secant * limit - curve.force(limit);
+  }
 };
 
 }  // namespace
@@ -70,13 +72,13 @@ double SofteningCurve::area(double x) const {
   return 0.5 + fallen + 0.5 * (reached - knee_) * (knee_force_ + force(reached));
 }
 
-std::vector<Tooth> teeth_of(const SofteningCurve& curve, double ripple) {
-  if (!(ripple > 0.0)) throw std::invalid_argument("teeth rise above the curve");
-  std::vector<Tooth> teeth;
+std::vector<Segment> segments_of(const SofteningCurve& curve, double overshoot) {
+  if (!(overshoot > 0.0)) throw std::invalid_argument("teeth rise above the curve");
+  std::vector<Segment> segments;
   for (double begin = 1.0; begin < curve.end();) {
     double low = begin, end = curve.end();
     const auto rises_less = [&](double point) {
-      return ToothBetween(curve, begin, point).ripple(curve) <= ripple;
+      return SegmentBetween(curve, begin, point).overshoot(curve) <= overshoot;
     };
     if (!rises_less(end)) {
       for (double high = end; high - low > 1e-12 * high;) {
@@ -84,18 +86,18 @@ std::vector<Tooth> teeth_of(const SofteningCurve& curve, double ripple) {
         (rises_less(end) ? low : high) = end;
       }
     }
-    const ToothBetween tooth(curve, begin, end);
-    if (!(tooth.limit >= begin && std::isfinite(tooth.limit))) {  // or the loop would not end
+    const SegmentBetween segment(curve, begin, end);
+    if (!(segment.limit >= begin && std::isfinite(segment.limit))) {  // or the loop would not end
       throw std::invalid_argument("the curve is too flat for secants of its own");
     }
-    teeth.push_back({tooth.secant, tooth.limit});
+    segments.push_back({segment.secant, segment.limit});
     begin = end;
   }
-  return teeth;
+  return segments;
 }
 
-BondLaw saw_tooth_of(const SofteningCurve& curve, double ripple) {
-  return BondLaw::saw_tooth(teeth_of(curve, ripple));
+BondLaw saw_tooth_of(const SofteningCurve& curve, double overshoot) {
+  return BondLaw::saw_tooth(segments_of(curve, overshoot));
 }
 
 }  // namespace perilink

@@ -75,7 +75,7 @@ class SofteningCurve {
 /// \param ripple  most by which the force of a tooth rises above the curve [-]; all teeth but the
 ///     last rise so far
 /// \throws std::invalid_argument unless the ripple is positive, or for a curve too flat to tell
-std::vector<Tooth> teeth_of(const SofteningCurve& curve, double ripple);
-BondLaw saw_tooth_of(const SofteningCurve& curve, double ripple);
+std::vector<Segment> segments_of(const SofteningCurve& curve, double overshoot);
+BondLaw saw_tooth_of(const SofteningCurve& curve, double overshoot);
 
 }  // namespace perilink

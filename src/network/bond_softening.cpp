@@ -12,16 +12,16 @@
 #include "material/strength/bond_cell.hpp"
 #include "material/strength/face_chain.hpp"
 #include "network/bond_strength.hpp"
-#include "network/lattice_families.hpp"
+#include "network/lattice_neighbourhoods.hpp"
 
 namespace perilink {
 namespace {
 
 /// Ripple of the teeth by which strengths are measured: they add less than 0.3 %.
-constexpr double fine_ripple = 0.02;
+constexpr double fine_overshoot = 0.02;
 
 /// Teeth with the ripple p raise the strength of strips by about 2 p^2 (docs/theory/softening.md).
-double ripple_of(double error) { return std::sqrt(0.5 * error); }
+double overshoot_of(double error) { return std::sqrt(0.5 * error); }
 
 /// Relative change of beta at which its iteration ends, and the most rounds: each brings a digit.
 constexpr double same_factor = 1e-4;
@@ -76,11 +76,12 @@ struct Parted {
 };
 
 /// Stiffness of the bonds to the neighbours of a lattice particle of one material.
-FamilyStiffness bulk_stiffness(const Body& body, const NetworkInput& input,
-                               std::span<const Vector3> offsets) {
-  if (body.lattice.surface == Surface::calibrated) return LatticeFamilies(body, input).stiffness(0);
+NeighbourhoodStiffness bulk_stiffness(const Body& body, const NetworkInput& input,
+                                      std::span<const Vector3> offsets) {
+  if (body.lattice.surface == Surface::calibrated)
+    return LatticeNeighbourhoods(body, input).stiffness(0);
   const MicropolarModuli moduli = moduli_of(body, input, input.materials.front());
-  FamilyStiffness stiffness;
+  NeighbourhoodStiffness stiffness;
   for (const Vector3& x : offsets) {
     const double length = std::hypot(x[0], x[1], x[2]);
     const double share = std::pow(body.lattice.cell_volume, 2) / length;
@@ -106,14 +107,14 @@ Pulled pulled_cell(const Body& body, const NetworkInput& input, const SolidMater
   const Lattice& lattice = body.lattice;
   const std::vector<Vector3> offsets = lattice.pattern == Pattern::irregular
                                            ? std::vector<Vector3>()
-                                           : bulk_family(lattice, input.horizon).offsets;
+                                           : interior_neighbourhood(lattice, input.horizon).offsets;
   if (offsets.empty() || offsets.size() > many_neighbors) {
     const LameConstants lame = lame_constants(input, material);
     return {isotropic_cell(input.problem, lame.lambda / lame.mu), {{1.0, 0.0, 0.0}}, lattice.dim};
   }
   NetworkInput alone = input;
   alone.materials = {material};
-  FamilyStiffness stiffness = bulk_stiffness(body, alone, offsets);
+  NeighbourhoodStiffness stiffness = bulk_stiffness(body, alone, offsets);
   for (std::size_t k = 0; k < stiffness.bending.size(); ++k) {
     stiffness.bending[k] /= stiffness.axial[k];
   }
@@ -153,15 +154,15 @@ Parted parted_body(const Body& body, const NetworkInput& input, const SolidMater
                    const FaceShape& face) {
   std::vector<Vector3> offsets;
   if (body.lattice.pattern != Pattern::irregular) {
-    offsets = bulk_family(body.lattice, input.horizon).offsets;
+    offsets = interior_neighbourhood(body.lattice, input.horizon).offsets;
   }
-  const bool cloud = offsets.empty() || offsets.size() > many_neighbors;
-  const Body even = cloud ? even_body(body, input.horizon) : Body{};
-  const Body& own = cloud ? even : body;
-  if (cloud) offsets = bulk_family(own.lattice, input.horizon).offsets;
+  const bool particle_set = offsets.empty() || offsets.size() > many_neighbors;
+  const Body even = particle_set ? even_body(body, input.horizon) : Body{};
+  const Body& own = particle_set ? even : body;
+  if (particle_set) offsets = interior_neighbourhood(own.lattice, input.horizon).offsets;
   NetworkInput alone = input;
   alone.materials = {material};
-  FamilyStiffness stiffness = bulk_stiffness(own, alone, offsets);
+  NeighbourhoodStiffness stiffness = bulk_stiffness(own, alone, offsets);
   for (std::size_t k = 0; k < stiffness.bending.size(); ++k) {
     stiffness.bending[k] /= stiffness.axial[k];
   }
@@ -175,7 +176,7 @@ Parted parted_body(const Body& body, const NetworkInput& input, const SolidMater
     if (bonds) parted.directions.push_back(std::move(*bonds));
   };
   const std::optional<Vector3> normal =
-      face.normal && !cloud ? snapped(offsets, *face.normal) : std::nullopt;
+      face.normal && !particle_set ? snapped(offsets, *face.normal) : std::nullopt;
   if (normal) part(*normal);
   for (int axis = 0; axis < own.lattice.dim && parted.directions.empty(); ++axis) {
     Vector3 along{};
@@ -224,7 +225,8 @@ double find_energy(const StrengthFactor& factor_of, const SofteningShape& shape,
   for (int round = 0; round < most_rounds; ++round) {
     const double energy = unit_energy * factor * factor;
     if (!(energy > 1.0 && energy < most_softening)) throw TooStrong(no_index, energy);
-    const double next = factor_of(saw_tooth_of(SofteningCurve(shape, energy), fine_ripple), false);
+    const double next =
+        factor_of(saw_tooth_of(SofteningCurve(shape, energy), fine_overshoot), false);
     const bool same = std::abs(next - factor) < same_factor * next;
     factor = next;
     if (same) break;
@@ -232,19 +234,19 @@ double find_energy(const StrengthFactor& factor_of, const SofteningShape& shape,
   return unit_energy * factor * factor;
 }
 
-Index count_teeth(const BondLaw& law) {
+Index count_segments(const BondLaw& law) {
   Index count = 0;
-  while (law.tooth(count).secant > 0.0) ++count;
+  while (law.segment(count).secant > 0.0) ++count;
   return count;
 }
 
 /// The curve by teeth; concrete has them in compression too.
-BondLaw law_of(const SofteningMaterial& softening, double energy, double ripple) {
-  const BondLaw law = saw_tooth_of(SofteningCurve(softening.shape, energy), ripple);
+BondLaw law_of(const SofteningMaterial& softening, double energy, double overshoot) {
+  const BondLaw law = saw_tooth_of(SofteningCurve(softening.shape, energy), overshoot);
   if (softening.shape.kind != Softening::concrete) return law;
   const auto& [limit, end] = softening.crushing;
   const SofteningCurve crushing(softening.shape, softening_energy(softening.shape, end / limit));
-  return law.crushing(teeth_of(crushing, ripple), limit / softening.stretches[0],
+  return law.crushing(segments_of(crushing, overshoot), limit / softening.stretches[0],
                       !softening.shear_softens);
 }
 
@@ -264,9 +266,9 @@ MaterialBonds bonds_by(const StrengthFactor& factor_of, double modulus,
       energy = find_energy(factor_of, softening.shape, 1.0 / (unit * unit));
       first = brittle_stretch / std::sqrt(energy);
     }
-    law = law_of(softening, energy, ripple_of(softening.error));
+    law = law_of(softening, energy, overshoot_of(softening.error));
     end = SofteningCurve(softening.shape, energy).end();
-    const BondLaw fine = law_of(softening, energy, fine_ripple);
+    const BondLaw fine = law_of(softening, energy, fine_overshoot);
     factor = factor_of(fine, false);
     if (fine.crushes()) strength.compressive_strength = factor_of(fine, true) * modulus * first;
   } else {
@@ -279,7 +281,7 @@ MaterialBonds bonds_by(const StrengthFactor& factor_of, double modulus,
       material.youngs_modulus * strength.fracture_energy / std::pow(strength.tensile_strength, 2);
   strength.first_stretch = first;
   strength.last_stretch = first * end;
-  strength.teeth = count_teeth(law);
+  strength.segments = count_segments(law);
   return {material.softening.closes ? law.closing() : law, strength};
 }
 
@@ -333,7 +335,7 @@ void soften_bonds(const Body& body, const NetworkInput& input, Network& network)
     return {std::minmax(own, solid ? particles.material[j] : own), stretch};
   };
   std::map<Kind, MaterialBonds> laws;
-  for (Index e = 0; e < network.first_tie; ++e) {
+  for (Index e = 0; e < network.first_slip_spring; ++e) {
     if (!network.has_limit(e)) continue;
     const Kind kind = kind_of(e);
     if (laws.contains(kind)) continue;
@@ -349,7 +351,7 @@ void soften_bonds(const Body& body, const NetworkInput& input, Network& network)
   network.strengths.resize(input.materials.size());
   for (const auto& [kind, bonds] : laws) {
     const auto [a, b] = kind.materials;
-    if (a == b && network.strengths[a].teeth == 0) network.strengths[a] = bonds.strength;
+    if (a == b && network.strengths[a].segments == 0) network.strengths[a] = bonds.strength;
   }
   std::map<Kind, Index> number;
   for (auto& [kind, bonds] : laws) {
@@ -359,7 +361,7 @@ void soften_bonds(const Body& body, const NetworkInput& input, Network& network)
   }
   if (number.empty()) return;
   network.law_of.resize(network.stiffness.size(), 0);
-  for (Index e = 0; e < network.first_segment; ++e) {
+  for (Index e = 0; e < network.first_bar_element; ++e) {
     if (!network.has_limit(e)) continue;
     const Kind kind = kind_of(e);
     // Ties are as tough as what lies beside no other material: the least stretch.

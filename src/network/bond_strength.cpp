@@ -170,23 +170,24 @@ std::vector<double> own_bending_ratios(const Network& network) {
   return ratios;
 }
 
-void set_critical_stretches(const NetworkInput& input, const LatticeFamilies& families,
+void set_critical_stretches(const NetworkInput& input, const LatticeNeighbourhoods& neighbourhoods,
                             double cell_volume, Network& network) {
   const Index count = static_cast<Index>(input.materials.size());
-  std::vector<double> sums, stiffness(families.offsets().size());
+  std::vector<double> sums, stiffness(neighbourhoods.offsets().size());
   for (Index a = 0; a < count; ++a) {
     for (Index b = 0; b < count; ++b) {
       for (std::size_t k = 0; k < stiffness.size(); ++k) {
-        stiffness[k] = 0.5 * (families.stiffness(a).axial[k] + families.stiffness(b).axial[k]);
+        stiffness[k] =
+            0.5 * (neighbourhoods.stiffness(a).axial[k] + neighbourhoods.stiffness(b).axial[k]);
       }
-      sums.push_back(
-          fracture_sum_of_family(input.problem, families.offsets(), stiffness, cell_volume));
+      sums.push_back(fracture_sum_of_neighbourhood(input.problem, neighbourhoods.offsets(),
+                                                   stiffness, cell_volume));
     }
   }
   apply_fracture_sums(input, sums, network);
 }
 
-void set_strength_of_cloud(const NetworkInput& input, Network& network) {
+void set_strength_of_unstructured(const NetworkInput& input, Network& network) {
   const std::vector<InnerBonds> inner = sum_inner_bonds(network, input.materials.size());
   std::vector<double> fracture_sums, factors;
   for (const InnerBonds& a : inner) {

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "network/lattice_families.hpp"
+#include "network/lattice_neighbourhoods.hpp"
 #include "network/network.hpp"
 #include "network/network_input.hpp"
 
@@ -37,7 +37,7 @@ inline void add_critical_stretch(const NetworkInput& input, double stretch, Netw
 
 /// Critical stretches from the families of a lattice, the mean over all directions of a crack.
 /// \param cell_volume  volume of a particle inside [length^3]
-void set_critical_stretches(const NetworkInput& input, const LatticeFamilies& families,
+void set_critical_stretches(const NetworkInput& input, const LatticeNeighbourhoods& neighbourhoods,
                             double cell_volume, Network& network);
 
 /// Critical stretches of an irregular cloud, from the calibrated bonds of the particles that are
@@ -45,6 +45,6 @@ void set_critical_stretches(const NetworkInput& input, const LatticeFamilies& fa
 /// Network::bending_ratio is multiplied by the mean of k_b / (ratio k) of these bonds, each with
 /// its xi^3, so that bonds that break in shear release as much as those that break in extension.
 /// Pairs of materials without such particles keep what they have.
-void set_strength_of_cloud(const NetworkInput& input, Network& network);
+void set_strength_of_unstructured(const NetworkInput& input, Network& network);
 
 }  // namespace perilink

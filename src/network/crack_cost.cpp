@@ -39,11 +39,11 @@ constexpr CostRow face_centred[] = {{18, {1.086, 1.216, 1.396, 1.668}},
                                     {54, {1.043, 1.060, 1.096, 1.109}},
                                     {78, {0.994, 1.029, 1.062, 1.079}},
                                     {176, {1.024, 1.015, 1.025, 1.001}}};
-constexpr CostRow plane_cloud[] = {{2.5, {1.116, 1.165, 1.249, 1.297}},
-                                   {3.0, {1.082, 1.109, 1.144, 1.156}}};
+constexpr CostRow unstructured_plane[] = {{2.5, {1.116, 1.165, 1.249, 1.297}},
+                                          {3.0, {1.082, 1.109, 1.144, 1.156}}};
 // Measured between free faces without bending, 0.93, times 1.02 as for cubic lattices; bonds with
 // bending were not measured.
-constexpr CostRow space_cloud[] = {{3.0, {0.95, 0.95, 0.95, 0.95}}};
+constexpr CostRow unstructured_space[] = {{3.0, {0.95, 0.95, 0.95, 0.95}}};
 
 std::span<const CostRow> rows_of(Pattern pattern, int dim) {
   switch (pattern) {
@@ -53,7 +53,8 @@ std::span<const CostRow> rows_of(Pattern pattern, int dim) {
     case Pattern::face_centred: return face_centred;
     case Pattern::irregular: break;
   }
-  return dim == 2 ? std::span<const CostRow>(plane_cloud) : std::span<const CostRow>(space_cloud);
+  return dim == 2 ? std::span<const CostRow>(unstructured_plane)
+                  : std::span<const CostRow>(unstructured_space);
 }
 
 /// Below the table the first row; beyond it the excess falls as one over the number of neighbours,
@@ -73,16 +74,17 @@ double cost_in(std::span<const CostRow> rows, double size, double power, std::si
 
 double crack_cost(const Body& body, const NetworkInput& input, const SolidMaterial& material) {
   const Lattice& lattice = body.lattice;
-  const bool cloud = lattice.pattern == Pattern::irregular;
+  const bool particle_set = lattice.pattern == Pattern::irregular;
   const std::span<const CostRow> rows = rows_of(lattice.pattern, lattice.dim);
-  const double size = cloud
-                          ? input.horizon / lattice.spacing
-                          : static_cast<double>(bulk_family(lattice, input.horizon).offsets.size());
+  const double size =
+      particle_set
+          ? input.horizon / lattice.spacing
+          : static_cast<double>(interior_neighbourhood(lattice, input.horizon).offsets.size());
   const LameConstants lame = lame_constants(input, material);
   const double ratio = std::clamp(lame.lambda / lame.mu, lame_ratios.front(), lame_ratios.back());
   std::size_t column = 1;
   while (column + 1 < lame_ratios.size() && lame_ratios[column] < ratio) ++column;
-  const double power = cloud ? lattice.dim : 1.0;
+  const double power = particle_set ? lattice.dim : 1.0;
   const double low = cost_in(rows, size, power, column - 1);
   const double high = cost_in(rows, size, power, column);
   const double part =

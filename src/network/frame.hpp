@@ -152,8 +152,8 @@ namespace detail {
 
 /// Bonds of a shell: ribbons as thick as it is. t1 lies in the sheet, t2 = m is its normal. Axial
 /// force and shear in the sheet act at its middle surface, `rise` above the bond.
-inline FrameModes<3> ribbon_modes(const Network& network, Index element, double xi, double k,
-                                  double kb, double inflection) {
+inline FrameModes<3> shell_bond_modes(const Network& network, Index element, double xi, double k,
+                                      double kb, double inflection) {
   const Shell& shell = *network.shell;
   const double* n = network.bonds.direction(element).data();
   const double* m = shell.normals.data() + static_cast<std::size_t>(element) * 3;
@@ -197,7 +197,7 @@ FrameModes<Dim> frame_modes(const Network& network, Index element) {
   if constexpr (Dim == 2) {
     modes = detail::plane_modes(n, xi, k, kb, inflection);
   } else {
-    if (network.shell) return detail::ribbon_modes(network, element, xi, k, kb, inflection);
+    if (network.shell) return detail::shell_bond_modes(network, element, xi, k, kb, inflection);
     modes = detail::space_modes(n, xi, k, kb, network.torsion, inflection);
   }
   if (network.is_hinged(element)) {

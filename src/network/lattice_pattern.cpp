@@ -62,7 +62,7 @@ LatticePattern pattern_of(const LatticeGrid& grid, double horizon) {
 bool can_repeat(const Network& sample) {
   const bool alike = !sample.calibration || sample.calibration->alike;
   const bool bonds = sample.hinged.empty() && !sample.has_states() && !sample.cells &&
-                     sample.first_tie == sample.num_elements();
+                     sample.first_slip_spring == sample.num_elements();
   const std::vector<std::uint8_t> turning = rotating_particles(sample);
   const bool turn =
       std::all_of(turning.begin(), turning.end(), [](auto flag) { return flag != 0; });
@@ -104,7 +104,7 @@ bool cut_bonds(LatticePattern& pattern, const std::vector<Crack>& cracks,
 
 PatternBonds::PatternBonds(const LatticePattern& pattern)
     : pattern_(pattern),
-      families_(bonds_of_particles(pattern.sample.bonds, pattern.sample.particles.size())),
+      neighbourhoods_(bonds_of_particles(pattern.sample.bonds, pattern.sample.particles.size())),
       cutter_(pattern.cracks, pattern.grid.dim, pattern.grid.spacing) {
   pattern.small.for_each(pattern.small.all(),
                          [&](const GridPoint& point) { points_.push_back(point); });

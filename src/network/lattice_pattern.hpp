@@ -94,7 +94,7 @@ class PatternBonds {
   void for_each_of(const GridPoint& point, Visit visit) const {
     const GridPoint like = pattern_.place(point);
     const Index own = pattern_.small.number(pattern_.small.all(), like);
-    for (const Index e : families_.row(own)) {
+    for (const Index e : neighbourhoods_.row(own)) {
       GridPoint other = points_[pattern_.sample.bonds.other_end(e, own)];
       for (int a = 0; a < 3; ++a) other[a] += point[a] - like[a];
       visit(other, e, pattern_.sample.bonds.first[e] == own);
@@ -103,7 +103,7 @@ class PatternBonds {
   Index element_between(const GridPoint& first, const GridPoint& second) const;
 
   const LatticePattern& pattern_;
-  Csr families_;                   // bonds of each particle of the sample
+  Csr neighbourhoods_;             // bonds of each particle of the sample
   std::vector<GridPoint> points_;  // where these are
   CrackCutter cutter_;
 };

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "network/carried_motion.hpp"
+#include "network/embedded_motion.hpp"
 #include "network/lattice_pattern.hpp"
 #include "network/network.hpp"
 #include "network/unknowns.hpp"
@@ -22,7 +22,7 @@ struct ReferenceLoad {
 };
 
 /// Loads and prescribed motions that grow together in a stage, at load factor 1.
-struct LoadSet {
+struct LoadCase {
   Loads loads;
   /// What moves from the set's first stage on: slots that it drives were free until then, those of
   /// earlier sets stay held.
@@ -37,9 +37,9 @@ struct LoadedNetwork {
   Loads loads;
   ReferenceLoad reference;
   /// Where a case has stages: what they load the body by. The members above are those of the first.
-  std::vector<LoadSet> sets = {};
+  std::vector<LoadCase> sets = {};
   /// Where finite elements carry particles; `unknowns` is the motion that they begin with.
-  std::optional<CarriedBody> carried = {};
+  std::optional<EmbeddedBody> embedded = {};
   /// Where processes make the bonds of their parts by themselves: what they make them from. The
   /// network then has particles alone.
   std::optional<LatticePattern> pattern = {};

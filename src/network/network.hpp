@@ -11,8 +11,8 @@
 
 #include "base/types.hpp"
 #include "calibration/calibration_input.hpp"
-#include "discretization/anchors.hpp"
 #include "discretization/bonds.hpp"
+#include "discretization/embedded_points.hpp"
 #include "discretization/facets.hpp"
 #include "discretization/particles.hpp"
 #include "material/bond_law.hpp"
@@ -33,7 +33,7 @@ struct MaterialStrength {
   double process_zone = 0.0;          ///< E G_F / f_t^2 [length]
   double first_stretch = 0.0;         ///< where the force of a bond begins to fall, s_0 [-]
   double last_stretch = 0.0;          ///< where it has fallen to zero, s_1 [-]
-  Index teeth = 0;                    ///< events until a bond is broken
+  Index segments = 0;                 ///< events until a bond is broken
 };
 
 /// What crosses a weak interface.
@@ -62,7 +62,7 @@ struct Bars {
 /// What the bonds of plates and shells have beside those of a sheet in the plane: they are as thick
 /// as it is, and lie in space (docs/theory/shells.md).
 struct Shell {
-  Particles sheet;              ///< the particles before the sheet was laid on its surface, z = 0
+  Particles mid_surface;        ///< the particles before the sheet was laid on its surface, z = 0
   double thickness = 0.0;       ///< t [length]
   std::vector<double> normals;  ///< across each bond, of the middle surface; shape (elements, 3)
   std::vector<double> rise;     ///< mean height of that surface over each bond [length]
@@ -114,14 +114,14 @@ struct Network {
   /// Stiffness of elastic supports between the components of particles and the ground
   /// [force/length], shape (particles, width); empty: none.
   std::vector<double> support_stiffness;
-  Index first_tie = 0;  ///< number of the first tie
+  Index first_slip_spring = 0;  ///< number of the first tie
   /// Number of the first tie between a node of a bar and its anchor. At a node there is one along
   /// the bar, then those across it.
-  Index first_anchored_tie = 0;
-  Index first_segment = 0;  ///< number of the first bar segment
+  Index first_embedded_slip_spring = 0;
+  Index first_bar_element = 0;  ///< number of the first bar segment
   Bars bars;
-  Anchors anchors;  ///< the last particles
-  Facets facets;    ///< surface and interfaces, with the shares that the bonds balance
+  EmbeddedPoints embedded_points;  ///< the last particles
+  Facets facets;  ///< surface and interfaces, with the shares that the bonds balance
   std::optional<CalibrationReport> calibration;  ///< where bonds were calibrated
 
   /// Bonds that pre-cracks have broken and that close where they are compressed, ascending; others
@@ -140,7 +140,7 @@ struct Network {
 
   int dim() const { return particles.dim; }
   /// The particles where a case means them: those of a shell on its flat sheet.
-  const Particles& places() const { return shell ? shell->sheet : particles; }
+  const Particles& places() const { return shell ? shell->mid_surface : particles; }
   /// Components of the motion of a particle: displacements along the axes and, where bonds carry
   /// moments, rotations: (u, v) or (u, v, theta) in two dimensions, (u, v, w) or
   /// (u, v, w, theta_x, theta_y, theta_z) in three.
@@ -164,7 +164,7 @@ struct Network {
   }
   Index num_elements() const { return bonds.size(); }
   /// Bonds of the solid, without the edges of cells.
-  Index num_bonds() const { return first_tie - num_edges_of_cells(); }
+  Index num_bonds() const { return first_slip_spring - num_edges_of_cells(); }
   Index num_edges_of_cells() const { return cells ? cells->num_edges : 0; }
   const BondLaw& law(Index element) const { return laws[law_of.empty() ? 0 : law_of[element]]; }
   /// Whether some elements close once they are damaged.
@@ -186,12 +186,12 @@ struct Network {
   /// Whether its law has events, or it stays elastic.
   bool has_limit(Index element) const { return !std::isinf(critical_stretch_of(element)); }
   bool can_break(Index element) const { return has_limit(element) && !law(element).endless(); }
-  bool is_segment(Index element) const { return element >= first_segment; }
-  Index first_anchor() const { return particles.size() - anchors.size(); }
-  bool is_anchor(Index particle) const { return particle >= first_anchor(); }
+  bool is_segment(Index element) const { return element >= first_bar_element; }
+  Index first_embedded_point() const { return particles.size() - embedded_points.size(); }
+  bool is_embedded_point(Index particle) const { return particle >= first_embedded_point(); }
   /// Whether the motion of an end is that of particles around it.
-  bool is_anchored(Index element) const {
-    return is_anchor(bonds.second[element]) || is_anchor(bonds.first[element]);
+  bool is_embedded(Index element) const {
+    return is_embedded_point(bonds.second[element]) || is_embedded_point(bonds.first[element]);
   }
 };
 
@@ -201,13 +201,13 @@ template <class Visit>
 void for_each_end(const Network& network, Index element, Visit visit) {
   for (const bool second : {false, true}) {
     const Index end = second ? network.bonds.second[element] : network.bonds.first[element];
-    if (!network.is_anchor(end)) {
+    if (!network.is_embedded_point(end)) {
       visit(end, second, 1.0);
       continue;
     }
-    const Index anchor = end - network.first_anchor();
-    const auto particles = network.anchors.particles.row(anchor);
-    const auto weights = network.anchors.weights_of(anchor);
+    const Index embedded_point = end - network.first_embedded_point();
+    const auto particles = network.embedded_points.particles.row(embedded_point);
+    const auto weights = network.embedded_points.weights_of(embedded_point);
     for (std::size_t k = 0; k < particles.size(); ++k) visit(particles[k], second, weights[k]);
   }
 }

@@ -14,7 +14,8 @@ MicropolarModuli moduli_of(const Body& body, const NetworkInput& input,
     if (continuum) {
       return continuum_micropolar(input.problem, elastic, input.horizon, input.thickness);
     }
-    return lattice_micropolar(input.problem, bulk_family(body.lattice, input.horizon).offsets,
+    return lattice_micropolar(input.problem,
+                              interior_neighbourhood(body.lattice, input.horizon).offsets,
                               body.lattice.cell_volume, elastic);
   }
   if (continuum) {
@@ -22,9 +23,9 @@ MicropolarModuli moduli_of(const Body& body, const NetworkInput& input,
                                    input.thickness),
             0.0};
   }
-  const BulkFamily family = bulk_family(body.lattice, input.horizon);
+  const InteriorNeighbourhood neighbourhood = interior_neighbourhood(body.lattice, input.horizon);
   const LatticeModuli moduli =
-      lattice_moduli(input.problem, family.offsets, body.lattice.cell_volume);
+      lattice_moduli(input.problem, neighbourhood.offsets, body.lattice.cell_volume);
   return {moduli.micromodulus_per_modulus * material.youngs_modulus, 0.0};
 }
 

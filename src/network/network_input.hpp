@@ -51,8 +51,9 @@ struct BarMaterial {
   double area = 0.0;                                                ///< A [length^2]
   double yield_strength = std::numeric_limits<double>::infinity();  ///< f_y [force/length^2];
                                                                     ///< infinity: stays elastic
-  bool ties_break = true;  ///< false: nothing breaks between the bar and the solid, if it is not
-                           ///< anchored
+  bool slip_springs_break =
+      true;  ///< false: nothing breaks between the bar and the solid, if it is not
+             ///< anchored
   /// Stress over strain from the yield strength on, in place of a plateau.
   std::optional<ForceCurve> curve = {};
   BarBond bond = {};   ///< that anchored bars have

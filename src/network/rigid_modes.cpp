@@ -158,9 +158,9 @@ std::vector<Fragment> connected_parts(const Network& network, Secants secants, b
     const auto cell = network.cells->cells.cell(k);
     for (const Index vertex : cell) parts.join(cell.front(), vertex);
   }
-  for (Index k = 0; k < network.anchors.size(); ++k) {
-    for (const Index i : network.anchors.particles.row(k)) {
-      parts.join(network.first_anchor() + k, i);
+  for (Index k = 0; k < network.embedded_points.size(); ++k) {
+    for (const Index i : network.embedded_points.particles.row(k)) {
+      parts.join(network.first_embedded_point() + k, i);
     }
   }
   std::vector<Fragment> fragments;
@@ -302,7 +302,7 @@ void pin_rigid_modes(const Network& network, const Fragment& fragment,
     Best any;
     Best rotation;  // taken where no displacement is left, as along a line of particles
     for (const Index i : fragment.particles) {
-      for (int a = 0; a < modes.components(i) && !network.is_anchor(i); ++a) {
+      for (int a = 0; a < modes.components(i) && !network.is_embedded_point(i); ++a) {
         if (held[modes.slot(i, a)]) continue;
         const double residual = span.residual(modes.row(i, a)).norm();
         Best& best = a < modes.dim() ? any : rotation;

@@ -52,7 +52,7 @@ std::vector<Index> Unknowns::owners() const {
   return owners;
 }
 
-void expect_nothing_carried(const Unknowns& unknowns) {
+void expect_nothing_embedded(const Unknowns& unknowns) {
   if (unknowns.carries()) throw std::invalid_argument("particles cannot be carried here");
 }
 
@@ -71,32 +71,34 @@ Unknowns number_unknowns(int width, const std::vector<std::uint8_t>& held,
 namespace {
 
 /// Components of an anchor that follow its particles: rotations only those of one particle.
-int following(const Network& network, Index anchor) {
-  return network.anchors.particles.row(anchor).size() == 1 ? network.width() : network.dim();
+int following(const Network& network, Index embedded_point) {
+  return network.embedded_points.particles.row(embedded_point).size() == 1 ? network.width()
+                                                                           : network.dim();
 }
 
 template <class Visit>
-void for_each_anchored_slot(const Network& network, Visit visit) {
+void for_each_embedded_slot(const Network& network, Visit visit) {
   const auto width = static_cast<std::size_t>(network.width());
-  for (Index k = 0; k < network.anchors.size(); ++k) {
-    const std::size_t slot = static_cast<std::size_t>(network.first_anchor() + k) * width;
+  for (Index k = 0; k < network.embedded_points.size(); ++k) {
+    const std::size_t slot = static_cast<std::size_t>(network.first_embedded_point() + k) * width;
     for (int a = 0; a < following(network, k); ++a) visit(k, slot + a, a);
   }
 }
 
 }  // namespace
 
-void hold_anchors(const Network& network, std::vector<std::uint8_t>& held) {
-  const std::size_t first = static_cast<std::size_t>(network.first_anchor()) * network.width();
+void hold_embedded_points(const Network& network, std::vector<std::uint8_t>& held) {
+  const std::size_t first =
+      static_cast<std::size_t>(network.first_embedded_point()) * network.width();
   std::fill(held.begin() + static_cast<std::ptrdiff_t>(first), held.end(), 1);
 }
 
-void carry_anchors(const Network& network, Unknowns& unknowns) {
+void carry_embedded_points(const Network& network, Unknowns& unknowns) {
   std::vector<Unknowns::Share> shares;
-  for_each_anchored_slot(network, [&](Index k, std::size_t slot, int component) {
+  for_each_embedded_slot(network, [&](Index k, std::size_t slot, int component) {
     shares.clear();
-    const auto particles = network.anchors.particles.row(k);
-    const auto weights = network.anchors.weights_of(k);
+    const auto particles = network.embedded_points.particles.row(k);
+    const auto weights = network.embedded_points.weights_of(k);
     for (std::size_t p = 0; p < particles.size(); ++p) {
       const std::size_t own = static_cast<std::size_t>(particles[p]) * unknowns.width + component;
       if (unknowns.number[own] >= 0) shares.push_back({unknowns.number[own], weights[p]});
@@ -108,9 +110,9 @@ void carry_anchors(const Network& network, Unknowns& unknowns) {
 
 void follow_particles(const Network& network, std::span<double> motion) {
   const auto width = static_cast<std::size_t>(network.width());
-  for_each_anchored_slot(network, [&](Index k, std::size_t slot, int component) {
-    const auto particles = network.anchors.particles.row(k);
-    const auto weights = network.anchors.weights_of(k);
+  for_each_embedded_slot(network, [&](Index k, std::size_t slot, int component) {
+    const auto particles = network.embedded_points.particles.row(k);
+    const auto weights = network.embedded_points.weights_of(k);
     motion[slot] = 0.0;
     for (std::size_t p = 0; p < particles.size(); ++p) {
       motion[slot] += weights[p] * motion[particles[p] * width + component];
@@ -120,9 +122,9 @@ void follow_particles(const Network& network, std::span<double> motion) {
 
 void load_particles(const Network& network, std::span<double> forces) {
   const auto width = static_cast<std::size_t>(network.width());
-  for_each_anchored_slot(network, [&](Index k, std::size_t slot, int component) {
-    const auto particles = network.anchors.particles.row(k);
-    const auto weights = network.anchors.weights_of(k);
+  for_each_embedded_slot(network, [&](Index k, std::size_t slot, int component) {
+    const auto particles = network.embedded_points.particles.row(k);
+    const auto weights = network.embedded_points.weights_of(k);
     for (std::size_t p = 0; p < particles.size(); ++p) {
       forces[particles[p] * width + component] += weights[p] * forces[slot];
     }
@@ -152,11 +154,11 @@ void hold_twist_of_bars(const Network& network, std::vector<std::uint8_t>& held)
   const std::vector<Index>& bar = network.bars.bar;
   if (network.dim() < 3 || !network.carries_moments()) return;
   for (std::size_t begin = 0, end = 0; begin < bar.size(); begin = end) {
-    const Index first = network.first_segment + static_cast<Index>(begin);
+    const Index first = network.first_bar_element + static_cast<Index>(begin);
     const auto n = network.bonds.direction(first);
     bool turns = network.bending[first] > 0.0;
     for (end = begin; end == begin || network.bars.continues(end); ++end) {
-      const auto m = network.bonds.direction(network.first_segment + static_cast<Index>(end));
+      const auto m = network.bonds.direction(network.first_bar_element + static_cast<Index>(end));
       turns = turns && std::abs(n[0] * m[0] + n[1] * m[1] + n[2] * m[2]) > straight;
     }
     if (!turns) continue;

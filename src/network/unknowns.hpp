@@ -43,14 +43,14 @@ struct Unknowns {
   }
   /// Whether any slot is carried.
   bool carries() const { return rows_.size() > 1; }
-  bool is_carried(std::size_t slot) const { return number[slot] < no_index; }
+  bool is_embedded(std::size_t slot) const { return number[slot] < no_index; }
 
   /// Calls visit(unknown, weight) for the row of T of a slot.
   template <class Visit>
   void for_each(std::size_t slot, Visit visit) const {
     if (number[slot] >= 0) {
       visit(number[slot], 1.0);
-    } else if (is_carried(slot)) {
+    } else if (is_embedded(slot)) {
       const auto row = static_cast<std::size_t>(no_index - 1 - number[slot]);
       for (std::size_t k = rows_[row]; k < rows_[row + 1]; ++k) {
         visit(shares_[k].unknown, shares_[k].weight);
@@ -82,7 +82,7 @@ struct Unknowns {
 
 /// For analyses that move every particle by itself.
 /// \throws std::invalid_argument where something carries particles
-void expect_nothing_carried(const Unknowns& unknowns);
+void expect_nothing_embedded(const Unknowns& unknowns);
 
 /// Fills `number` and `count` in the order of the particles. `held` has shape (particles, width):
 /// nonzero where the displacement or rotation is prescribed.
@@ -90,10 +90,10 @@ Unknowns number_unknowns(int width, const std::vector<std::uint8_t>& held,
                          std::vector<double> prescribed);
 
 /// Marks the anchors as held, shape (particles, width): they have no unknowns of their own.
-void hold_anchors(const Network& network, std::vector<std::uint8_t>& held);
+void hold_embedded_points(const Network& network, std::vector<std::uint8_t>& held);
 
 /// Lets anchors move with their particles, beside what is prescribed for them.
-void carry_anchors(const Network& network, Unknowns& unknowns);
+void carry_embedded_points(const Network& network, Unknowns& unknowns);
 
 /// Sums over the particles of anchors with their weights, in place of the motions of anchors, shape
 /// (particles, width).

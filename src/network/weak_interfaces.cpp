@@ -43,7 +43,7 @@ std::vector<Index> crossing_bonds(const Body& body, const WeakInterface& face, s
     if (i >= static_cast<Index>(face.side.size())) return 0;
     return face.side[i] == both_sides ? shared : face.side[i];
   };
-  const bool has_bars = network.first_tie > 0;
+  const bool has_bars = network.first_slip_spring > 0;
   const Index count = has_bars ? network.num_bonds() : network.bonds.size();
   for (Index e = 0; e < count; ++e) {
     const bool crosses = face.side.empty()

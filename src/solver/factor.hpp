@@ -21,7 +21,7 @@ struct FactorStatistics {
   int factorizations = 0;    ///< so far
   int ranks = 1;             ///< processes that share the work
   int iterations = 0;        ///< conjugate gradients after batches of events
-  Index boxes = 0;           ///< where conjugate gradients stand in for a factor
+  Index subdomains = 0;      ///< where conjugate gradients stand in for a factor
 };
 
 /// Cholesky factor of a symmetric positive definite matrix K that follows changes of low rank, and

@@ -346,10 +346,10 @@ TEST_F(ProgramRuns, DoubtResultsThatRoundOffHasReached) {
   const nlohmann::json result = summary("r");
   EXPECT_GT(result["largest_residual"].get<double>(), 1e-6);
   ASSERT_EQ(result["doubts"].size(), 1u);
-  const std::string doubt = result["doubts"][0];
-  EXPECT_THAT(doubt, testing::HasSubstr("of the load is out of balance"));
-  EXPECT_THAT(end.out, testing::HasSubstr(doubt));
-  EXPECT_THAT(read_text(work() / "r/log.txt"), testing::HasSubstr("doubt: " + doubt));
+  const std::string warning = result["doubts"][0];
+  EXPECT_THAT(warning, testing::HasSubstr("of the load is out of balance"));
+  EXPECT_THAT(end.out, testing::HasSubstr(warning));
+  EXPECT_THAT(read_text(work() / "r/log.txt"), testing::HasSubstr("doubt: " + warning));
 }
 
 /// Ten and twenty thousand times as long as high: the factor's answers are 0.2 and some 10 % off,

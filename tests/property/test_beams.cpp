@@ -39,8 +39,8 @@ CaseFile cantilever(double spacing, double horizon_ratio, bool stepped, const st
 std::vector<double> deflections(const CaseFile& input) {
   const Model model = build_model(input);
   const ElasticResult result = run_elastic_analysis(model, {});
-  Csr families;
-  return gauge_values(model, {{}, result.displacement}, families);
+  Csr neighbourhoods;
+  return gauge_values(model, {{}, result.displacement}, neighbourhoods);
 }
 
 constexpr double EI = 2.0 * 3.0 * 0.125 / 12.0;
@@ -92,17 +92,17 @@ TEST(Beams, OnSpringsDeflectAsWinklersBeam) {
 /// A moment at the end bends it to a circle, which quadratic elements carry without an error; a
 /// force bends it to a cubic parabola, which they meet with order two.
 TEST(Beams, AreCarriedByLineElements) {
-  const auto carried = [](const std::string& load, int spacings) {
+  const auto embedded = [](const std::string& load, int spacings) {
     const std::string elements = fmt::format("[elements]\nspacings = {}\n", spacings);
     return -deflections(cantilever(0.25, 3, false, load + elements))[0];
   };
   const std::string moment = "[[point_loads]]\nat = [12, 0]\nforce = [0, 0]\nmoment = -0.01\n";
   const double circle = 0.01 * 144 / (2 * EI);
-  EXPECT_NEAR(carried(moment, 8), circle, 1e-8 * circle);
+  EXPECT_NEAR(embedded(moment, 8), circle, 1e-8 * circle);
   const std::string force = "[[point_loads]]\nat = [12, 0]\nforce = [0, -0.001]\n";
   const double cubic = 0.001 * std::pow(12.0, 3) / (3 * EI);
-  const double coarse = std::abs(carried(force, 12) / cubic - 1.0);
-  const double fine = std::abs(carried(force, 6) / cubic - 1.0);
+  const double coarse = std::abs(embedded(force, 12) / cubic - 1.0);
+  const double fine = std::abs(embedded(force, 6) / cubic - 1.0);
   EXPECT_LT(coarse, 0.03);
   EXPECT_GT(std::log2(coarse / fine), 1.8);
 }
@@ -171,9 +171,9 @@ TEST(Beams, BendToSqrtThreeTimesTheStrength) {
   const double moment = free.peak_load * 300.0 / 4.0, section = 20.0 * 900.0 / 6.0;
   EXPECT_GT(moment / section, std::sqrt(3.0) * 3.0);
   EXPECT_LT(moment / section, 1.1 * std::sqrt(3.0) * 3.0);
-  const DamageResult carried = broken(loads, "[elements]\nspacings = 5\n");
-  EXPECT_NEAR(carried.peak_load, free.peak_load, 1e-4 * free.peak_load);
-  EXPECT_GT(carried.conversions, 0);
+  const DamageResult embedded = broken(loads, "[elements]\nspacings = 5\n");
+  EXPECT_NEAR(embedded.peak_load, free.peak_load, 1e-4 * free.peak_load);
+  EXPECT_GT(embedded.conversions, 0);
 }
 
 }  // namespace

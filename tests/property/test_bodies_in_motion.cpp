@@ -194,7 +194,7 @@ TEST(BodiesInMotion, FreeOnesUnderBalancedLoadsKeepNoMomentumNoSpinAndTheirSymme
       text += fmt::format("[[loads]]\nregion = \"lo\"\nforce = {}\n", vector_of(body, -off, -9));
     }
     const Moved run(text + through_time() + "rigid_body_modes = \"pin\"\n");
-    ASSERT_EQ(run.result.ending, Ending::completed) << text << run.result.reason;
+    ASSERT_EQ(run.result.termination, Termination::completed) << text << run.result.reason;
     EXPECT_GT(run.result.last.energy.stored + run.result.last.energy.kinetic, 0.0);
     const double impulse = run.size * run.result.last.time;
     for (const Balance& row : run.recorder.rows) {
@@ -242,7 +242,7 @@ TEST(BodiesInMotion, ChangeTheirMomentumByLoadsAndReactions) {
     text += fmt::format("[[loads]]\nregion = \"b\"\nforce = {}\n",
                         vector_of(body, random.part(), 1.0 - 2.0 * random.part(), 0.3));
     const Moved run(text + through_time(damping));
-    ASSERT_EQ(run.result.ending, Ending::completed) << text << run.result.reason;
+    ASSERT_EQ(run.result.termination, Termination::completed) << text << run.result.reason;
     const std::vector<Balance>& rows = run.recorder.rows;
     ASSERT_EQ(rows.size(), static_cast<std::size_t>(run.result.steps) + 1);
     double most = 0.0, missing = 0.0;
@@ -307,7 +307,7 @@ TEST(BodiesInMotion, AtRestReactionsBalanceLoads) {
       text += fmt::format("[[supports]]\nregion = \"lo\"\nfix = [{}]\n", along[body.dim - 2]);
     }
     const Rested run(text + rest);
-    ASSERT_EQ(run.result.ending, Ending::completed) << text << run.result.reason;
+    ASSERT_EQ(run.result.termination, Termination::completed) << text << run.result.reason;
     deviation = std::max(deviation, largest(run.recorder.rows.back().outer) / run.size);
   }
   RecordProperty("deviation", fmt::format("{:.2g}", deviation));
@@ -338,7 +338,7 @@ TEST(BodiesInMotion, TornOnesComeToNoRest) {
     std::string rest = to_rest;
     if (!cut) rest += "load_factors = [0.2, 1, 2, 3]\n";
     const Rested run(text + rest);
-    EXPECT_EQ(run.result.ending, Ending::collapsed) << text << run.result.reason;
+    EXPECT_EQ(run.result.termination, Termination::collapsed) << text << run.result.reason;
     EXPECT_NE(run.result.reason.find("in pieces"), std::string::npos) << run.result.reason;
     // The tolerance of rest, 1e-9, times some hundred that drove the whole body.
     EXPECT_NEAR(run.result.last.load, 0.0, 1e-6) << text;

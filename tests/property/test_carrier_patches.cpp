@@ -64,22 +64,22 @@ void expect_linear_motion(const Model& model, double size, double rest = 0.0) {
 
 void expect_exact_patch(const CaseFile& input, double size) {
   const Model model = build_model(input);
-  ASSERT_TRUE(model.carried);
-  ASSERT_GT(std::count(model.carried->whole.begin(), model.carried->whole.end(), 1), 0);
-  EXPECT_LT(model.unknowns.count, model.carried->free.count);
+  ASSERT_TRUE(model.embedded);
+  ASSERT_GT(std::count(model.embedded->whole.begin(), model.embedded->whole.end(), 1), 0);
+  EXPECT_LT(model.unknowns.count, model.embedded->free.count);
   expect_linear_motion(model, size);
 }
 
-class CarrierPatches : public testing::TestWithParam<Patch> {};
+class HostPatches : public testing::TestWithParam<Patch> {};
 
-TEST_P(CarrierPatches, UniformStrainIsExact) {
+TEST_P(HostPatches, UniformStrainIsExact) {
   expect_exact_patch(parse_case(patch_case(GetParam()), "patch.toml"), 12.0);
 }
 
 const std::string ratio3 = "horizon_ratio = 3\nspacing = 0.5\n";
 
 INSTANTIATE_TEST_SUITE_P(
-    Bodies, CarrierPatches,
+    Bodies, HostPatches,
     testing::Values(
         Patch{"rectangular", "pattern = \"rectangular\"\n" + ratio3, false, "spacings = 4\n"},
         Patch{"part", "pattern = \"rectangular\"\n" + ratio3, false,
@@ -119,9 +119,9 @@ struct MeshPatch {
 
 void PrintTo(const MeshPatch& patch, std::ostream* out) { *out << patch.name; }
 
-class MeshCarrierPatches : public testing::TestWithParam<MeshPatch> {};
+class MeshHostPatches : public testing::TestWithParam<MeshPatch> {};
 
-TEST_P(MeshCarrierPatches, UniformStrainIsExact) {
+TEST_P(MeshHostPatches, UniformStrainIsExact) {
   const MeshPatch& patch = GetParam();
   const test::TemporaryDirectory directory;
   const auto write_box = [&](const char* name, int count) {
@@ -141,7 +141,7 @@ TEST_P(MeshCarrierPatches, UniformStrainIsExact) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Bodies, MeshCarrierPatches,
+    Bodies, MeshHostPatches,
     testing::Values(MeshPatch{"plate_with_hole", "full_plate_with_hole.msh", 2, "", ""},
                     MeshPatch{"linear", "full_plate_with_hole.msh", 2, "", "order = 1\n"},
                     MeshPatch{"micropolar", "full_plate_with_hole.msh", 2,
@@ -152,9 +152,9 @@ INSTANTIATE_TEST_SUITE_P(
 
 /// Bonds in one half of a box, ordinary linear elements in the other, which share the vertices
 /// between them.
-class GluedPatches : public testing::TestWithParam<MeshPatch> {};
+class TiedPatches : public testing::TestWithParam<MeshPatch> {};
 
-TEST_P(GluedPatches, UniformStrainIsExact) {
+TEST_P(TiedPatches, UniformStrainIsExact) {
   const MeshPatch& patch = GetParam();
   const test::TemporaryDirectory directory;
   std::ofstream(directory / "box.msh") << test::gmsh_text(
@@ -168,7 +168,7 @@ TEST_P(GluedPatches, UniformStrainIsExact) {
   const Model model = build_model(parse_case(text, (directory / "patch.toml").string()));
   ASSERT_TRUE(model.network.cells);
   EXPECT_GT(model.network.cells->cells.size(), model.cells.size() / 3);
-  EXPECT_EQ(model.carried.has_value(), !patch.elements.empty());
+  EXPECT_EQ(model.embedded.has_value(), !patch.elements.empty());
   // In space the equal shares of glued facets leave bonds at their edges no exact solution.
   const double rest = model.network.calibration->residual_after;
   EXPECT_LT(rest, patch.dim == 2 ? 1e-10 : 1e-2);
@@ -176,7 +176,7 @@ TEST_P(GluedPatches, UniformStrainIsExact) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Bodies, GluedPatches,
+    Bodies, TiedPatches,
     testing::Values(MeshPatch{"plane", "", 2, "", ""}, MeshPatch{"space", "", 3, "", ""},
                     MeshPatch{"micropolar", "", 2, "model = \"micropolar\"\n", ""},
                     MeshPatch{"micropolar_space", "", 3, "model = \"micropolar\"\n", ""},
@@ -190,11 +190,11 @@ class Silent : public StepObserver {
 
 /// Grips on glued vertices take the forces of the finite elements too, also those of an earlier
 /// stage.
-TEST(GluedStages, WorkOfGripsBalances) {
+TEST(TiedStages, WorkOfGripsBalances) {
   const test::TemporaryDirectory directory;
   std::ofstream(directory / "box.msh")
       << test::gmsh_text(test::box_mesh(2, 12), {6, 6, 6}, {-3, -3, -3});
-  const auto run = [&](const char* glued) {
+  const auto run = [&](const char* tied) {
     const std::string text =
         std::string("[body]\nmesh = \"box.msh\"\nhorizon_ratio = 3\n") +
         "[[regions]]\nname = \"all\"\nx = [-9, 9]\ny = [-9, 9]\n"
@@ -206,14 +206,14 @@ TEST(GluedStages, WorkOfGripsBalances) {
         "[[loads]]\nregion = \"all\"\nbody_force = [0.1, -0.2]\nstage = \"weight\"\n"
         "[[displacements]]\nregion = \"right\"\ny = 0.1\nstage = \"drive\"\n"
         "[[stages]]\nname = \"weight\"\nto = 1\n[[stages]]\nname = \"drive\"\nto = 1\n" +
-        glued;
+        tied;
     const CaseFile input = parse_case(text, (directory / "stages.toml").string());
     Silent silent;
     return run_damage_analysis(build_model(input), damage_options(input, 1), silent);
   };
-  const DamageResult glued = run("[elements]\nglued = [\"half\"]\n"), bonds = run("");
-  EXPECT_LT(glued.energy_error, 1e-11);
-  EXPECT_NEAR(glued.last.load, bonds.last.load, 0.02 * std::abs(bonds.last.load))
+  const DamageResult tied = run("[elements]\nglued = [\"half\"]\n"), bonds = run("");
+  EXPECT_LT(tied.energy_error, 1e-11);
+  EXPECT_NEAR(tied.last.load, bonds.last.load, 0.02 * std::abs(bonds.last.load))
       << "triangles of a twelfth of a body that bends are too stiff by 1.3 %";
 }
 

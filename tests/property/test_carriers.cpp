@@ -91,42 +91,42 @@ DamageResult run_case_of(const std::string& text, Events& events) {
   return run_damage_analysis(model, damage_options(input, 1), events);
 }
 
-TEST(Carriers, ConversionKeepsTheEventsAndTheEnergies) {
-  Events free, carried;
+TEST(Hosts, ConversionKeepsTheEventsAndTheEnergies) {
+  Events free, embedded;
   const DamageResult all = run_case_of(beam_case(""), free);
-  const DamageResult some = run_case_of(beam_case("[elements]\nspacings = 4\n"), carried);
-  EXPECT_EQ(some.ending, all.ending) << some.reason;
+  const DamageResult some = run_case_of(beam_case("[elements]\nspacings = 4\n"), embedded);
+  EXPECT_EQ(some.termination, all.termination) << some.reason;
   EXPECT_GT(some.conversions, 0);
-  EXPECT_EQ(some.late_conversions, 0);
+  EXPECT_EQ(some.missed_releases, 0);
   // The same bonds at nearly the same loads, as long as the crack has not met a choice: 0.02 is
   // what elements that wide are too stiff by beside the load.
-  ASSERT_GT(carried.elements.size(), 40u);
+  ASSERT_GT(embedded.elements.size(), 40u);
   for (std::size_t k = 0; k < 40; ++k) {
-    EXPECT_EQ(carried.elements[k], free.elements[k]) << k;
-    EXPECT_NEAR(carried.load_factors[k], free.load_factors[k], 0.02 * free.load_factors[k]) << k;
+    EXPECT_EQ(embedded.elements[k], free.elements[k]) << k;
+    EXPECT_NEAR(embedded.load_factors[k], free.load_factors[k], 0.02 * free.load_factors[k]) << k;
   }
   EXPECT_GT(some.elements, 0);
   EXPECT_LT(some.energy_error, 1e-9);
   // What conversion frees is an error of the elements; here they are as wide as the ligament has
   // eighths.
-  EXPECT_LT(some.last.freed_energy, 0.01 * some.last.dissipated_energy);
+  EXPECT_LT(some.last.constraint_energy, 0.01 * some.last.dissipated_energy);
   EXPECT_NEAR(some.peak_load, all.peak_load, 0.01 * all.peak_load);
 }
 
 /// The first conversion takes all elements: from there on the body is that of free particles, and
 /// nothing of its elements is left in the search.
-TEST(Carriers, OfWhichNoneIsLeftChangeNothing) {
-  Events free, carried;
+TEST(Hosts, OfWhichNoneIsLeftChangeNothing) {
+  Events free, embedded;
   const DamageResult all = run_case_of(beam_case(""), free);
   const DamageResult some =
-      run_case_of(beam_case("[elements]\nspacings = 4\nhalo = 1000.0\n"), carried);
+      run_case_of(beam_case("[elements]\nspacings = 4\nhalo = 1000.0\n"), embedded);
   EXPECT_EQ(some.elements, 0);
-  EXPECT_EQ(carried.elements, free.elements);
-  ASSERT_EQ(carried.load_factors.size(), free.load_factors.size());
+  EXPECT_EQ(embedded.elements, free.elements);
+  ASSERT_EQ(embedded.load_factors.size(), free.load_factors.size());
   for (std::size_t k = 0; k < free.load_factors.size(); ++k) {
-    EXPECT_NEAR(carried.load_factors[k], free.load_factors[k], 1e-9 * free.load_factors[k]) << k;
+    EXPECT_NEAR(embedded.load_factors[k], free.load_factors[k], 1e-9 * free.load_factors[k]) << k;
   }
-  EXPECT_EQ(some.ending, all.ending) << some.reason;
+  EXPECT_EQ(some.termination, all.termination) << some.reason;
 }
 
 /// A plate whose bonds follow the law of concrete, torn from a pre-crack.
@@ -169,13 +169,13 @@ broken_bonds = 40
 )" + more;
 }
 
-TEST(Carriers, BondsOfConcreteKeepTheirLimitsWhenTheyAreFreed) {
-  Events free, carried;
+TEST(Hosts, BondsOfConcreteKeepTheirLimitsWhenTheyAreFreed) {
+  Events free, embedded;
   const DamageResult all = run_case_of(concrete_plate(""), free);
-  const DamageResult some = run_case_of(concrete_plate("[elements]\nspacings = 4\n"), carried);
+  const DamageResult some = run_case_of(concrete_plate("[elements]\nspacings = 4\n"), embedded);
   EXPECT_NEAR(some.peak_load, all.peak_load, 0.01 * all.peak_load);
-  EXPECT_NEAR(carried.load_factors[0], free.load_factors[0], 0.02 * free.load_factors[0]);
-  EXPECT_EQ(carried.elements[0], free.elements[0]);
+  EXPECT_NEAR(embedded.load_factors[0], free.load_factors[0], 0.02 * free.load_factors[0]);
+  EXPECT_EQ(embedded.elements[0], free.elements[0]);
 }
 
 /// The beam above with another feature of event analyses, written over its lines.
@@ -188,11 +188,11 @@ struct Feature {
 
 void PrintTo(const Feature& feature, std::ostream* out) { *out << feature.name; }
 
-class CarriedFeatures : public testing::TestWithParam<Feature> {};
+class EmbeddedFeatures : public testing::TestWithParam<Feature> {};
 
 /// The margins are those of ConversionKeepsTheEventsAndTheEnergies; of the first twenty events two
 /// may come later, since some nearly tie.
-TEST_P(CarriedFeatures, AreThoseOfFreeParticles) {
+TEST_P(EmbeddedFeatures, AreThoseOfFreeParticles) {
   const auto with = [](const std::string& elements) {
     std::string text = beam_case(GetParam().more + elements);
     for (const auto& [from, to] : GetParam().edits) {
@@ -202,30 +202,30 @@ TEST_P(CarriedFeatures, AreThoseOfFreeParticles) {
     }
     return text;
   };
-  Events free, carried;
+  Events free, embedded;
   const DamageResult all = run_case_of(with(""), free);
   const DamageResult some =
-      run_case_of(with("[elements]\nspacings = 4\n" + GetParam().elements), carried);
-  EXPECT_EQ(some.ending, all.ending) << some.reason << " / " << all.reason;
+      run_case_of(with("[elements]\nspacings = 4\n" + GetParam().elements), embedded);
+  EXPECT_EQ(some.termination, all.termination) << some.reason << " / " << all.reason;
   EXPECT_GT(some.conversions, 0);
-  EXPECT_EQ(some.late_conversions, 0);
+  EXPECT_EQ(some.missed_releases, 0);
   EXPECT_LT(some.unknowns, all.unknowns);
   EXPECT_LT(some.energy_error, 1e-9);
   EXPECT_NEAR(some.peak_load, all.peak_load, 0.01 * all.peak_load);
-  ASSERT_GE(std::min(carried.elements.size(), free.elements.size()), 20u);
+  ASSERT_GE(std::min(embedded.elements.size(), free.elements.size()), 20u);
   free.elements.resize(20);
-  EXPECT_GE(std::count_if(carried.elements.begin(), carried.elements.begin() + 20,
+  EXPECT_GE(std::count_if(embedded.elements.begin(), embedded.elements.begin() + 20,
                           [&](Index element) {
                             return std::count(free.elements.begin(), free.elements.end(), element);
                           }),
             18);
-  EXPECT_NEAR(carried.load_factors[0], free.load_factors[0], 0.02 * free.load_factors[0]);
+  EXPECT_NEAR(embedded.load_factors[0], free.load_factors[0], 0.02 * free.load_factors[0]);
 }
 
 const std::pair<std::string, std::string> no_stop = {"[stop]\nbroken_bonds = 120\n", ""};
 const std::pair<std::string, std::string> pushed = {"force = [0, -100]",
                                                     "force = [0, -100]\nstage = \"push\""};
-const std::string carried_weight = R"([[loads]]
+const std::string embedded_weight = R"([[loads]]
 region = "beam"
 body_force = [0, -0.001]
 stage = "weight"
@@ -246,14 +246,14 @@ broken_bonds = 80
 )";
 
 INSTANTIATE_TEST_SUITE_P(
-    Beams, CarriedFeatures,
+    Beams, EmbeddedFeatures,
     testing::Values(
-        Feature{"stages", {no_stop, pushed}, carried_weight},
+        Feature{"stages", {no_stop, pushed}, embedded_weight},
         Feature{"driven_stages",
                 {no_stop,
                  {"[[loads]]\nregion = \"load\"\nforce = [0, -100]",
                   "[[displacements]]\nregion = \"load\"\ny = -0.1\nstage = \"push\""}},
-                carried_weight},
+                embedded_weight},
         Feature{"softening",
                 {{"fracture_energy = 0.1\n", "fracture_energy = 0.1\ntensile_strength = 4\n"},
                  {"broken_bonds = 120", "load_fraction = 0.9"}},
@@ -268,31 +268,31 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& feature) { return std::string(feature.param.name); });
 
 /// An alert as late as this, and no halo, miss bonds that are past their limit.
-const std::string late_elements = "[elements]\nspacings = 4\nalert = 0.99\nhalo = 0.01\n";
+const std::string missed_elements = "[elements]\nspacings = 4\nalert = 0.99\nhalo = 0.01\n";
 
-TEST(Carriers, LateConversionsAreCounted) {
-  const CaseFile input = parse_case(beam_case(late_elements), "beam.toml");
+TEST(Hosts, LateConversionsAreCounted) {
+  const CaseFile input = parse_case(beam_case(missed_elements), "beam.toml");
   const Model model = build_model(input);
   DamageOptions options = damage_options(input, 1);
   Events events;
-  EXPECT_EQ(run_damage_analysis(model, options, events).late_conversions, 1);
+  EXPECT_EQ(run_damage_analysis(model, options, events).missed_releases, 1);
   options.begins_again = true;
   try {
     run_damage_analysis(model, options, events);
     FAIL() << "began with an element too many";
-  } catch (const LateConversion& late) {
+  } catch (const MissedRelease& late) {
     const auto whole = [](const std::vector<std::uint8_t>& flags) {
       return std::count(flags.begin(), flags.end(), 1);
     };
-    EXPECT_LT(whole(late.whole), whole(model.carried->whole));
+    EXPECT_LT(whole(late.whole), whole(model.embedded->whole));
   }
 }
 
 /// The history is that of the run that needed no elements too many; the beginnings leave nothing.
-TEST(Carriers, ARunBeginsAgainAfterALateConversion) {
+TEST(Hosts, ARunBeginsAgainAfterALateConversion) {
   const test::TemporaryDirectory work;
   const CaseFile input =
-      parse_case(beam_case(late_elements + "[output]\nfields_every = 40\n"), "beam.toml");
+      parse_case(beam_case(missed_elements + "[output]\nfields_every = 40\n"), "beam.toml");
   DamageRun run(input, 1, true);
   RunFiles& files = run.open(work.path(), true);
   run.analyse();
@@ -312,20 +312,20 @@ TEST(Carriers, ARunBeginsAgainAfterALateConversion) {
 }
 
 /// One load step sees what many see, though it has no row before its end.
-TEST(Carriers, LateConversionsOfTheFirstLoadStepAreCounted) {
+TEST(Hosts, LateConversionsOfTheFirstLoadStepAreCounted) {
   const auto late_in = [](const std::string& factors) {
     const CaseFile input =
-        parse_case(beam_case(late_elements + "[analysis]\ncontrol = \"steps\"\nload_factors = [" +
+        parse_case(beam_case(missed_elements + "[analysis]\ncontrol = \"steps\"\nload_factors = [" +
                              factors + "]\n"),
                    "beam.toml");
     const Model model = build_model(input);
     Events events;
-    return run_damage_analysis(model, damage_options(input, 1), events).late_conversions;
+    return run_damage_analysis(model, damage_options(input, 1), events).missed_releases;
   };
   EXPECT_GE(late_in("13.0"), 1);
 }
 
-TEST(Carriers, StepsConvertWhatTheyReachAlone) {
+TEST(Hosts, StepsConvertWhatTheyReachAlone) {
   std::string steps = beam_case(
       "[elements]\nspacings = 4\nalert = 0.9\n[analysis]\n"
       "control = \"steps\"\nload_factors = [1e-4, 2e-4]\n");

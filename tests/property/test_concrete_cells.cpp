@@ -21,7 +21,7 @@ constexpr double modulus = 24850.0, ratio = 0.22;
 /// Fine directions and teeth: 0.1 % of the peak each, 0.9 % behind it, where directions go one by
 /// one.
 constexpr int directions = 360;
-constexpr double ripple = 0.005;
+constexpr double overshoot = 0.005;
 
 std::vector<CellBond> cell_of(Problem constants) {
   const double mu = 0.5 * modulus / (1.0 + ratio);
@@ -45,8 +45,8 @@ std::vector<CellPoint> path_of(const ConcretePoint& point) {
   const SofteningCurve tension(shape, softening_energy(shape, 2.0));
   const SofteningCurve compression(shape, softening_energy(shape, 3.0));
   const BondLaw law =
-      saw_tooth_of(tension, ripple)
-          .crushing(teeth_of(compression, ripple), 0.001 / 0.00014, point.keeps_shear);
+      saw_tooth_of(tension, overshoot)
+          .crushing(segments_of(compression, overshoot), 0.001 / 0.00014, point.keeps_shear);
   return cell_path(cell_of(point.constants), 2, {{1.0, 0.0, 0.0}, point.strain < 0.0, point.across},
                    law, 0.00014);
 }

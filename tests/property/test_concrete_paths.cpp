@@ -34,7 +34,7 @@ BondLaw concrete(bool keeps_shear) {
   const SofteningShape shape{Softening::concrete};
   const SofteningCurve tension(shape, softening_energy(shape, 2.0));
   const SofteningCurve compression(shape, softening_energy(shape, 3.0));
-  return saw_tooth_of(tension, 0.15).crushing(teeth_of(compression, 0.15), 7.0, keeps_shear);
+  return saw_tooth_of(tension, 0.15).crushing(segments_of(compression, 0.15), 7.0, keeps_shear);
 }
 
 class ConcretePath : public testing::TestWithParam<ConcreteCase> {
@@ -45,7 +45,7 @@ class ConcretePath : public testing::TestWithParam<ConcreteCase> {
     body_.network.laws.front() = concrete(each.keeps_shear);
     for (double& u : body_.unknowns.prescribed) u *= each.drive;
     body_.reference.value *= each.drive;
-    tooth_.assign(static_cast<std::size_t>(body_.network.num_elements()), 0);
+    segment_.assign(static_cast<std::size_t>(body_.network.num_elements()), 0);
     awake_.assign(static_cast<std::size_t>(body_.network.particles.size()), 0);
   }
 
@@ -62,13 +62,13 @@ class ConcretePath : public testing::TestWithParam<ConcreteCase> {
   double ratio(Index e, double stretch) const {
     const Network& network = body_.network;
     const BondLaw& law = network.law(e);
-    const int tooth = tooth_[e];
-    if (!network.has_limit(e) || law.tooth(tooth).secant == 0.0) return 0.0;
+    const int segment = segment_[e];
+    if (!network.has_limit(e) || law.segment(segment).secant == 0.0) return 0.0;
     const double x = stretch / network.critical_stretch[e];
-    if (x > 0.0) return tooth >= 0 ? x / law.tooth(tooth).limit : 0.0;
+    if (x > 0.0) return segment >= 0 ? x / law.segment(segment).limit : 0.0;
     const bool awake = awake_[network.bonds.first[e]] || awake_[network.bonds.second[e]];
-    if (tooth > 0 || !awake) return 0.0;
-    return -x / (tooth == 0 ? law.first_in_compression() : law.tooth(tooth)).limit;
+    if (segment > 0 || !awake) return 0.0;
+    return -x / (segment == 0 ? law.first_in_compression() : law.segment(segment)).limit;
   }
   /// \return energy that the element gives up by its next event at this motion
   double pass(Index e, const StepState& state, double load_factor) {
@@ -77,17 +77,17 @@ class ConcretePath : public testing::TestWithParam<ConcreteCase> {
     const double stretched = extension(e, state.displacement) * load_factor;
     const double axial = 0.5 * network.stiffness[e] * stretched * stretched;
     const BondLaw& law = network.law(e);
-    const double before = law.tooth(tooth_[e]).secant;
-    tooth_[e] = BondLaw::after(tooth_[e], stretched < 0.0);
-    if (tooth_[e] == 1) awake_[network.bonds.first[e]] = awake_[network.bonds.second[e]] = 1;
-    const double after = law.tooth(tooth_[e]).secant;
+    const double before = law.segment(segment_[e]).secant;
+    segment_[e] = BondLaw::after(segment_[e], stretched < 0.0);
+    if (segment_[e] == 1) awake_[network.bonds.first[e]] = awake_[network.bonds.second[e]] = 1;
+    const double after = law.segment(segment_[e]).secant;
     ++events_[after == 0.0][stretched < 0.0];
     if (!law.keeps_shear()) return (before - after) * all;
     return (before - after) * axial + (after == 0.0 ? all - axial : 0.0);
   }
 
   AnalysisBody body_;
-  std::vector<int> tooth_;
+  std::vector<int> segment_;
   std::vector<std::uint8_t> awake_;
   std::map<bool, std::map<bool, int>> events_;  ///< by whether they broke and were in compression
 };
@@ -106,7 +106,7 @@ TEST_P(ConcretePath, EventsAreWhereTheLawHasThemAndTakeTheEnergyOfTheirTeeth) {
           if (e == row.element) {
             EXPECT_NEAR(found, 1.0, 1e-9) << row.step;
           }
-          const double secant = body_.network.law(e).tooth(tooth_[e]).secant;
+          const double secant = body_.network.law(e).segment(segment_[e]).secant;
           const bool whole = secant > 0.0 && body_.network.law(e).keeps_shear();
           EXPECT_EQ(state.secants.axial(e), secant);
           EXPECT_EQ(state.secants[e], whole ? 1.0 : secant);

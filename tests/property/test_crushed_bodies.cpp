@@ -49,7 +49,7 @@ TEST(CrushedBodies, EndBeforeStrainsAreLarge) {
 
 /// Loads that are asked for are borne, and their peak is in doubt.
 TEST(CrushedBodies, AskedForByStepsAreInDoubt) {
-  const auto doubts = [](const std::string& load_factors) {
+  const auto warnings = [](const std::string& load_factors) {
     const WholeRun run(
         crushed_block("[body]\nproblem = \"plane_stress\"\nspacing = 10\nhorizon_ratio = 3\n",
                       "softening = \"bilinear\"\n",
@@ -59,8 +59,8 @@ TEST(CrushedBodies, AskedForByStepsAreInDoubt) {
     EXPECT_EQ(run.summary.json.at("status"), "completed");
     return run.summary.json.at("doubts").dump();
   };
-  EXPECT_THAT(doubts("[0.1, 0.2]"), testing::Not(testing::HasSubstr("small strains")));
-  EXPECT_THAT(doubts("[10, 200]"), testing::HasSubstr("is no strength of the body"));
+  EXPECT_THAT(warnings("[0.1, 0.2]"), testing::Not(testing::HasSubstr("small strains")));
+  EXPECT_THAT(warnings("[10, 200]"), testing::HasSubstr("is no strength of the body"));
 }
 
 /// The load that a stage goes to is reached where nothing fails on the way.

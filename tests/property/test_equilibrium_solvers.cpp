@@ -29,9 +29,9 @@ void expect_equal_answers(const LoadedNetwork& body) {
   const ElasticResult direct = run_elastic_analysis(body, {.solver = LinearSolver::direct});
   const ElasticResult found = run_elastic_analysis(
       body,
-      {.solver = LinearSolver::iterative, .boxes = {.tolerance = force_tolerance, .edge = 4}});
-  EXPECT_EQ(direct.boxes, 0);
-  EXPECT_GT(found.boxes, 2);
+      {.solver = LinearSolver::iterative, .subdomains = {.tolerance = force_tolerance, .edge = 4}});
+  EXPECT_EQ(direct.subdomains, 0);
+  EXPECT_GT(found.subdomains, 2);
   EXPECT_LT(found.error, force_tolerance);
   double largest = 0.0, difference = 0.0;
   for (std::size_t k = 0; k < direct.displacement.size(); ++k) {
@@ -161,15 +161,16 @@ TEST(EquilibriumSolvers, ChooseByTheSizeOfTheBody) {
   LoadedNetwork problem;
   problem.network.particles.dim = problem.network.bonds.dim = 3;
   problem.unknowns.count = 1000;
-  EXPECT_FALSE(is_for_boxes(problem, LinearSolver::automatic));
-  EXPECT_TRUE(is_for_boxes(problem, LinearSolver::iterative));
+  EXPECT_FALSE(is_for_subdomains(problem, LinearSolver::automatic));
+  EXPECT_TRUE(is_for_subdomains(problem, LinearSolver::iterative));
   problem.unknowns.count = 1000000;
-  EXPECT_TRUE(is_for_boxes(problem, LinearSolver::automatic));
-  EXPECT_FALSE(is_for_boxes(problem, LinearSolver::direct));
+  EXPECT_TRUE(is_for_subdomains(problem, LinearSolver::automatic));
+  EXPECT_FALSE(is_for_subdomains(problem, LinearSolver::direct));
   problem.unknowns.number = {0, no_index};
   const Unknowns::Share half[] = {{0, 0.5}};
   problem.unknowns.carry(1, half);
-  EXPECT_FALSE(is_for_boxes(problem, LinearSolver::automatic)) << "something carries particles";
+  EXPECT_FALSE(is_for_subdomains(problem, LinearSolver::automatic))
+      << "something carries particles";
 }
 
 }  // namespace

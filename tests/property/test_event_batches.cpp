@@ -88,10 +88,10 @@ TEST_P(Tolerated, RunsTellTheSameInFewerRows) {
 }
 
 std::vector<ToleratedCase> tolerated_cases() {
-  NotchedBeam forced, micropolar, carried, reinforced, staged;
+  NotchedBeam forced, micropolar, embedded, reinforced, staged;
   forced.force = 10.0;
   micropolar.model = "micropolar";
-  carried.sections = "[elements]\nsize = 5\n";
+  embedded.sections = "[elements]\nsize = 5\n";
   reinforced.sections =
       "[[rebar]]\nfrom = [0, 5]\nto = [120, 5]\narea = 0.05\nyoungs_modulus = 200000\n"
       "yield_strength = 200\n";
@@ -100,7 +100,7 @@ std::vector<ToleratedCase> tolerated_cases() {
   return {{"driven", {}},
           {"forced", forced, 0.02, 4.5},
           {"micropolar", micropolar, 0.005, 2.0},  // snaps back: a tenth off with 0.02
-          {"carried", carried},
+          {"carried", embedded},
           {"reinforced", reinforced},
           {"staged", staged}};
 }

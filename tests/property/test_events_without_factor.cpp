@@ -20,10 +20,10 @@ struct Outcome {
   std::vector<StepRecord> rows;
 };
 
-Outcome outcome_of(const AnalysisBody& body, bool boxes, std::vector<double> load_factors) {
+Outcome outcome_of(const AnalysisBody& body, bool subdomains, std::vector<double> load_factors) {
   DamageOptions options;
-  options.engine.solver = boxes ? LinearSolver::iterative : LinearSolver::direct;
-  options.engine.boxes.edge = 3;
+  options.engine.solver = subdomains ? LinearSolver::iterative : LinearSolver::direct;
+  options.engine.subdomains.edge = 3;
   options.load_factors = std::move(load_factors);
   Recorder recorder;
   Outcome outcome;
@@ -58,7 +58,7 @@ TEST_P(Blocks, BreakAlike) {
   EXPECT_GT(expected.rows.size(), 50u);
   expect_the_same(found, expected, before_separation);
   EXPECT_EQ(found.rows.size(), expected.rows.size());
-  EXPECT_EQ(found.result.ending, expected.result.ending) << found.result.reason;
+  EXPECT_EQ(found.result.termination, expected.result.termination) << found.result.reason;
 }
 
 /// Forces that are beyond what a body bears take it apart within a step.

@@ -176,7 +176,7 @@ TEST_P(LinearElementsOn, TheErrorOfASmoothSolutionFallsWithOrderTwo) {
   EXPECT_GT(order, 1.9) << errors[0];
 }
 
-INSTANTIATE_TEST_SUITE_P(Boxes, LinearElementsOn,
+INSTANTIATE_TEST_SUITE_P(Subdomains, LinearElementsOn,
                          testing::Values(BoxCase{"rectangular", Pattern::rectangular, 2},
                                          BoxCase{"hexagonal", Pattern::hexagonal, 2},
                                          BoxCase{"irregular", Pattern::irregular, 2},

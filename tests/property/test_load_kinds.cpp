@@ -241,7 +241,7 @@ TEST(DrivenBody, LoadFractionLooksAtTheLoad) {
 
   const DamageResult result = run_rows(model, options, recorder);
 
-  ASSERT_EQ(result.ending, Ending::completed);
+  ASSERT_EQ(result.termination, Termination::completed);
   // The last ten rows in turn lie below, the one before them does not.
   const std::size_t count = recorder.rows.size();
   ASSERT_GT(count, 10u);
@@ -260,7 +260,7 @@ TEST(LoadSteps, StopWithinAStepAtTheNumberOfBrokenBonds) {
 
   const DamageResult result = run_rows(model, options, recorder);
 
-  EXPECT_EQ(result.ending, Ending::completed);
+  EXPECT_EQ(result.termination, Termination::completed);
   EXPECT_EQ(result.broken_bonds, 25);
 }
 
@@ -272,7 +272,7 @@ TEST(YieldingBar, EndsAsAPlasticMechanism) {
 
   const DamageResult result = run_rows(model, DamageOptions{}, recorder);
 
-  EXPECT_EQ(result.ending, Ending::collapsed) << result.reason;
+  EXPECT_EQ(result.termination, Termination::collapsed) << result.reason;
   EXPECT_LT(result.largest_residual, 1e-6);
 }
 

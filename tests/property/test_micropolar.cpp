@@ -172,7 +172,7 @@ TEST_P(MicropolarLattice, StiffnessIsTheSumOfTheElementVectors) {
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(unknowns.count, unknowns.count);
   for (Index e = 0; e < network_.num_elements(); ++e) {
     const ElementVectors parts = element_vectors(network_, unknowns, e, secants[e]);
-    EXPECT_EQ(parts.count, e >= network_.first_tie ? 1 : network_.width());
+    EXPECT_EQ(parts.count, e >= network_.first_slip_spring ? 1 : network_.width());
     for (int m = 0; m < parts.count; ++m) {
       for (int a = 0; a < parts.x[m].size(); ++a) {
         for (int b = 0; b < parts.x[m].size(); ++b) {
@@ -210,7 +210,7 @@ TEST_P(MicropolarLattice, PrescribedPartsAddToTheDeformation) {
   }
   const double expected = internal_force(network_, intact, motion).energy;
   EXPECT_NEAR(energy, expected, 1e-12 * expected);
-  const Csr families = bonds_of_particles(network_.bonds, network_.particles.size());
+  const Csr neighbourhoods = bonds_of_particles(network_.bonds, network_.particles.size());
   const auto density = strain_energy_density(network_, intact, motion);
   double sum = 0.0;
   for (Index i = 0; i < network_.particles.size(); ++i) {
@@ -273,7 +273,7 @@ TEST(MicropolarBulk, HasYoungsModulusAndPoissonsRatio) {
     const LatticeInput body = body_input({"", Pattern::hexagonal, Surface::none}, 10);
     const Network network = build_network(make_body(body), micropolar_input(body, nu));
     const std::vector<double> intact(static_cast<std::size_t>(network.num_elements()), 1.0);
-    const Csr families = bonds_of_particles(network.bonds, network.particles.size());
+    const Csr neighbourhoods = bonds_of_particles(network.bonds, network.particles.size());
     const auto from_middle = [&](Index i) {
       const auto x = network.particles.position(i);
       return std::hypot(x[0] - 0.5 * body.solid[0].upper[0], x[1] - 0.5 * body.solid[0].upper[1]);
@@ -355,8 +355,9 @@ INSTANTIATE_TEST_SUITE_P(InPlaneAndSpace, Inflected, testing::Values(2, 3));
 /// In a homogeneous strain the bonds of a calibrated body break by their direction and length, not
 /// by what the calibration made of them: the order of breaking is that of
 /// s^2 + b (g / xi)^2 / xi^2 with s = n.eps n, g / xi = t.eps n and one b for the whole body.
-TEST(MicropolarCloud, BreaksByTheStrainAlone) {
-  const Network network = build_network(make_cloud(1, 10), micropolar_cloud_input(10));
+TEST(UnstructuredMicropolar, BreaksByTheStrainAlone) {
+  const Network network =
+      build_network(make_unstructured(1, 10), unstructured_micropolar_input(10));
   ASSERT_LT(network.calibration->smallest_weight, 0.5);
   const double b = network.ratio_of_bending(0) * std::pow(network.bonds.lengths[0], 2);
   const auto measure = [&](Index e, double exx, double eyy, double exy) {

@@ -205,7 +205,7 @@ class BulkProperty : public testing::TestWithParam<LatticeCase> {
     constants.problem = problem;
     const Network network = build_network(make_body(body), constants);
     const std::vector<double> secants(static_cast<std::size_t>(network.num_elements()), 1.0);
-    const Csr families = bonds_of_particles(network.bonds, network.particles.size());
+    const Csr neighbourhoods = bonds_of_particles(network.bonds, network.particles.size());
     const auto density =
         strain_energy_density(network, secants, linear_field(network.particles, strain));
     return density[middle(network.particles, body.solid[0])];
@@ -215,10 +215,10 @@ class BulkProperty : public testing::TestWithParam<LatticeCase> {
 TEST_P(BulkProperty, HomogeneousStrainHasTheEnergyOfTheContinuum) {
   const LatticeInput body = body_input(GetParam(), columns);
   const Lattice lattice = make_body(body).lattice;
-  const BulkFamily family = bulk_family(lattice, body.horizon);
+  const InteriorNeighbourhood neighbourhood = interior_neighbourhood(lattice, body.horizon);
   const double modulus = network_input(body).materials[0].youngs_modulus;
   const auto poisson = [&](Problem problem) {
-    return lattice_moduli(problem, family.offsets, lattice.cell_volume).poissons_ratio;
+    return lattice_moduli(problem, neighbourhood.offsets, lattice.cell_volume).poissons_ratio;
   };
   if (!is_plane(body.pattern)) {
     const double nu = poisson(Problem::three_dimensional);
@@ -269,12 +269,12 @@ TEST_P(BulkProperty, AStraightCrackReleasesTheFractureSum) {
     const double length = network.bonds.lengths[b];
     released += 0.5 * network.stiffness[b] * length * length;
   }
-  const BulkFamily family = bulk_family(lattice, input.horizon);
+  const InteriorNeighbourhood neighbourhood = interior_neighbourhood(lattice, input.horizon);
   const double c = moduli_of(body, constants, constants.materials[0]).micromodulus;
   Vector3 direction{};
   direction[normal] = 1.0;
-  const double sum =
-      lattice_fracture_sum(constants.problem, family.offsets, lattice.cell_volume, c, direction);
+  const double sum = lattice_fracture_sum(constants.problem, neighbourhood.offsets,
+                                          lattice.cell_volume, c, direction);
   EXPECT_NEAR(released / area, 0.5 * sum, round_off * sum);
 }
 

@@ -113,8 +113,9 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
 }
 
 std::vector<double> stresses(const Model& model, Secants secants, std::span<const double> motion) {
-  const Csr families = bonds_of_particles(model.network.bonds, model.network.particles.size());
-  return particle_stresses(stress_input(model, families, secants), motion);
+  const Csr neighbourhoods =
+      bonds_of_particles(model.network.bonds, model.network.particles.size());
+  return particle_stresses(stress_input(model, neighbourhoods, secants), motion);
 }
 
 /// Secants of a body that has events as well, the same in twins whose bonds have other numbers.

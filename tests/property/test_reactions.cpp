@@ -76,13 +76,13 @@ struct Reactions {
     const CaseFile input = parse_case(text, "strip.toml");
     const Model model = build_model(input);
     const ElasticAnswer answer = solve_elastic(model, {});
-    carried =
-        model.carried && std::count(model.carried->whole.begin(), model.carried->whole.end(), 1);
+    embedded =
+        model.embedded && std::count(model.embedded->whole.begin(), model.embedded->whole.end(), 1);
     ModelState state{{}, answer.solution.displacement};
     state.internal = answer.solution.forces;
-    const std::vector<HeldPlace> places = held_places(input, model);
+    const std::vector<SupportRegion> places = support_regions(input, model);
     const std::vector<double> forces = holding_forces(model, state);
-    for (const HeldPlace& place : places) {
+    for (const SupportRegion& place : places) {
       at.push_back(reaction_on(model, place.particles, forces));
       size = std::max(size, at.back().force_size);
     }
@@ -97,7 +97,7 @@ struct Reactions {
   std::vector<Reaction> at;
   Reaction sum;
   double size = 0.0;
-  bool carried = false;
+  bool embedded = false;
 };
 
 /// Two supports share a load as the law of the lever says.
@@ -111,7 +111,7 @@ double error_of_simple_beam(Strip& strip) {
   text += support("pin", "\"x\", \"y\"") + support("roller", "\"y\"");
   text += fmt::format("[[point_loads]]\nat = [{}, {}]\nforce = [{}, {}]\n", at_x, at_y, px, py);
   const Reactions found(strip.head(text) + "[analysis]\ntype = \"elastic\"\n");
-  EXPECT_TRUE(found.carried);
+  EXPECT_TRUE(found.embedded);
   const double roller = -((at_x - a) * py - (at_y - strip.y) * px) / (b - a);
   return std::max({std::abs(found.at[0].force[0] + px), std::abs(found.at[1].force[1] - roller),
                    std::abs(found.at[0].force[1] + py + roller), found.imbalance(strip)});
@@ -123,7 +123,7 @@ double error_of_clamp(Strip& strip) {
   std::string text = support("left", strip.beam ? "\"x\", \"y\", \"rotation\"" : "\"x\", \"y\"");
   text += fmt::format("[[loads]]\nregion = \"right\"\nforce = [{}, {}]\n", px, py);
   const Reactions found(strip.head(text) + "[analysis]\ntype = \"elastic\"\n");
-  EXPECT_TRUE(found.carried);
+  EXPECT_TRUE(found.embedded);
   const double arm = strip.right() - strip.x;
   return std::max({std::abs(found.at[0].force[0] + px), std::abs(found.at[0].force[1] + py),
                    std::abs(found.at[0].moment[2] + arm * py) / strip.size(),
@@ -135,7 +135,7 @@ double error_of_driven_end(Strip& strip) {
   std::string text = support("left", strip.beam ? "\"x\", \"y\", \"rotation\"" : "\"x\", \"y\"");
   text += fmt::format("[[displacements]]\nregion = \"right\"\ny = {}\n", 0.01 * strip.size());
   const Reactions found(strip.head(text) + "[analysis]\ntype = \"elastic\"\n");
-  EXPECT_TRUE(found.carried);
+  EXPECT_TRUE(found.embedded);
   return std::max(std::abs(found.at[0].force[1] + found.at[1].force[1]) / found.size,
                   found.imbalance(strip));
 }
@@ -148,7 +148,7 @@ double error_of_springs(Strip& strip) {
   text += "[[springs]]\nregion = \"right\"\ntotal = [0, 50]\n";
   text += fmt::format("[[point_loads]]\nat = [{}, {}]\nforce = [0, {}]\n", at_x, strip.top(), py);
   const Reactions found(strip.head(text) + "[analysis]\ntype = \"elastic\"\n");
-  EXPECT_TRUE(found.carried);
+  EXPECT_TRUE(found.embedded);
   const double springs = -py * (at_x - strip.x) / (strip.right() - strip.x);
   return std::max(std::abs(found.at[1].force[1] - springs), found.imbalance(strip));
 }
@@ -205,7 +205,7 @@ TEST(Reactions, OfABeamOnTwoSupportsAreHalfTheLoadEach) {
       "[[point_loads]]\nat = [200, 100]\nforce = [0, -1000]\n[analysis]\ntype = \"elastic\"\n"));
   EXPECT_NEAR(found.rows[0][3], 500.0, 500.0 * balanced);
   EXPECT_NEAR(found.rows[1][3], 500.0, 500.0 * balanced);
-  EXPECT_TRUE(found.run.summary.doubts.empty()) << found.run.summary.text;
+  EXPECT_TRUE(found.run.summary.warnings.empty()) << found.run.summary.text;
 }
 
 TEST(Reactions, OfAWallAreTheLoadAndItsMoment) {
@@ -216,7 +216,7 @@ TEST(Reactions, OfAWallAreTheLoadAndItsMoment) {
                                            "[analysis]\ntype = \"elastic\"\n"));
     EXPECT_NEAR(found.rows[0][3], 1000.0, 1000.0 * balanced);
     EXPECT_NEAR(found.rows[0][4], 400000.0, 400000.0 * balanced);
-    EXPECT_TRUE(found.run.summary.doubts.empty()) << found.run.summary.text;
+    EXPECT_TRUE(found.run.summary.warnings.empty()) << found.run.summary.text;
   }
 }
 
@@ -235,7 +235,7 @@ TEST(Reactions, OfABodyThatBreaksAreItsLoad) {
     EXPECT_NEAR(found.rows[0][3], std::abs(load), std::abs(load) * balanced);
     EXPECT_NEAR(found.rows.back()[2], 0.0, std::abs(load) * balanced);
     EXPECT_NEAR(found.rows.back()[3], 0.0, std::abs(load) * balanced);
-    EXPECT_TRUE(found.run.summary.doubts.empty()) << found.run.summary.text;
+    EXPECT_TRUE(found.run.summary.warnings.empty()) << found.run.summary.text;
   }
 }
 
@@ -247,7 +247,7 @@ TEST(Reactions, BalanceInEveryKindOfRun) {
       "[[displacements]]\nregion = \"right\"\nx = 1\nstage = \"pull\"\n";
   const RunReactions staged(tall_beam(support("left", "\"x\", \"y\""), stages));
   EXPECT_NEAR(staged.rows[0][3] + staged.rows[1][3], 50.0, 50.0 * balanced);
-  EXPECT_TRUE(staged.run.summary.doubts.empty()) << staged.run.summary.text;
+  EXPECT_TRUE(staged.run.summary.warnings.empty()) << staged.run.summary.text;
   for (const char* kind : {"elastic", "damage"}) {
     std::string text =
         tall_beam(support("left", "\"x\", \"y\""),
@@ -257,7 +257,7 @@ TEST(Reactions, BalanceInEveryKindOfRun) {
     text.erase(text.find("[elements]\n"), 24);  // only a factor serves them
     const RunReactions iterative(text);
     EXPECT_NEAR(iterative.rows.back()[3] / iterative.rows[0][3], 0.0, 1e-8);
-    EXPECT_TRUE(iterative.run.summary.doubts.empty()) << iterative.run.summary.text;
+    EXPECT_TRUE(iterative.run.summary.warnings.empty()) << iterative.run.summary.text;
   }
 }
 

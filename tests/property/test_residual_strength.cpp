@@ -88,7 +88,7 @@ TEST(ResidualStrength, IsNotThePeak) {
     EXPECT_NEAR(told("smoothed_peak_load"), first, 0.05 * first);
     EXPECT_EQ(told("first_peak_load"), told("peak_load"));
     EXPECT_NEAR(told("largest_load"), later, 0.05 * later);
-    EXPECT_THAT(run.summary.doubts, Contains(HasSubstr("residual strength")));
+    EXPECT_THAT(run.summary.warnings, Contains(HasSubstr("residual strength")));
     EXPECT_THAT(run.summary.text, HasSubstr("residual strength"));
 
     const test::WholeRun stages(
@@ -99,7 +99,7 @@ TEST(ResidualStrength, IsNotThePeak) {
       EXPECT_NEAR(stage.at(key).get<double>(), told(key), 1e-6 * told(key)) << key;
       EXPECT_EQ(stages.summary.json.at(key), stage.at(key)) << key;
     }
-    EXPECT_THAT(stages.summary.doubts, Contains(HasSubstr("residual strength")));
+    EXPECT_THAT(stages.summary.warnings, Contains(HasSubstr("residual strength")));
   }
 }
 
@@ -107,7 +107,7 @@ TEST(ResidualStrength, IsNotThePeak) {
 TEST(ResidualStrength, IsNoneWhereTheLoadStaysBelowItsPeak) {
   const test::WholeRun run(two_strips(160.0, 60.0, 6.0, "[stop]\nload_fraction = 0.1\n"));
   EXPECT_EQ(run.summary.json.at("peak_load"), run.summary.json.at("largest_load"));
-  EXPECT_THAT(run.summary.doubts, Not(Contains(HasSubstr("residual strength"))));
+  EXPECT_THAT(run.summary.warnings, Not(Contains(HasSubstr("residual strength"))));
 }
 
 }  // namespace

@@ -39,8 +39,8 @@ CaseFile clamped_plate(double thickness, const std::string& energy, const std::s
 double deflection(const CaseFile& input) {
   const Model model = build_model(input);
   const ElasticResult result = run_elastic_analysis(model, {});
-  Csr families;
-  return -gauge_values(model, {{}, result.displacement}, families)[0];
+  Csr neighbourhoods;
+  return -gauge_values(model, {{}, result.displacement}, neighbourhoods)[0];
 }
 
 /// Timoshenko & Woinowsky-Krieger 1959, section 44: 0.00126 q a^4 / D; 0.00126532 of later work
@@ -105,9 +105,10 @@ TEST(Shells, FacesShowTheStrainOfBending) {
     const double x = model.network.particles.position(i)[0];
     motion.insert(motion.end(), {0.01 * x, 0.0, 0.5 * x * x, 0.0, -x, 0.0});
   }
-  const Csr families = bonds_of_particles(model.network.bonds, model.network.particles.size());
+  const Csr neighbourhoods =
+      bonds_of_particles(model.network.bonds, model.network.particles.size());
   const std::vector<double> secants(model.network.stiffness.size(), 1.0);
-  const std::vector<double> strains = face_strains(model.network, families, secants, motion);
+  const std::vector<double> strains = face_strains(model.network, neighbourhoods, secants, motion);
   for (std::size_t i = 0; i < strains.size(); i += 3) {
     EXPECT_NEAR(strains[i], 0.01 + 0.05, 1e-12);
     EXPECT_NEAR(strains[i + 1], 0.0, 1e-12);

@@ -19,7 +19,7 @@ DamageResult collapse(const SlenderCase& bar, Recorder& recorder) {
 TEST_P(SlenderBody, EndsInTwoAndItsEnergiesBalance) {
   Recorder recorder;
   const DamageResult result = collapse(GetParam(), recorder);
-  EXPECT_EQ(result.ending, Ending::collapsed) << result.reason;
+  EXPECT_EQ(result.termination, Termination::collapsed) << result.reason;
   EXPECT_LT(result.energy_error, 1e-6);
   EXPECT_LT(result.largest_residual, 1e-6);
   const bool bare = GetParam().driven() && GetParam().weak_springs == 0.0;

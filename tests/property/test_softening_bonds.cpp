@@ -19,7 +19,7 @@ struct LawCase {
   std::string name;
   SofteningShape shape;
   double energy;
-  double ripple;
+  double overshoot;
 };
 
 std::ostream& operator<<(std::ostream& out, const LawCase& law) { return out << law.name; }
@@ -33,7 +33,7 @@ std::vector<LawCase> laws() {
 
 class SofteningBonds : public testing::TestWithParam<LawCase> {
  protected:
-  BondLaw law() const { return saw_tooth_of(curve(), GetParam().ripple); }
+  BondLaw law() const { return saw_tooth_of(curve(), GetParam().overshoot); }
   SofteningCurve curve() const { return {GetParam().shape, GetParam().energy}; }
 };
 
@@ -72,13 +72,13 @@ struct PulledBonds {
 
 TEST_P(SofteningBonds, FollowTheirCurveAndTakeItsEnergy) {
   PulledBonds pulled(law());
-  const double end = 1.1 * law().tooth(0).limit * curve().end();
+  const double end = 1.1 * law().segment(0).limit * curve().end();
   double work = 0.0, before = 0.0;
   constexpr int steps = 20000;
   for (int i = 1; i <= steps; ++i) {
     const double x = i * end / steps;
     const double force = pulled.pull(x);
-    EXPECT_LT(force, curve().force(x) + GetParam().ripple * (1.0 + 1e-8)) << x;
+    EXPECT_LT(force, curve().force(x) + GetParam().overshoot * (1.0 + 1e-8)) << x;
     work += 0.5 * (before + force) * end / steps;
     before = force;
   }
@@ -93,8 +93,8 @@ TEST_P(SofteningBonds, FollowTheirCurveAndTakeItsEnergy) {
 TEST_P(SofteningBonds, FallToTheNextToothAtTheirLimitOnly) {
   const BondLaw law = this->law();
   PulledBonds pulled(law);
-  for (int k = 0; law.tooth(k).secant > 0.0; ++k) {
-    const Tooth now = law.tooth(k), next = law.tooth(k + 1);
+  for (int k = 0; law.segment(k).secant > 0.0; ++k) {
+    const Segment now = law.segment(k), next = law.segment(k + 1);
     EXPECT_NEAR(pulled.pull(now.limit * (1.0 - 1e-9)), now.secant * now.limit, 1e-8) << k;
     EXPECT_NEAR(pulled.pull(now.limit * (1.0 + 1e-9)), next.secant * now.limit, 1e-8) << k;
     // Back to zero along the secant, and into compression.

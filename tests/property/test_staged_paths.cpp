@@ -27,7 +27,7 @@ struct StagedLook {
 class StagedPath : public testing::TestWithParam<BlockCase> {
  protected:
   StagedPath() : body_(make_block(GetParam())) {
-    LoadSet across = set_of(body_);
+    LoadCase across = set_of(body_);
     across.reference = {false, 1.0};
     std::fill(across.unknowns.prescribed.begin(), across.unknowns.prescribed.end(), 0.0);
     std::fill(across.loads.forces.begin(), across.loads.forces.end(), 0.0);
@@ -65,7 +65,8 @@ class StagedPath : public testing::TestWithParam<BlockCase> {
     StagedLook look{row, stored_energy(state.network, state.secants, state.displacement)};
     for (Index e = 0; e < state.network.num_elements(); ++e) {
       if (state.secants[e] < 1.0 || !state.network.has_limit(e)) continue;
-      const double limit = state.network.critical_stretch[e] * state.network.law(e).tooth(0).limit;
+      const double limit =
+          state.network.critical_stretch[e] * state.network.law(e).segment(0).limit;
       double ratio = stretch(state.network, state.displacement, e);
       if (state.network.law(e).sense() == Sense::both) ratio = std::abs(ratio);
       look.worst = std::max(look.worst, ratio / limit);
@@ -109,7 +110,7 @@ class StagedPath : public testing::TestWithParam<BlockCase> {
       EXPECT_LT(look.error, 1e-8) << "row " << row.step;
       EXPECT_LT(look.wrong_side, 1e-10) << "row " << row.step;
       // On the way to a load factor that every element bears bonds may close beyond a limit.
-      if (row.avalanche == 0 && row.side_change == 0) {
+      if (row.at_constant_load == 0 && row.side_change == 0) {
         EXPECT_LT(look.worst, 1.0 + 1e-8) << "row " << row.step;
       }
     }
@@ -172,14 +173,14 @@ TEST_P(StagedPath, TurnsRoundAndComesBackToTheSameEvent) {
 TEST_P(StagedPath, AnAvalancheUnderConstantLoadsBalances) {
   go(in_stages({{0, 0.5 * first_event(0), {}}, {1, 3.0 * first_event(1), {}}}), 150);
   expect_balance();
-  int avalanches = 0;
+  int events_at_constant_load = 0;
   for (std::size_t k = 1; k < looks_.size(); ++k) {
-    if (looks_[k].row.avalanche == 0) continue;
-    ++avalanches;
+    if (looks_[k].row.at_constant_load == 0) continue;
+    ++events_at_constant_load;
     EXPECT_EQ(looks_[k].row.load_factor, looks_[k - 1].row.load_factor);
     EXPECT_GE(looks_[k].row.dissipated_energy, looks_[k - 1].row.dissipated_energy);
   }
-  EXPECT_GT(avalanches, 3);
+  EXPECT_GT(events_at_constant_load, 3);
 }
 
 TEST_P(StagedPath, TwoStagesOfOneLoadAreOne) {
@@ -194,7 +195,7 @@ TEST_P(StagedPath, TwoStagesOfOneLoadAreOne) {
   ASSERT_EQ(recorder.rows.size(), expected.rows.size() + 1);
   for (std::size_t k = 0; k < expected.rows.size(); ++k) {
     const StepRecord &row = recorder.rows[k + 1], &other = expected.rows[k];
-    if (row.avalanche != 0 || row.load_factor + half < 0.5 * half) break;
+    if (row.at_constant_load != 0 || row.load_factor + half < 0.5 * half) break;
     ASSERT_EQ(row.element, other.element) << "row " << k;
     ASSERT_NEAR(row.load_factor + half, other.load_factor, 1e-8 * other.load_factor);
     EXPECT_NEAR(row.dissipated_energy, other.dissipated_energy, 1e-8 * other.external_work + 1e-20);

@@ -17,7 +17,8 @@ using test::random_numbers;
 
 class StateParticles : public testing::TestWithParam<int> {
  protected:
-  StateParticles() : network_(test::particle_cloud(GetParam(), GetParam() == 2 ? 8 : 4).network) {
+  StateParticles()
+      : network_(test::unstructured_particles(GetParam(), GetParam() == 2 ? 8 : 4).network) {
     secants_ = random_numbers(static_cast<std::size_t>(network_.num_elements()), 7, 0.0, 1.0);
     for (std::size_t e = 0; e < secants_.size(); e += 6) secants_[e] = 0.0;
   }

@@ -32,7 +32,7 @@ void expect_same_without_limits(const Body& body, NetworkInput input) {
   EXPECT_EQ(elastic.inflection, breakable.inflection);
   EXPECT_EQ(elastic.hinged, breakable.hinged);
   EXPECT_EQ(elastic.facets.shares, breakable.facets.shares);
-  EXPECT_EQ(elastic.first_segment, breakable.first_segment);
+  EXPECT_EQ(elastic.first_bar_element, breakable.first_bar_element);
 }
 
 TEST(WithoutLimits, JointsAreTheSame) {
@@ -50,11 +50,11 @@ TEST(WithoutLimits, JointsAreTheSame) {
 }
 
 TEST(WithoutLimits, BarsThatYieldAreTheSame) {
-  for (const bool anchored : {false, true}) {
+  for (const bool embedded : {false, true}) {
     const LatticeInput lattice = body_input(rectangular, 8);
     NetworkInput input = network_input(lattice);
     RebarLine bar{{0.1, 0.43, 0.0}, {0.9, 0.57, 0.0}};
-    bar.anchored = anchored;
+    bar.embedded = embedded;
     input.bars = {bar};
     BarMaterial material{200.0, 0.01, 0.5};
     material.bond.perimeter = 0.4;
@@ -75,9 +75,9 @@ TEST(WithoutLimits, LargeBoxesAreTheSame) {
 TEST(WithoutLimits, GluedCellsAreTheSame) {
   const Mesh mesh = box_mesh(2, 6);
   const std::vector<Index> material(static_cast<std::size_t>(mesh.num_cells()), 0);
-  std::vector<std::uint8_t> glued(material.size(), 0);
-  for (std::size_t cell = 0; cell < glued.size() / 2; ++cell) glued[cell] = 1;
-  Body body = make_mesh_body(mesh, material, 1.0, glued);
+  std::vector<std::uint8_t> tied(material.size(), 0);
+  for (std::size_t cell = 0; cell < tied.size() / 2; ++cell) tied[cell] = 1;
+  Body body = make_mesh_body(mesh, material, 1.0, tied);
   body.lattice.surface = Surface::calibrated;
   NetworkInput input;
   input.critical_stretch = Constants::continuum;

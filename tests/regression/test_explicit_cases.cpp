@@ -66,7 +66,7 @@ TEST(ExplicitTension, RepeatsTheRecordedRun) {
 
 TEST(ExplicitTension, BalancesItsEnergyAndNeverHeals) {
   const TensionRun& run = tension_run();
-  EXPECT_EQ(run.result.ending, Ending::completed);
+  EXPECT_EQ(run.result.termination, Termination::completed);
   // The study's acceptance: what appears or vanishes is below 1e-4 of the work.
   EXPECT_LT(run.result.largest_surplus, 1e-4);
   for (std::size_t k = 1; k < run.recorder.rows.size(); ++k) {

@@ -72,7 +72,7 @@ TEST_P(PaperCases, RepeatTheRecordedRun) {
   expect_near("peak_displacement", run.result.peak_displacement);
   expect_near("initial_stiffness", run.result.initial_stiffness);
   expect_near("dissipated_energy", run.result.last.dissipated_energy);
-  EXPECT_EQ(to_string(run.result.ending), reference["status"]);
+  EXPECT_EQ(to_string(run.result.termination), reference["status"]);
   EXPECT_EQ(run.result.broken_bonds, reference["broken_bonds"]);
 
   const auto first = reference["first_broken"].get<std::vector<Index>>();
@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(Cases, PaperCases,
 
 TEST(PaperTension, EndsInOneCrackAcrossTheMiddle) {
   const PaperRun& run = run_of("block_tension");
-  EXPECT_EQ(run.result.ending, Ending::collapsed);
+  EXPECT_EQ(run.result.termination, Termination::collapsed);
   const std::vector<Index> failed = run.failed();
   ASSERT_GT(failed.size(), 50u);
   std::vector<double> x;

@@ -21,15 +21,15 @@ AnalysisBody free_body(Network network) {
   return body;
 }
 
-void number(AnalysisBody& body, const IsHeld& is_held, bool carried) {
+void number(AnalysisBody& body, const IsHeld& is_held, bool embedded) {
   std::vector<std::uint8_t> held;
   for (Index i = 0; i < body.network.particles.size(); ++i) {
     for (int a = 0; a < body.network.width(); ++a) held.push_back(is_held(i, a));
   }
   hold_idle_rotations(body.network, held);
-  hold_anchors(body.network, held);
+  hold_embedded_points(body.network, held);
   body.unknowns = number_unknowns(body.network.width(), held, body.unknowns.prescribed);
-  if (carried) carry_anchors(body.network, body.unknowns);
+  if (embedded) carry_embedded_points(body.network, body.unknowns);
 }
 
 AnalysisBody make_chains(int columns, int rows, bool driven, double stiffness, double limit,
@@ -43,8 +43,8 @@ AnalysisBody make_chains(int columns, int rows, bool driven, double stiffness, d
   constants.bars = bars;
   constants.bar_materials.assign(bars.size(), bar);
   AnalysisBody body = free_body(build_network(make_body(input), constants));
-  std::fill_n(body.network.stiffness.begin(), body.network.first_tie, stiffness);
-  std::fill_n(body.network.critical_stretch.begin(), body.network.first_tie, limit);
+  std::fill_n(body.network.stiffness.begin(), body.network.first_slip_spring, stiffness);
+  std::fill_n(body.network.critical_stretch.begin(), body.network.first_slip_spring, limit);
   const auto at_end = [&](Index i, double x) {
     return std::abs(body.network.particles.position(i)[0] - x) < 1e-9;
   };
@@ -118,7 +118,7 @@ AnalysisBody make_block(const BlockCase& block) {
         {{0.01, 0.4 * end[1], 0.45 * end[2]}, {end[0] - 0.01, 0.4 * end[1], 0.45 * end[2]}}};
     constants.bar_materials = {{200.0, 0.005, 7.0, false}};
     if (block.slipping) {
-      constants.bars[0].anchored = true;
+      constants.bars[0].embedded = true;
       constants.bar_materials[0].bond.perimeter = 0.4;
       constants.bar_materials[0].bond.curve = ForceCurve{{{1e-4, 0.3}, {1e-3, 0.4}}};
     }
@@ -130,7 +130,7 @@ AnalysisBody make_block(const BlockCase& block) {
     const double factor = scatter(random);
     if (!body.network.is_segment(e)) body.network.critical_stretch[e] *= factor;
   }
-  if (block.toothed) body.network.laws.front() = three_teeth();
+  if (block.toothed) body.network.laws.front() = three_segments();
   if (block.closing) body.network.laws.front() = body.network.laws.front().closing();
 
   const Particles& particles = body.network.particles;

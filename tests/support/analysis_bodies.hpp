@@ -43,7 +43,7 @@ AnalysisBody free_body(Network network);
 using IsHeld = std::function<bool(Index particle, int axis)>;
 
 /// \param carried  whether anchors follow particles; those of explicit runs stand still
-void number(AnalysisBody& body, const IsHeld& is_held, bool carried = true);
+void number(AnalysisBody& body, const IsHeld& is_held, bool embedded = true);
 
 inline std::size_t slot(const AnalysisBody& body, Index particle, int axis) {
   return static_cast<std::size_t>(particle) * body.network.width() + axis;
@@ -88,7 +88,7 @@ inline std::ostream& operator<<(std::ostream& out, const BlockCase& block) {
 }
 
 /// A law between brittle bonds and bars that yield.
-inline BondLaw three_teeth() { return BondLaw::saw_tooth({{1.0, 1.0}, {0.6, 1.4}, {0.2, 3.0}}); }
+inline BondLaw three_segments() { return BondLaw::saw_tooth({{1.0, 1.0}, {0.6, 1.4}, {0.2, 3.0}}); }
 
 /// Block held at the left face and pulled at (or moved by 1 with) the right one. Nothing breaks at
 /// the particles of these faces, so that the block fails between them.

@@ -12,7 +12,7 @@
 namespace perilink::test {
 
 /// The unit square of `count` steps across in upright strips, one for each material.
-inline Body make_cloud(int num_materials, int count) {
+inline Body make_unstructured(int num_materials, int count) {
   const Mesh mesh = box_mesh(2, count);
   std::vector<Index> material;
   for (Index c = 0; c < mesh.num_cells(); ++c) {
@@ -26,7 +26,7 @@ inline Body make_cloud(int num_materials, int count) {
 }
 
 /// One micropolar material, horizon of three steps.
-inline NetworkInput micropolar_cloud_input(int count) {
+inline NetworkInput unstructured_micropolar_input(int count) {
   NetworkInput input;
   input.model = BondModel::micropolar;
   input.horizon = 3.0 / count;

@@ -56,7 +56,7 @@ inline ExplicitModel plane_model(const LatticeCut& cut, const LatticeMaterial& m
 
 /// Ends of a specimen: those within `depth` of the lowest particle are held in y, those within it
 /// of the highest are driven.
-inline void grip_ends(ExplicitModel& model, double depth, double amplitude) {
+inline void clamped_ends(ExplicitModel& model, double depth, double amplitude) {
   const LatticeRows& lattice = model.lattice;
   double low = 1e300, high = -1e300;
   for (const Index slot : lattice.particle_slot) {
@@ -95,7 +95,7 @@ inline ExplicitModel perforated(Problem problem, LatticeRules rules,
   LatticeRows lattice = space ? face_centred_rows(cut) : hexagonal_rows(cut);
   ExplicitModel model =
       make_explicit_model(problem, rules, std::move(lattice), material, cut.thickness);
-  grip_ends(model, 0.01, 1e-6);
+  clamped_ends(model, 0.01, 1e-6);
   return model;
 }
 

@@ -57,11 +57,11 @@ inline ExplicitModel state_block(const StateLatticeCase& lattice, double half) {
 
 /// Per particle: the number of steps along bonds to one that lacks bonds, up to three.
 inline std::vector<int> depths(const Network& network) {
-  const Csr families = bonds_of_particles(network.bonds, network.particles.size());
+  const Csr neighbourhoods = bonds_of_particles(network.bonds, network.particles.size());
   const std::size_t full = network.dim() == 2 ? 6 : 18;
   std::vector<int> depth;
-  for (Index i = 0; i < families.rows(); ++i) {
-    depth.push_back(families.row(i).size() == full ? 3 : 0);
+  for (Index i = 0; i < neighbourhoods.rows(); ++i) {
+    depth.push_back(neighbourhoods.row(i).size() == full ? 3 : 0);
   }
   for (int pass = 0; pass < 2; ++pass) {
     for (Index e = 0; e < network.num_elements(); ++e) {

@@ -33,7 +33,7 @@ inline Network single_frame(int dim, const std::vector<double>& second, double s
   network.stiffness = {stiffness};
   network.bending = {bending};
   network.critical_stretch = {1e-3};
-  network.first_tie = network.first_segment = 1;
+  network.first_slip_spring = network.first_bar_element = 1;
   return network;
 }
 

@@ -15,15 +15,15 @@ namespace perilink::test {
 inline constexpr IsotropicMaterial soft_solid{30.0, 0.2};
 
 /// The unit square or cube, `count` steps across, its inner vertices shifted.
-inline Body cloud_body(int dim, int count) {
+inline Body unstructured_body(int dim, int count) {
   const Mesh mesh = box_mesh(dim, count);
   return make_mesh_body(mesh, std::vector<Index>(static_cast<std::size_t>(mesh.num_cells()), 0),
                         1.0);
 }
 
-inline ParticleNetwork particle_cloud(int dim, int count,
-                                      const IsotropicMaterial& material = soft_solid) {
-  return make_particle_network(cloud_body(dim, count),
+inline ParticleNetwork unstructured_particles(int dim, int count,
+                                              const IsotropicMaterial& material = soft_solid) {
+  return make_particle_network(unstructured_body(dim, count),
                                dim == 2 ? Problem::plane_stress : Problem::three_dimensional,
                                std::vector{material}, 1.0);
 }

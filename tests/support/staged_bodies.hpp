@@ -10,7 +10,7 @@
 namespace perilink::test {
 
 /// The loads of a body as a set.
-inline LoadSet set_of(const AnalysisBody& body) {
+inline LoadCase set_of(const AnalysisBody& body) {
   return {body.loads, body.unknowns, body.reference};
 }
 

@@ -104,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(Surfaces, CrackOfABeam,
 TEST(Cracks, CalibratedBlockBeginsToBreakAtItsStrength) {
   const CrackRun run = run_specimen(make_specimen(Shape::block, 5.0, Surface::calibrated), 1);
   EXPECT_NEAR(run.first_load / *run.reference_load, 1.0, 0.005);
-  EXPECT_EQ(run.result.ending, Ending::collapsed);
+  EXPECT_EQ(run.result.termination, Termination::collapsed);
   EXPECT_NEAR(run.path.extent, 100.0, 1e-9);
   EXPECT_EQ(run.stray.elsewhere, 0);
 }

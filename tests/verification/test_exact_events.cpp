@@ -21,7 +21,7 @@ TEST_P(ExactEvents, BreakTheBondsThatAFreshFactorBreaks) {
   const Agreement a =
       compare_routes(make_block(columns, GetParam()), FactorRoute::refactorize, 1000, 1000);
 
-  EXPECT_EQ(a.ending, "collapsed");
+  EXPECT_EQ(a.termination, "collapsed");
   EXPECT_GT(a.compared, 500);
   EXPECT_EQ(a.mismatches, 0);
   EXPECT_LT(a.load_factor_difference, 1e-9);
@@ -56,7 +56,7 @@ TEST_P(ExactSoftening, TakesTheBondsThatAFreshFactorTakes) {
   const Index all = model.network.num_elements();
   const Agreement a = compare_routes(model, FactorRoute::refactorize, all, all);
 
-  EXPECT_EQ(a.ending, "collapsed");
+  EXPECT_EQ(a.termination, "collapsed");
   EXPECT_GT(a.compared, 500);
   EXPECT_EQ(a.mismatches, 0);
   EXPECT_LT(a.load_factor_difference, 1e-9);

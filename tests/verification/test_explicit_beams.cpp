@@ -15,11 +15,11 @@ TEST(ExplicitBeams, ComeToRestWhereTheImplicitModeIs) {
     const Specimen specimen = make_specimen(Structure::cantilever, short_beam, joined);
     const Solution implicit = solve(specimen);
     const Solution small = relax(specimen, Strain::small, 1e-7, 1);
-    ASSERT_EQ(small.ending, Ending::completed);
+    ASSERT_EQ(small.termination, Termination::completed);
     EXPECT_LT(largest_difference(small, implicit), 4e-7) << joined;
     // The beam turns by less than a thousandth.
     const Solution green = relax(specimen, Strain::green, 1e-7, 1);
-    ASSERT_EQ(green.ending, Ending::completed);
+    ASSERT_EQ(green.termination, Termination::completed);
     EXPECT_NEAR(green.deflection / implicit.deflection, 1.0, 1e-3) << joined;
   }
 }

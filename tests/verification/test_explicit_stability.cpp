@@ -14,7 +14,7 @@ class ExplicitStability : public testing::TestWithParam<MovingBody> {};
 TEST_P(ExplicitStability, StepsUpToTheCriticalOneAreStable) {
   for (const double factor : {0.9, 0.99}) {
     const ExplicitResult result = run_at(GetParam(), factor, true);
-    EXPECT_EQ(result.ending, Ending::completed) << result.reason;
+    EXPECT_EQ(result.termination, Termination::completed) << result.reason;
     EXPECT_TRUE(is_finite(result.last));
     EXPECT_EQ(result.last.broken_bonds + result.last.cracked_particles > 0, GetParam().cracks);
   }
@@ -27,7 +27,7 @@ TEST_P(ExplicitStability, LargerOnesAreRefused) {
 /// The bound is at most a half too low, so twice the step is unstable whatever the body.
 TEST_P(ExplicitStability, MotionThatGrowsIsNoticed) {
   const ExplicitResult result = run_at(GetParam(), 2.0, false);
-  EXPECT_EQ(result.ending, Ending::failed);
+  EXPECT_EQ(result.termination, Termination::failed);
   EXPECT_NE(result.reason.find("too large"), std::string::npos) << result.reason;
   EXPECT_TRUE(is_finite(result.last)) << "what has overflowed is not a row";
 }

@@ -9,12 +9,12 @@
 namespace perilink::verification {
 namespace {
 
-Cloud plane(double scatter, double columns) {
+UnstructuredParticles plane(double scatter, double columns) {
   return {0.15, 0.3, 0.15, Problem::plane_stress, 0.15 / columns, scatter};
 }
 
 TEST(IrregularParticles, RegularOnesStretchAsTheSolidButForTheirFaces) {
-  const Cloud coarse = plane(0.0, 15.0), fine = plane(0.0, 60.0);
+  const UnstructuredParticles coarse = plane(0.0, 15.0), fine = plane(0.0, 60.0);
   const Stretching a = stretch(coarse, build(coarse)), b = stretch(fine, build(fine));
   // The faces' share falls with the spacing, to some third here.
   EXPECT_LT(std::abs(1.0 - a.modulus), 0.05);
@@ -22,7 +22,7 @@ TEST(IrregularParticles, RegularOnesStretchAsTheSolidButForTheirFaces) {
 }
 
 TEST(IrregularParticles, ScatteredOnesAreTooSoftHoweverSmall) {
-  const Cloud coarse = plane(0.3, 15.0), fine = plane(0.3, 30.0);
+  const UnstructuredParticles coarse = plane(0.3, 15.0), fine = plane(0.3, 30.0);
   const ParticleNetwork a = build(coarse), b = build(fine);
   const double softer = 1.0 - stretch(coarse, a).modulus, still = 1.0 - stretch(fine, b).modulus;
   EXPECT_GT(softer, 0.05);
@@ -32,11 +32,12 @@ TEST(IrregularParticles, ScatteredOnesAreTooSoftHoweverSmall) {
 }
 
 TEST(IrregularParticles, TearNearTheirStrength) {
-  const Cloud cloud = plane(0.2, 15.0);
-  const ExplicitResult result = tear(cloud, build(cloud));
-  EXPECT_EQ(result.ending, Ending::completed);
+  const UnstructuredParticles particle_set = plane(0.2, 15.0);
+  const ExplicitResult result = tear(particle_set, build(particle_set));
+  EXPECT_EQ(result.termination, Termination::completed);
   EXPECT_GT(result.last.cracked_particles, 0);
-  const double peak = std::abs(result.peak_load) / (strength * cloud.width * cloud.thickness);
+  const double peak =
+      std::abs(result.peak_load) / (strength * particle_set.width * particle_set.thickness);
   EXPECT_GT(peak, 0.75);
   EXPECT_LT(peak, 1.05);
   EXPECT_LT(result.largest_surplus, 1e-3);

@@ -43,7 +43,7 @@ AnalysisBody make_strip(Strip strip) {
   constants.horizon = input.horizon;
   constants.thickness = strip.thickness;
   constants.materials = {SolidMaterial{concrete}};
-  strip.bar.anchored = true;
+  strip.bar.embedded = true;
   strip.material.bond.perimeter = perimeter;
   constants.bars = {strip.bar};
   constants.bar_materials = {strip.material};
@@ -88,7 +88,7 @@ TEST(ReinforcedBars, ACompositeStripIsAsStiffAsItsParts) {
     strip.bar = {{0.0, y, 0.0}, {400.0, y, 0.0}};
     AnalysisBody body = make_strip(strip);
     const auto at = [&](Index i, double x) { return std::abs(x_of(body, i) - x) < 1e-6; };
-    for (Index i = 0; i < body.network.first_anchor(); ++i) {
+    for (Index i = 0; i < body.network.first_embedded_point(); ++i) {
       if (at(i, 400.0)) body.unknowns.prescribed[slot(body, i, 0)] = 1.0;
     }
     number(body, [&](Index i, int axis) {
@@ -132,7 +132,7 @@ double extension_of_inclined(double angle, double shift_x, double shift_y, doubl
   strip.material.bond.elastic = true;
   AnalysisBody body = make_strip(strip);
   number(body, [](Index i, int axis) { return i == 0 || (i == 1 && axis == 1); });
-  const Index first = body.network.bonds.first[body.network.first_segment];
+  const Index first = body.network.bonds.first[body.network.first_bar_element];
   const Index last = body.network.bonds.second[body.network.num_elements() - 1];
   for (const auto& [node, sign] : {std::pair(first, -1.0), std::pair(last, 1.0)}) {
     body.loads.forces[slot(body, node, 0)] = sign * std::cos(angle);
@@ -223,16 +223,17 @@ TEST(ReinforcedBars, APrestrainCompressesTheStrip) {
   AnalysisBody body = make_strip(strip);
   const double prestrain = 1e-3;
   double force = 0.0;
-  for (Index e = body.network.first_segment; e < body.network.num_elements(); ++e) {
-    const Index anchor = body.network.bonds.second[e];
-    ASSERT_TRUE(body.network.is_anchor(anchor));
-    body.unknowns.prescribed[slot(body, anchor, 0)] = prestrain * body.network.bonds.lengths[e];
+  for (Index e = body.network.first_bar_element; e < body.network.num_elements(); ++e) {
+    const Index embedded_point = body.network.bonds.second[e];
+    ASSERT_TRUE(body.network.is_embedded_point(embedded_point));
+    body.unknowns.prescribed[slot(body, embedded_point, 0)] =
+        prestrain * body.network.bonds.lengths[e];
   }
   const auto at_left = [&](Index i) { return x_of(body, i) < 1e-6; };
   number(body, [&](Index i, int axis) { return at_left(i) && (axis == 0 || i == 0); });
   body.reference = {true, prestrain * 400.0};
   const ElasticResult result = run_elastic_analysis(body);
-  const Index middle = body.network.first_segment + 20;
+  const Index middle = body.network.first_bar_element + 20;
   double extension = 0.0;
   for (int a = 0; a < 2; ++a) {
     extension += body.network.bonds.direction(middle)[a] *
@@ -259,7 +260,7 @@ TEST(ReinforcedBars, ABarThatHasYieldedUnloadsElastically) {
     strip.material.shifts = true;
     AnalysisBody body = make_strip(strip);
     const auto at = [&](Index i, double x) { return std::abs(x_of(body, i) - x) < 1e-6; };
-    for (Index i = 0; i < body.network.first_anchor(); ++i) {
+    for (Index i = 0; i < body.network.first_embedded_point(); ++i) {
       if (at(i, 400.0)) body.unknowns.prescribed[slot(body, i, 0)] = 1.0;
     }
     number(body, [&](Index i, int axis) {

@@ -50,17 +50,17 @@ TEST(SizeEffect, HalfOfTheModulusIsLeftAtTheSurface) {
   }
 }
 
-struct FamilyCase {
+struct NeighbourhoodCase {
   const char* name;
-  FamilyInput input;
+  NeighbourhoodInput input;
 };
 
-class Families : public testing::TestWithParam<FamilyCase> {};
+class Neighbourhoods : public testing::TestWithParam<NeighbourhoodCase> {};
 
-TEST_P(Families, BondsGiveTheModuliOfTheClosedForm) {
-  const std::vector<FamilyRow> rows = compare_families(GetParam().input);
+TEST_P(Neighbourhoods, BondsGiveTheModuliOfTheClosedForm) {
+  const std::vector<NeighbourhoodRow> rows = compare_neighbourhoods(GetParam().input);
   ASSERT_EQ(rows.size(), 15u);
-  for (const FamilyRow& row : rows) {
+  for (const NeighbourhoodRow& row : rows) {
     for (const double difference : differences(row)) {
       EXPECT_NEAR(difference, 0.0, acceptance)
           << "nu " << row.poissons_ratio << ", depth " << row.depth;
@@ -69,19 +69,19 @@ TEST_P(Families, BondsGiveTheModuliOfTheClosedForm) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Lattices, Families,
+    Lattices, Neighbourhoods,
     testing::Values(
-        FamilyCase{"space",
-                   {Problem::three_dimensional, 40, {0, 10, 20, 30, 40}, {0.0, 0.2, 0.25}}},
-        FamilyCase{"plane",
-                   {Problem::plane_stress, 240, {0, 60, 120, 180, 240}, {0.0, 0.22, 0.3}}}),
+        NeighbourhoodCase{"space",
+                          {Problem::three_dimensional, 40, {0, 10, 20, 30, 40}, {0.0, 0.2, 0.25}}},
+        NeighbourhoodCase{"plane",
+                          {Problem::plane_stress, 240, {0, 60, 120, 180, 240}, {0.0, 0.22, 0.3}}}),
     [](const auto& test) { return std::string(test.param.name); });
 
 /// Families are looked at one by one; here they are those of a whole body of build_network().
 TEST(SizeEffect, FamiliesAreThoseOfABody) {
   for (const Problem problem : {Problem::plane_stress, Problem::three_dimensional}) {
     constexpr int ratio = 3;
-    const auto families = family_stiffness({problem, ratio, {0, 1, 2, 3}, {0.1}});
+    const auto neighbourhoods = neighbourhood_stiffness({problem, ratio, {0, 1, 2, 3}, {0.1}});
     const Network network =
         build_network(half_space_body(problem, ratio), half_space_constants(problem, 0.1));
     const Csr bonds = bonds_of_particles(network.bonds, network.particles.size());
@@ -95,7 +95,7 @@ TEST(SizeEffect, FamiliesAreThoseOfABody) {
       const double aside = x.size() == 3 ? std::hypot(x[1], x[2]) : std::abs(x[1]);
       const auto row = static_cast<std::size_t>(std::lround(x[0] * ratio));
       if (aside > 1e-9 || row > 3) continue;
-      const LayerStiffness& c = families[row][0];
+      const LayerStiffness& c = neighbourhoods[row][0];
       const double expected = 0.5 * c.c11 + c.c12 * lateral + 0.5 * c.c22 * lateral * lateral;
       EXPECT_NEAR(density[i], expected, 1e-12 * expected) << "row " << row;
       ++compared;
@@ -112,7 +112,7 @@ TEST(SizeEffect, PlatesLoseWhatTheirSurfacesTakeAway) {
   // Half a horizon, where both surfaces cut every family, and more.
   for (const int rows : {ratio / 2, ratio, 2 * ratio, 5 * ratio}) {
     const auto width = static_cast<double>(rows) / ratio;
-    const auto bonds = layer_moduli(problem, plate_of_families(problem, ratio, rows, 0.2));
+    const auto bonds = layer_moduli(problem, plate_of_neighbourhoods(problem, ratio, rows, 0.2));
     const auto exact = layer_moduli(problem, plate_stiffness(problem, moduli, 1.0, width));
     // E2 of single families is off by 1.7e-3 at this ratio (the study's result.csv).
     EXPECT_NEAR(bonds.e2, exact.e2, 2e-3) << "width " << width;
@@ -125,8 +125,9 @@ TEST(SizeEffect, NarrowBarsAreSofter) {
   double narrower = 0.0;
   for (const int width : {1, 2, 3}) {
     const BarRow row = compare_bar(width, 3, 0.2, false);
-    EXPECT_LT(row.uncorrected, row.families * (1.0 + 1e-12)) << "width " << width;
-    EXPECT_GT(row.uncorrected, row.families * (1.0 - largest_relaxation)) << "width " << width;
+    EXPECT_LT(row.uncorrected, row.neighbourhoods * (1.0 + 1e-12)) << "width " << width;
+    EXPECT_GT(row.uncorrected, row.neighbourhoods * (1.0 - largest_relaxation))
+        << "width " << width;
     EXPECT_GT(row.uncorrected, narrower);
     narrower = row.uncorrected;
   }

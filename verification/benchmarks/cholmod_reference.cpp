@@ -30,7 +30,7 @@ CholmodReference time_cholmod(const Model& model, std::span<const Index> element
   CholmodReference result;
   Timer timer;
   cholmod_change_factor(CHOLMOD_REAL, false, false, false, true, factor.get(), session.get());
-  result.conversion = timer.seconds();
+  result.host_release = timer.seconds();
   const std::vector<Index> position = invert({static_cast<const Index*>(factor->Perm), factor->n});
 
   std::vector<double> downdate, solve;

@@ -72,7 +72,7 @@ std::string row_of(const LatticeTest& test, const LatticeTestRun& run) {
       test.variant, test.degrees, *case_of(test).body.spacing, run.particles, result.time_step,
       result.critical_time_step, result.steps, run.peak_force, run.peak_displacement,
       run.cracked.size(), energy_text(energy.fractured), energy_text(energy.external_work),
-      result.largest_surplus, result.ending == Ending::failed ? "unstable" : "whole");
+      result.largest_surplus, result.termination == Termination::failed ? "unstable" : "whole");
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ class RunObserver {
 
 /// How an explicit run ended.
 struct ExplicitResult {
-  Ending ending = Ending::completed;
+  Termination termination = Termination::completed;
   std::string reason;
   Index steps = 0;
   double time_step = 0.0;           ///< [time]

@@ -9,7 +9,7 @@
 #include <random>
 #include <utility>
 
-#include "analysis/dynamics/box_preconditioner.hpp"
+#include "analysis/dynamics/subdomain_preconditioner.hpp"
 #include "assembly/internal_force.hpp"
 #include "base/error.hpp"
 
@@ -67,7 +67,7 @@ class Vibration {
   }
   VectorXd force_of(const VectorXd& u) {
     const auto size = static_cast<std::size_t>(u.size());
-    if (network_.anchors.size() == 0) {
+    if (network_.embedded_points.size() == 0) {
       internal_force(network_, {}, {u.data(), size}, inner_);
     } else {
       VectorXd all = u;
@@ -84,7 +84,7 @@ class Vibration {
   const Network& network_;
   const Unknowns& unknowns_;
   VectorXd mass_;
-  BoxPreconditioner inverse_;
+  SubdomainPreconditioner inverse_;
   double fastest_;  ///< about the square of the fastest frequency [1/time^2]
   std::vector<VectorXd> free_;
   InternalForce inner_;
@@ -177,7 +177,7 @@ double Vibration::settle() {
 
 double fundamental_period(const Network& network, const Unknowns& unknowns, const Inertia& inertia,
                           std::span<const std::vector<double>> free) {
-  expect_nothing_carried(unknowns);
+  expect_nothing_embedded(unknowns);
   if (unknowns.count <= static_cast<Index>(free.size())) {
     return std::numeric_limits<double>::infinity();
   }

@@ -45,11 +45,11 @@ Blocks<Dim> own_trusses(const Network& network, Strain strain) {
     Eigen::Matrix<double, Dim, Dim> part = stiffness[e] * n * n.transpose();
     if (strain == Strain::green && network.can_break(e)) {
       double along = 0.0, across = 0.0;  // largest of all teeth
-      for (int k = 0; network.law(e).tooth(k).secant > 0.0; ++k) {
-        const Tooth tooth = network.law(e).tooth(k);
-        const double g = network.critical_stretch[e] * tooth.limit;
-        along = std::max(along, tooth.secant * (1.0 + 2.0 * g));
-        across = std::max(across, tooth.secant * g);
+      for (int k = 0; network.law(e).segment(k).secant > 0.0; ++k) {
+        const Segment segment = network.law(e).segment(k);
+        const double g = network.critical_stretch[e] * segment.limit;
+        along = std::max(along, segment.secant * (1.0 + 2.0 * g));
+        across = std::max(across, segment.secant * g);
       }
       part *= along;
       part.diagonal().array() += across * network.stiffness[e];

@@ -31,7 +31,7 @@ ExplicitLoop::ExplicitLoop(const ExplicitOptions& options, double critical_time_
   between_rows_ = std::max<Index>(1, steps_ / std::max(1, options.rows));
   result_.time_step = step;
   result_.critical_time_step = critical_time_step;
-  result_.ending = Ending::completed;
+  result_.termination = Termination::completed;
   result_.reason = "the whole duration";
 }
 
@@ -39,8 +39,8 @@ double ExplicitLoop::load_factor(Index step) const {
   return ramped_load_factor(step * time_step(), ramp_);
 }
 
-void ExplicitLoop::end(Ending ending, const std::string& reason) {
-  result_.ending = ending;
+void ExplicitLoop::end(Termination termination, const std::string& reason) {
+  result_.termination = termination;
   result_.reason = reason;
   done_ = true;
 }
@@ -71,7 +71,7 @@ void ExplicitLoop::check_growth(Index step, const EnergyBalance& energy) {
   }
   result_.steps = step;
   overflowed_ = !std::isfinite(energy.kinetic + energy.stored + energy.external_work);
-  end(Ending::failed,
+  end(Termination::failed,
       fmt::format("the motion grew out of nothing at step {} (energy {:.3g}, supplied {:.3g}): the "
                   "time step {:.4g} {}",
                   step, std::max(std::abs(held), energy.kinetic), supplied_, time_step(), why()));

@@ -41,7 +41,7 @@ class ExplicitLoop {
       for (Index step = begin; step < end && !done_; ++step) one_step(step);
       if (tells_of_steps(begin)) choice.took(timer.seconds());
     }
-    if (!failure_.empty()) end(Ending::failed, failure_);
+    if (!failure_.empty()) end(Termination::failed, failure_);
     return result_;
   }
 
@@ -54,7 +54,7 @@ class ExplicitLoop {
             Complete complete) {
     check_growth(step, record.energy);
     guarded([&] {
-      if (!done_ && observer.stop_requested()) end(Ending::interrupted, "interrupted");
+      if (!done_ && observer.stop_requested()) end(Termination::interrupted, "interrupted");
     });
     if (!is_row(step) && !done_) return;
     if (overflowed_) return;
@@ -86,7 +86,7 @@ class ExplicitLoop {
     const Index next_row = (begin + between_rows_ - 1) / between_rows_ * between_rows_;
     return next_row >= begin + steps_of_a_round || between_rows_ < 4 * steps_of_a_round;
   }
-  void end(Ending ending, const std::string& reason);
+  void end(Termination termination, const std::string& reason);
   /// Why the motion may have grown.
   std::string why() const;
   void check_growth(Index step, const EnergyBalance& energy);

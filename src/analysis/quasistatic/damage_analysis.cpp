@@ -32,11 +32,12 @@ EventRun::EventRun(const LoadedNetwork& problem, const DamageOptions& options,
       state_(problem.network, *engine_),
       strains_(problem.network) {
   result_.unknowns = problem.unknowns.count;
-  if (problem.carried) {
-    conversion_.emplace(network_, *problem.carried);
-    state_.elements = &*conversion_;
-    engine_->set_alert(conversion_->carried_bonds(), conversion_->alert());
-    result_.elements = conversion_->num_whole();
+  if (problem.embedded) {
+    host_release_.emplace(network_, *problem.embedded);
+    state_.elements = &*host_release_;
+    engine_->set_release_threshold(host_release_->embedded_bonds(),
+                                   host_release_->release_threshold());
+    result_.elements = host_release_->num_whole();
   }
   const LoadWork work = begin_work();
   const double whole = work.forces + work.supports;
@@ -73,7 +74,7 @@ DamageResult EventRun::go() {
            : options_.load_factors.empty() ? by_events()
                                            : by_steps();
   } catch (const std::exception& error) {
-    end(Ending::failed, failure_text(error));
+    end(Termination::failed, failure_text(error));
     if (!result_.stages.empty()) end_stage();
   }
   result_.last = row_;
@@ -88,7 +89,7 @@ DamageResult EventRun::go() {
 void EventRun::take_note_of(const Balance& balance) {
   row_.residual = balance.residual;
   stored_by_elements_ = balance.stored_energy;
-  stored_beside_ = balance.stored_beside;
+  stored_by_permanent_ = balance.stored_by_permanent;
   result_.largest_residual = std::max(result_.largest_residual, balance.residual);
   if (!std::isnan(balance.stored_energy)) checked_compliance_ = compliance_;
 }
@@ -99,8 +100,7 @@ void EventRun::look_after(const EventOutcome& outcome) {
   if (outcome.pivot < 1e-3 || residual_may_be_large()) {
     check();
   } else if (events_ % check_interval() == 0) {
-    take_note_of(++looks_ % 10 == 0 ? engine_->check_equilibrium()
-                                    : engine_->glance_at_equilibrium());
+    take_note_of(++looks_ % 10 == 0 ? engine_->check_equilibrium() : engine_->check_cheaply());
   }
 }
 
@@ -135,8 +135,8 @@ bool EventRun::is_beyond_small_strains(double load_factor) {
 }
 
 /// The end came while a load was to stay.
-void EventRun::note_unborne(double load_factor) {
-  if (reference_->driven || result_.ending != Ending::collapsed) return;
+void EventRun::note_overload(double load_factor) {
+  if (reference_->driven || result_.termination != Termination::collapsed) return;
   result_.reason =
       fmt::format("the body does not bear the load factor {:.6g}: {}", load_factor, result_.reason);
 }
@@ -145,13 +145,13 @@ void EventRun::note_unborne(double load_factor) {
 bool EventRun::leaves_small_strains(const Event& event) {
   const double motion = reference_->driven ? event.load_factor : event.load_factor * compliance_;
   if (!strains_.is_due(motion) || !is_beyond_small_strains(event.load_factor)) return false;
-  if (event.avalanche && !reference_->driven) {
-    end(Ending::collapsed,
+  if (event.at_constant_load && !reference_->driven) {
+    end(Termination::collapsed,
         "bonds go on breaking under loads that stay until small strains no longer hold");
     return true;
   }
   result_.beyond_small_strains = true;
-  end(Ending::nothing_breaks,
+  end(Termination::nothing_breaks,
       fmt::format("before the next bond fails, at the load factor {:.4g}, others would be shorter "
                   "than small strains allow: what is crushed or only compressed bears any load, "
                   "and this analysis tells no more about it",
@@ -177,12 +177,12 @@ void EventRun::record(double load_factor, const LoadWork& work, const Event& eve
   row_.displacement = reference_->driven ? load_factor * reference_->value
                       : row_.load != 0.0 ? 2.0 * row_.strain_energy / row_.load
                                          : 0.0;
-  if (staged_ != nullptr) measure_beside(work);
+  if (staged_ != nullptr) measure_permanent(work);
   row_.dissipated_energy = energy_.dissipated();
   row_.external_work = energy_.external_work();
   row_.released_energy = energy_.released();
   row_.elements = result_.elements;
-  row_.freed_energy = energy_.freed();
+  row_.constraint_energy = energy_.freed();
   row_.factorizations = engine_->factorizations();
   row_.element = event.element;
   row_.others = event.others;
@@ -194,7 +194,7 @@ void EventRun::record(double load_factor, const LoadWork& work, const Event& eve
   const double stored =
       std::isnan(stored_by_elements_)
           ? row_.strain_energy
-          : load_factor * load_factor * stored_by_elements_ + stored_beside_.at(load_factor);
+          : load_factor * load_factor * stored_by_elements_ + stored_by_permanent_.at(load_factor);
   stored_by_elements_ = std::numeric_limits<double>::quiet_NaN();
   const double whole = staged_ != nullptr ? most_work_ : std::abs(row_.external_work);
   if (whole != 0.0) {
@@ -234,7 +234,7 @@ bool EventRun::pass(const Event& event) {
                          outcome.compliance_growth > next_to_infinite * compliance_;
   if (outcome.mechanism || separates) {
     result_.broken_bonds = outcome.broken;  // beyond those of the last row
-    end(Ending::collapsed,
+    end(Termination::collapsed,
         event.changes_side
             ? fmt::format("a mechanism: once the closed element {} has opened, a piece of the body "
                           "is free to move or to turn",
@@ -254,7 +254,7 @@ bool EventRun::pass(const Event& event) {
   look_after(outcome);
   if (outcome.exhausted != no_index) {
     // It no longer limits anything: the bars and the body form a mechanism.
-    end(Ending::collapsed,
+    end(Termination::collapsed,
         network_.is_segment(outcome.exhausted)
             ? fmt::format("a bar stretched to {:.0f} times its yield strain: a plastic mechanism",
                           BondLaw::most_stretched)
@@ -267,14 +267,15 @@ bool EventRun::pass(const Event& event) {
 bool EventRun::stop_rule_met() {
   const StopRules& stop = *stop_;
   if (observer_.stop_requested()) {
-    end(Ending::interrupted, "a signal asked the run to stop");
+    end(Termination::interrupted, "a signal asked the run to stop");
   } else if (stop.broken_bonds && broken_bonds_ >= *stop.broken_bonds) {
-    end(Ending::completed, fmt::format("{} bonds are broken", broken_bonds_));
+    end(Termination::completed, fmt::format("{} bonds are broken", broken_bonds_));
   } else if (stop.load_fraction &&
              rows_below_ >= (options_.load_factors.empty() ? stop.load_fraction_rows : 1)) {
-    end(Ending::completed, fmt::format("the load fell below {} of its peak", *stop.load_fraction));
+    end(Termination::completed,
+        fmt::format("the load fell below {} of its peak", *stop.load_fraction));
   } else if (stop.displacement && std::abs(row_.displacement) >= *stop.displacement) {
-    end(Ending::completed, fmt::format("the displacement reached {}", *stop.displacement));
+    end(Termination::completed, fmt::format("the displacement reached {}", *stop.displacement));
   } else {
     return false;
   }
@@ -283,7 +284,7 @@ bool EventRun::stop_rule_met() {
 
 /// The driven body lies in two: the last row shows that it no longer resists.
 void EventRun::record_separated(double load_factor, const LoadWork& work) {
-  end(Ending::collapsed, "the body no longer resists the displacements");
+  end(Termination::collapsed, "the body no longer resists the displacements");
   record(load_factor, work, {});
 }
 
@@ -299,7 +300,7 @@ DamageResult EventRun::by_events() {
     const Event event = engine_->next_event();
     if (converts(event)) continue;
     if (event.element == no_index) {
-      end(Ending::nothing_breaks, "no bond can break under this load");
+      end(Termination::nothing_breaks, "no bond can break under this load");
       break;
     }
     if (leaves_small_strains(event)) break;
@@ -336,14 +337,14 @@ DamageResult EventRun::by_steps() {
       const bool enough = stop_->broken_bonds && broken_bonds_ >= *stop_->broken_bonds;
       if (observer_.stop_requested() || enough) {
         if (enough) {
-          end(Ending::completed, fmt::format("{} bonds are broken", broken_bonds_));
+          end(Termination::completed, fmt::format("{} bonds are broken", broken_bonds_));
         } else {
-          end(Ending::interrupted, "a signal asked the run to stop");
+          end(Termination::interrupted, "a signal asked the run to stop");
         }
         return end_within_step(event);
       }
       if (!pass(event)) {
-        note_unborne(load_factor);
+        note_overload(load_factor);
         return end_within_step(event);
       }
       last = event.element;
@@ -361,7 +362,7 @@ DamageResult EventRun::by_steps() {
     if (stop_rule_met()) return finish();
     follow_motion();
   }
-  end(Ending::completed, "all load steps are done");
+  end(Termination::completed, "all load steps are done");
   return finish();
 }
 

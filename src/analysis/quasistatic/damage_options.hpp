@@ -37,7 +37,7 @@ struct StageRules {
 
 /// How a stage ended.
 struct StageResult {
-  Ending ending = Ending::completed;
+  Termination termination = Termination::completed;
   std::string reason;
   StepRecord last;     ///< row at its end
   CurvePoint peak;     ///< highest row of its loads so far, see DamageResult::peak_load
@@ -61,12 +61,12 @@ struct DamageOptions {
 
 /// A bond that finite elements let go of was past its limit before: the analysis has to begin again
 /// with these elements alone.
-struct LateConversion {
+struct MissedRelease {
   std::vector<std::uint8_t> whole;  ///< as CarriedBody::whole
 };
 
 struct DamageResult {
-  Ending ending = Ending::completed;
+  Termination termination = Termination::completed;
   std::string reason;               ///< in words
   std::vector<StageResult> stages;  ///< those that began, where the run has any
   StepRecord last;
@@ -82,7 +82,7 @@ struct DamageResult {
   Index conversions = 0;  ///< times that finite elements let go of particles
   /// Conversions after which a bond was farther beyond its limit than the alert allowed for: it may
   /// have failed before, unseen.
-  Index late_conversions = 0;
+  Index missed_releases = 0;
   Index elements = 0;  ///< that carry particles now
   Index unknowns = 0;  ///< now
   /// Largest |work - stored - dissipated - freed| / work of all rows, the stored energy summed over

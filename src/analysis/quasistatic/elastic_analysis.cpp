@@ -90,7 +90,7 @@ void refuse_lost_balance(const ElasticResult& result) {
       "work and energy are out of balance by {:.2g} of the work: the body, or what holds it, is so "
       "compliant that the equilibrium is lost in round-off{}",
       error / std::abs(result.work),
-      result.boxes > 0 ? "" : "; conjugate gradients (solver = \"iterative\") lose less"));
+      result.subdomains > 0 ? "" : "; conjugate gradients (solver = \"iterative\") lose less"));
 }
 
 /// \param network  null: there are no bonds
@@ -155,14 +155,14 @@ auto by_factor(const Unknowns& unknowns, const Particles* particles, int threads
 
 /// \param make  makes the solver, a shared_ptr
 template <class Make>
-auto by_boxes(Make make) {
+auto by_subdomains(Make make) {
   return [make](ElasticResult& result) {
     const Timer timer;
-    const std::shared_ptr<BoxSolver> solver = make();
+    const std::shared_ptr<SubdomainSolver> solver = make();
     result.seconds.factorization += timer.seconds();
     result.factor = solver->coarse();
     result.factor.factorizations = 0;  // none of the stiffness
-    result.boxes = solver->num_boxes();
+    result.subdomains = solver->num_subdomains();
     result.factor.ranks = solver->num_ranks();
     return [solver, &result](std::span<const double> right, std::span<double> solution) {
       solver->solve(right, solution);
@@ -174,22 +174,22 @@ auto by_boxes(Make make) {
 
 }  // namespace
 
-bool is_for_boxes(const LoadedNetwork& problem, LinearSolver solver, bool has_ranks) {
+bool is_for_subdomains(const LoadedNetwork& problem, LinearSolver solver, bool has_ranks) {
   if (solver != LinearSolver::automatic) return solver == LinearSolver::iterative;
   if (has_ranks && can_be_shared(problem.network, problem.unknowns)) return true;
-  const bool is_sheet = problem.network.dim() == 2 || problem.network.shell;
-  return !problem.unknowns.carries() && problem.unknowns.count > (is_sheet ? 20000 : 3000);
+  const bool is_mid_surface = problem.network.dim() == 2 || problem.network.shell;
+  return !problem.unknowns.carries() && problem.unknowns.count > (is_mid_surface ? 20000 : 3000);
 }
 
 namespace {
 
-ElasticResult solve_by_ranks(const LoadedNetwork& problem, const BoxSolverOptions& options) {
+ElasticResult solve_by_ranks(const LoadedNetwork& problem, const SubdomainSolverOptions& options) {
   const Timer timer;
-  const auto solver =
-      std::make_shared<BoxSolver>(*problem.pattern, problem.network, problem.unknowns, options);
+  const auto solver = std::make_shared<SubdomainSolver>(*problem.pattern, problem.network,
+                                                        problem.unknowns, options);
   const double seconds = timer.seconds();
   ElasticResult result = solve_elastic(
-      &problem.network, problem.unknowns, problem.loads, by_boxes([&] { return solver; }),
+      &problem.network, problem.unknowns, problem.loads, by_subdomains([&] { return solver; }),
       [&](std::span<const double> u) { return solver->team()->internal(u); });
   result.seconds.factorization += seconds;
   result.team = solver->team();
@@ -202,8 +202,8 @@ std::pair<std::vector<double>, std::vector<double>> find_closed_cracks(
     const LoadedNetwork& problem, const ElasticOptions& options) {
   EquilibriumOptions settling;
   settling.threads = options.threads;
-  settling.boxes = options.boxes;
-  if (is_for_boxes(problem, options.solver, options.boxes.ranks != nullptr)) {
+  settling.subdomains = options.subdomains;
+  if (is_for_subdomains(problem, options.solver, options.subdomains.ranks != nullptr)) {
     settling.solver = LinearSolver::iterative;
   }
   const Equilibrium settled(problem, settling);
@@ -216,7 +216,7 @@ std::pair<std::vector<double>, std::vector<double>> find_closed_cracks(
 }
 
 ElasticResult run_elastic_analysis(const LoadedNetwork& problem, const ElasticOptions& options) {
-  if (problem.pattern) return solve_by_ranks(problem, options.boxes);
+  if (problem.pattern) return solve_by_ranks(problem, options.subdomains);
   const Network& network = problem.network;
   const Unknowns& unknowns = problem.unknowns;
   std::pair<std::vector<double>, std::vector<double>> closed;
@@ -229,9 +229,10 @@ ElasticResult run_elastic_analysis(const LoadedNetwork& problem, const ElasticOp
     return solve_elastic(&network, unknowns, problem.loads, prepare, internal_of);
   };
   ElasticResult result =
-      is_for_boxes(problem, options.solver, options.boxes.ranks != nullptr)
-          ? solve(by_boxes([&] {
-              return std::make_shared<BoxSolver>(network, unknowns, secants, options.boxes);
+      is_for_subdomains(problem, options.solver, options.subdomains.ranks != nullptr)
+          ? solve(by_subdomains([&] {
+              return std::make_shared<SubdomainSolver>(network, unknowns, secants,
+                                                       options.subdomains);
             }))
           : solve(by_factor(
                 unknowns, &network.particles, options.threads,

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/quasistatic/boxes/box_solver.hpp"
+#include "analysis/quasistatic/subdomains/subdomain_solver.hpp"
 #include "assembly/linear_elements.hpp"
 #include "network/loaded_network.hpp"
 #include "network/network.hpp"
@@ -16,13 +16,13 @@ namespace perilink {
 struct ElasticOptions {
   int threads = 1;
   LinearSolver solver = LinearSolver::automatic;
-  BoxSolverOptions boxes = {};
+  SubdomainSolverOptions subdomains = {};
 };
 
 /// Whether conjugate gradients solve a problem: where they are chosen, or take less time than a
 /// factor of the stiffness and nothing carries particles (docs/theory/large_bodies.md).
 /// Ranks share the work of conjugate gradients alone, and take them wherever they can.
-bool is_for_boxes(const LoadedNetwork& problem, LinearSolver solver, bool has_ranks = false);
+bool is_for_subdomains(const LoadedNetwork& problem, LinearSolver solver, bool has_ranks = false);
 
 /// Wall seconds of the phases of an elastic analysis.
 struct ElasticSeconds {
@@ -40,7 +40,7 @@ struct ElasticResult {
   double work = 0.0;                   ///< that loads and reactions do [force length]
   double residual = 0.0;               ///< |f - K u| / |f| after one step of refinement
   FactorStatistics factor;             ///< the stiffness has, or that of boxes
-  Index boxes = 0;                     ///< that conjugate gradients have taken; 0: a factor
+  Index subdomains = 0;                ///< that conjugate gradients have taken; 0: a factor
   int iterations = 0;                  ///< conjugate gradients
   double error = 0.0;                  ///< they leave, over the solution, in the norm of energy
   ElasticSeconds seconds;

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/quasistatic/conversion.hpp"
 #include "analysis/quasistatic/damage_options.hpp"
 #include "analysis/quasistatic/events/staged_engine.hpp"
+#include "analysis/quasistatic/host_release.hpp"
 #include "analysis/quasistatic/path_energy.hpp"
 #include "analysis/quasistatic/strain_watch.hpp"
 #include "base/timer.hpp"
@@ -29,7 +29,7 @@ class EngineState final : public StateSource {
             elements != nullptr ? elements->whole() : std::span<const std::uint8_t>()};
   }
   Secants secants() override { return engine_.secants(); }
-  const Conversion* elements = nullptr;  ///< that carry particles
+  const HostRelease* elements = nullptr;  ///< that carry particles
 
  private:
   const Network& network_;
@@ -59,7 +59,7 @@ class EventRun {
   void end_stage();
   std::optional<double> end_of(const StageRules& stage, const LoadWork& work) const;
   bool follow_stage(const StageRules& stage);
-  void measure_beside(const LoadWork& work);
+  void measure_permanent(const LoadWork& work);
   void record(double load_factor, const LoadWork& work, const Event& event);
   void note_peaks();
   void take_note_of(const Balance& balance);
@@ -67,22 +67,22 @@ class EventRun {
   void look_after(const EventOutcome& outcome);
   void follow_motion();
   void adopt(const Unknowns& unknowns);
-  // Finite elements that let go of particles: converting_run.cpp.
+  // Finite elements that let go of particles: releasing_run.cpp.
   bool converts(const Event& event, double sense = 1.0,
                 double most = std::numeric_limits<double>::infinity());
   void take_over(const Unknowns& unknowns, double load_factor);
-  void note_late_conversions(const Event& event, double sense);
+  void note_missed_releases(const Event& event, double sense);
   bool residual_may_be_large() const;
   bool is_beyond_small_strains(double load_factor);
-  void note_unborne(double load_factor);
+  void note_overload(double load_factor);
   bool leaves_small_strains(const Event& event);
   int check_interval() const;
   bool meets_tolerance() const { return row_.residual <= options_.engine.residual_tolerance; }
   void record_separated(double load_factor, const LoadWork& work);
   bool pass(const Event& event);
   bool stop_rule_met();
-  void end(Ending ending, std::string reason) {
-    result_.ending = ending;
+  void end(Termination termination, std::string reason) {
+    result_.termination = termination;
     result_.reason = std::move(reason);
   }
   DamageResult finish();
@@ -96,7 +96,7 @@ class EventRun {
   StagedEngine* staged_ = nullptr;  ///< the engine, where there are stages
   std::unique_ptr<EventEngine> engine_;
   EngineState state_;
-  std::optional<Conversion> conversion_;  ///< where finite elements carry particles
+  std::optional<HostRelease> host_release_;  ///< where finite elements carry particles
   /// Bonds that conversions have freed since the last event, with the load factor of the alert.
   std::vector<std::pair<std::vector<Index>, double>> freed_;
   PathEnergy energy_;
@@ -106,8 +106,8 @@ class EventRun {
   double compliance_ = 0.0;          ///< f'u - R'd at load factor 1 ...
   double checked_compliance_ = 0.0;  ///< ... when the residual was last measured
   double stored_by_elements_ = std::numeric_limits<double>::quiet_NaN();
-  Beside stored_beside_;    ///< where that was measured
-  double most_work_ = 0.0;  ///< largest of the work and the energies so far, of stages
+  Beside stored_by_permanent_;  ///< where that was measured
+  double most_work_ = 0.0;      ///< largest of the work and the energies so far, of stages
   int events_ = 0;
   int looks_ = 0;       ///< at the residual, that nothing else asked for
   int rows_below_ = 0;  ///< successive rows below the load fraction of the stop rule

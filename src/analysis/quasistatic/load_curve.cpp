@@ -89,7 +89,7 @@ std::vector<CurvePoint> event_path(std::span<const StepRecord> records) {
     if (!resists && k + 1 == records.size()) break;
     if (!(record.load * record.displacement > 0.0) || !axes_hold_all_energy(record)) return {};
     if (k > 0) {
-      const double energy = record.freed_energy - records[k - 1].freed_energy;
+      const double energy = record.constraint_energy - records[k - 1].constraint_energy;
       freed += 2.0 * energy / (records[k - 1].load * record.load);
     }
     path.push_back({record.displacement - freed * record.load, record.load});

@@ -2,13 +2,13 @@
 
 namespace perilink {
 
-std::string to_string(Ending ending) {
-  switch (ending) {
-    case Ending::completed: return "completed";
-    case Ending::collapsed: return "collapsed";
-    case Ending::nothing_breaks: return "nothing_breaks";
-    case Ending::interrupted: return "interrupted";
-    case Ending::failed: return "failed";
+std::string to_string(Termination termination) {
+  switch (termination) {
+    case Termination::completed: return "completed";
+    case Termination::collapsed: return "collapsed";
+    case Termination::nothing_breaks: return "nothing_breaks";
+    case Termination::interrupted: return "interrupted";
+    case Termination::failed: return "failed";
   }
   return "unknown";
 }

@@ -31,11 +31,12 @@ struct StepRecord {
   Index events = 1;                ///< elements that fail at this load
   std::vector<Index> others = {};  ///< those but `element`; not in history.csv
   Index stage = 0;                 ///< number of the stage, from one; 0: the run has none
-  Index avalanche = 0;        ///< 1: the element was beyond its limit, at a load that does not move
-  Index side_change = 0;      ///< 1: the element and others close or open, and nothing fails
-  Index elements = 0;         ///< that carry particles in this equilibrium
-  double freed_energy = 0.0;  ///< PathEnergy::freed() so far [force length]
-  double seconds = 0.0;       ///< wall time of this step; goes to timing.csv only
+  Index at_constant_load =
+      0;                  ///< 1: the element was beyond its limit, at a load that does not move
+  Index side_change = 0;  ///< 1: the element and others close or open, and nothing fails
+  Index elements = 0;     ///< that carry particles in this equilibrium
+  double constraint_energy = 0.0;  ///< PathEnergy::freed() so far [force length]
+  double seconds = 0.0;            ///< wall time of this step; goes to timing.csv only
 };
 
 /// State that observers may look at, valid during the call only.
@@ -49,14 +50,14 @@ struct StepState {
 };
 
 /// How a run ended.
-enum class Ending {
+enum class Termination {
   completed,       ///< all steps done, or a stop rule met
   collapsed,       ///< the specimen separated
   nothing_breaks,  ///< no bond can break under this load
   interrupted,     ///< by a signal
   failed,          ///< the solver could not continue
 };
-std::string to_string(Ending ending);
+std::string to_string(Termination termination);
 
 /// Makes the state when an observer asks for it.
 class StateSource {

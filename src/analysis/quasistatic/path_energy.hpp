@@ -21,7 +21,7 @@ class PathEnergy {
                      (load_factor - load_factor_);
     dissipated_ += 0.5 * load_factor_ * load_factor * growth_;
     freed_ += 0.5 * load_factor_ * load_factor * freedom_.growth;
-    advance_beside(load_factor, work.constant);
+    advance_permanent(load_factor, work.constant);
     growth_ = 0.0;
     freedom_ = {};
     load_factor_ = load_factor;
@@ -40,9 +40,9 @@ class PathEnergy {
   /// An event at the present row.
   void add_event(const EventOutcome& outcome) {
     growth_ += outcome.compliance_growth;
-    growth_beside_ += outcome.growth_beside;
+    permanent_growth_ += outcome.permanent_growth;
     released_ += load_factor_ * load_factor_ * outcome.released;
-    released_ += outcome.released_beside.at(load_factor_);
+    released_ += outcome.released_by_permanent.at(load_factor_);
   }
 
   /// The compliance grew at the present row as particles became freer.
@@ -65,7 +65,7 @@ class PathEnergy {
 
  private:
   /// What constant loads add: their own work, and that of the others on what they cause.
-  void advance_beside(double load_factor, const ConstantWork& after) {
+  void advance_permanent(double load_factor, const ConstantWork& after) {
     const ConstantWork& before = work_.constant;
     const double both = load_factor_ + load_factor;
     external_ +=
@@ -73,16 +73,16 @@ class PathEnergy {
         (load_factor_ * before.forces_on_motion + before.forces) +
         0.5 * both * (after.growing_forces - before.growing_forces) +
         0.5 * (load_factor - load_factor_) * (before.growing_supports + after.growing_supports);
-    dissipated_ += 0.5 * growth_beside_.at(0.5 * both);
+    dissipated_ += 0.5 * permanent_growth_.at(0.5 * both);
     freed_ += 0.5 * freedom_.beside.at(0.5 * both);
-    growth_beside_ = {};
+    permanent_growth_ = {};
   }
 
   double load_factor_ = 0.0;
   LoadWork work_;
   double growth_ = 0.0;  ///< since the present row
   Freedom freedom_;      ///< the same
-  Beside growth_beside_;
+  Beside permanent_growth_;
   double external_ = 0.0;
   double dissipated_ = 0.0;
   double freed_ = 0.0;

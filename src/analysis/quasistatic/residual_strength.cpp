@@ -11,10 +11,10 @@ namespace {
 
 /// Events in tension after which the force of a bond stays below half of its largest.
 int events_to_crack(const BondLaw& law) {
-  const double half = 0.5 * law.tooth(0).limit;
+  const double half = 0.5 * law.segment(0).limit;
   int events = 1;
-  for (Tooth now = law.tooth(1); now.secant > 0.0 && now.secant * now.limit > half; ++events) {
-    now = law.tooth(events + 1);
+  for (Segment now = law.segment(1); now.secant > 0.0 && now.secant * now.limit > half; ++events) {
+    now = law.segment(events + 1);
   }
   return events;
 }
@@ -90,7 +90,7 @@ std::size_t rows_before_through_crack(const Network& network, std::span<const St
   Cracks cracks(network);
   std::unordered_map<Index, int> events;
   const auto runs_through = [&](Index element) {
-    if (element == no_index || element >= network.first_tie) return false;
+    if (element == no_index || element >= network.first_slip_spring) return false;
     const Index law = network.law_of.empty() ? 0 : network.law_of[element];
     return ++events[element] == events_of_law[law] && cracks.add(element);
   };
@@ -103,7 +103,7 @@ std::size_t rows_before_through_crack(const Network& network, std::span<const St
 }
 
 void find_peaks(const Network& network, std::span<const StepRecord> rows, DamageResult& result) {
-  const bool bars = network.first_tie < network.num_elements();
+  const bool bars = network.first_slip_spring < network.num_elements();
   const bool stages = !rows.empty() && rows.front().stage > 0;
   const std::vector<CurvePoint> path = stages ? stage_path(rows) : event_path(rows);
   PeakWatch& peaks = result.peaks;

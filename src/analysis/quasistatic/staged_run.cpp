@@ -38,8 +38,8 @@ void EventRun::begin_stage(std::size_t number) {
   }
   reference_ = &problem_.sets[stage.set].reference;
   const Unknowns& held = problem_.sets[stage.set].unknowns;
-  const bool is_carried = conversion_ && staged_->is_new(stage.set);
-  staged_->begin_stage(stage.set, is_carried ? conversion_->hold(held) : held);
+  const bool is_embedded = host_release_ && staged_->is_new(stage.set);
+  staged_->begin_stage(stage.set, is_embedded ? host_release_->hold(held) : held);
   begin_work();
   check();
   energy_.begin_stage(staged_->load_factor(), engine_->load_work(), flowed);
@@ -47,7 +47,7 @@ void EventRun::begin_stage(std::size_t number) {
 
 void EventRun::end_stage() {
   StageResult& stage = result_.stages.back();
-  stage.ending = result_.ending;
+  stage.termination = result_.termination;
   stage.reason = result_.reason;
   stage.last = row_;
   find_peaks(network_, rows_, result_);
@@ -61,7 +61,7 @@ std::optional<double> EventRun::end_of(const StageRules& stage, const LoadWork& 
   if (!stage.to_load) return stage.to;
   const double reference = reference_->value;
   if (!reference_->driven) return *stage.to_load / reference;
-  const double constant = work.constant.growing_supports - work.constant.forces_on_grips;
+  const double constant = work.constant.growing_supports - work.constant.forces_on_clamps;
   return (*stage.to_load * reference - constant) / work.supports;
 }
 
@@ -74,12 +74,12 @@ bool EventRun::follow_stage(const StageRules& stage) {
       // A block that rocks under its weight keeps its load.
       constexpr double round_off = 1e-9;
       if (std::abs(row_.load) > round_off * std::abs(result_.peak_load)) {
-        end(Ending::collapsed,
+        end(Termination::collapsed,
             fmt::format("a mechanism: constant loads alone keep the load at {:.6g}, however far "
                         "the displacements go on",
                         row_.load));
       } else if (stage.to_load) {
-        end(Ending::collapsed,
+        end(Termination::collapsed,
             fmt::format("the body no longer resists the displacements: it could not bear the load "
                         "{} any more",
                         *stage.to_load));
@@ -91,7 +91,7 @@ bool EventRun::follow_stage(const StageRules& stage) {
     const bool arrived = event.element == no_index;
     if (!arrived && converts(event, aim && *aim < staged_->load_factor() ? -1.0 : 1.0)) continue;
     if (arrived && !aim) {
-      end(Ending::nothing_breaks, "no bond can break under this load");
+      end(Termination::nothing_breaks, "no bond can break under this load");
       return false;
     }
     const double load_factor = arrived ? *aim : event.load_factor;
@@ -102,31 +102,31 @@ bool EventRun::follow_stage(const StageRules& stage) {
       result_.beyond_small_strains |= is_beyond_small_strains(load_factor);
     } else if (leaves_small_strains(event)) {
       staged_->move_to(before);
-      if (aim) note_unborne(load_factor);
+      if (aim) note_overload(load_factor);
       return false;
     }
-    row_.avalanche = event.avalanche ? 1 : 0;
+    row_.at_constant_load = event.at_constant_load ? 1 : 0;
     row_.side_change = event.changes_side ? 1 : 0;
     record(load_factor, work, event);
-    if (stop_rule_met()) return result_.ending == Ending::completed;
+    if (stop_rule_met()) return result_.termination == Termination::completed;
     if (arrived) {
-      end(Ending::completed, stage.to ? fmt::format("the load factor reached {}", *stage.to)
-                                      : fmt::format("the load reached {}", *stage.to_load));
+      end(Termination::completed, stage.to ? fmt::format("the load factor reached {}", *stage.to)
+                                           : fmt::format("the load reached {}", *stage.to_load));
       return true;
     }
     if (!pass(event)) {
-      if (aim) note_unborne(load_factor);
+      if (aim) note_overload(load_factor);
       return false;
     }
   }
 }
 
 /// The axes of a row, and its energies, with what constant loads add.
-void EventRun::measure_beside(const LoadWork& work) {
+void EventRun::measure_permanent(const LoadWork& work) {
   const double growing = row_.load_factor * work.forces + work.constant.growing_forces;
   if (reference_->driven) {
     row_.load +=
-        (work.constant.growing_supports - work.constant.forces_on_grips) / reference_->value;
+        (work.constant.growing_supports - work.constant.forces_on_clamps) / reference_->value;
   } else {
     row_.displacement = growing / reference_->value;
   }

@@ -33,7 +33,7 @@ std::string time_text(double seconds) {
 
 /// Whether bonds give way by more than one event.
 bool softens(const Network& network) {
-  const auto many = [](const MaterialStrength& strength) { return strength.teeth > 1; };
+  const auto many = [](const MaterialStrength& strength) { return strength.segments > 1; };
   return std::any_of(network.strengths.begin(), network.strengths.end(), many) ||
          std::any_of(network.interfaces.begin(), network.interfaces.end(),
                      [&](const InterfaceBonds& face) { return many(face.strength); });

@@ -22,9 +22,9 @@ void print_breakable(const Network& network, const std::vector<double>& crack_co
   double smallest = INFINITY, largest = 0.0;
   for (Index e = 0; e < network.num_elements(); ++e) {
     if (!network.can_break(e)) continue;
-    const double limit = network.critical_stretch[e] * network.law(e).tooth(0).limit;
+    const double limit = network.critical_stretch[e] * network.law(e).segment(0).limit;
     ++breakable;
-    if (network.law(e).tooth(1).secant > 0.0) {  // its first event does not break it
+    if (network.law(e).segment(1).secant > 0.0) {  // its first event does not break it
       ++softening;
       continue;
     }
@@ -56,20 +56,20 @@ void print_breakable(const Network& network, const std::vector<double>& crack_co
 /// What a law of many teeth comes to.
 void print_softening(const MaterialStrength& strength) {
   fmt::print("#   softening          at stretches from {:.5g} to {:.5g} in {} teeth\n",
-             strength.first_stretch, strength.last_stretch, strength.teeth);
+             strength.first_stretch, strength.last_stretch, strength.segments);
   fmt::print("#   fracture energy    {:.5g}\n", strength.fracture_energy);
 }
 
 void print_strengths(const std::vector<MaterialStrength>& strengths) {
   for (std::size_t m = 0; m < strengths.size(); ++m) {
     const MaterialStrength& strength = strengths[m];
-    if (strength.teeth == 0) continue;
+    if (strength.segments == 0) continue;
     fmt::print("#   tensile strength   {:.5g}, process zone E G/f^2 = {:.4g}, material {}\n",
                strength.tensile_strength, strength.process_zone, m + 1);
     if (strength.compressive_strength > 0.0) {
       fmt::print("#   compression        strength {:.5g}\n", strength.compressive_strength);
     }
-    if (strength.teeth == 1) {
+    if (strength.segments == 1) {
       fmt::print("#                      by the horizon, as brittle bonds have it\n");
     } else {
       print_softening(strength);
@@ -82,8 +82,9 @@ void print_interfaces(const std::vector<InterfaceBonds>& interfaces) {
     const auto& [count, area, strength] = interfaces[k];
     fmt::print(
         "#   interface {}        {} bonds cross about {:.2g} of area, tensile strength {:.5g}{}\n",
-        k + 1, count, area, strength.tensile_strength, strength.teeth > 1 ? "" : " by the horizon");
-    if (strength.teeth > 1) print_softening(strength);
+        k + 1, count, area, strength.tensile_strength,
+        strength.segments > 1 ? "" : " by the horizon");
+    if (strength.segments > 1) print_softening(strength);
   }
 }
 
@@ -94,7 +95,7 @@ void print_elements(const Model& model) {
   }
   const Network& network = model.network;
   fmt::print("#   bonds              {} and {} ties of {} bar{}\n", network.num_bonds(),
-             network.first_segment - network.first_tie, model.entry_of_bar.size(),
+             network.first_bar_element - network.first_slip_spring, model.entry_of_bar.size(),
              model.entry_of_bar.size() == 1 ? "" : "s");
   if (network.cells) {
     fmt::print("#   linear elements    {} beside the bonds\n", network.cells->cells.size());
@@ -133,7 +134,7 @@ std::string vector_text(const Vector3& vector, int dim) {
 }
 
 /// Force and moment of a place.
-std::string load_text(const LoadedPlace& place, int dim) {
+std::string load_text(const LoadRegion& place, int dim) {
   const auto size = [](const Vector3& v) { return std::hypot(v[0], v[1], v[2]); };
   std::string text = vector_text(place.force, dim);
   if (size(place.moment) > 0.0) {
@@ -147,7 +148,7 @@ std::string load_text(const LoadedPlace& place, int dim) {
 }
 
 /// What drives a place: components of its displacement, then of its rotation.
-std::string motion_text(const DrivenPlace& place, int dim) {
+std::string motion_text(const PrescribedRegion& place, int dim) {
   std::vector<std::string> parts;
   for (int c = 0; c < static_cast<int>(place.drives.size()); ++c) {
     if (!place.drives[c]) continue;
@@ -165,10 +166,10 @@ std::string motion_text(const DrivenPlace& place, int dim) {
 void print_places(const Model& model) {
   if (!model.sets.empty()) return;
   const int dim = model.network.particles.dim;
-  for (const LoadedPlace& place : model.loaded_places) {
+  for (const LoadRegion& place : model.load_regions) {
     fmt::print("#   load               {}: {}\n", place.name, load_text(place, dim));
   }
-  for (const DrivenPlace& place : model.driven_places) {
+  for (const PrescribedRegion& place : model.prescribed_regions) {
     fmt::print("#   displacement       {}: {}\n", place.name, motion_text(place, dim));
   }
 }
@@ -187,10 +188,10 @@ void print_sizes(const Model& model, bool damage) {
              ghosts, bar_nodes);
   print_spacing(model);
   print_elements(model);
-  if (model.carried) {
-    const std::vector<std::uint8_t>& whole = model.carried->whole;
+  if (model.embedded) {
+    const std::vector<std::uint8_t>& whole = model.embedded->whole;
     fmt::print("#   finite elements    {} of {} carry particles, which would have {} unknowns\n",
-               std::count(whole.begin(), whole.end(), 1), whole.size(), model.carried->free.count);
+               std::count(whole.begin(), whole.end(), 1), whole.size(), model.embedded->free.count);
     if (damage) {
       fmt::print(
           "#                      time and memory are for the unknowns at first and grow as "

@@ -59,25 +59,25 @@ void tell_of_failure(const fs::path& directory, const CaseFile& input,
 }
 
 /// The first failure is the one that is told.
-void fail(const Verdict& verdict, const std::exception& error) {
-  if (verdict.ending == Ending::failed) return;
-  verdict.ending = Ending::failed;
-  verdict.reason = failure_text(error);
+void fail(const RunOutcome& run_outcome, const std::exception& error) {
+  if (run_outcome.termination == Termination::failed) return;
+  run_outcome.termination = Termination::failed;
+  run_outcome.reason = failure_text(error);
 }
 
 /// Does a part of a run. A full disk or no memory ends it as failed with what was found so far.
 template <class Action>
-void attempt(const Verdict& verdict, const Action& action) {
+void attempt(const RunOutcome& run_outcome, const Action& action) {
   try {
     action();
   } catch (const std::exception& error) {
-    fail(verdict, error);
+    fail(run_outcome, error);
   }
 }
 
-int exit_status_of(Ending ending) {
-  if (ending == Ending::interrupted) return exit_interrupted;
-  return ending == Ending::failed ? exit_solver : exit_done;
+int exit_status_of(Termination termination) {
+  if (termination == Termination::interrupted) return exit_interrupted;
+  return termination == Termination::failed ? exit_solver : exit_done;
 }
 
 /// Opens all files of a run. Where that fails nothing is computed, and the summary says why.
@@ -109,12 +109,12 @@ int run_in(const fs::path& directory, const RunOptions& options, const CaseFile&
   run->seconds.set_up = timer.seconds();
 
   timer.restart();
-  const Verdict verdict = run->verdict();
-  attempt(verdict, [&] { run->analyse(); });
-  attempt(verdict, [&] { run->files().finish(); });
+  const RunOutcome run_outcome = run->run_outcome();
+  attempt(run_outcome, [&] { run->analyse(); });
+  attempt(run_outcome, [&] { run->files().finish(); });
   run->seconds.output = run->files().seconds_writing();
   run->seconds.analysis = timer.seconds() - run->seconds.output;
-  if (verdict.ending == Ending::failed) complain(verdict.reason);
+  if (run_outcome.termination == Termination::failed) complain(run_outcome.reason);
   Summary summary;
   const auto sum_up = [&] {
     summary = summary_of(*run, directory);
@@ -124,17 +124,17 @@ int run_in(const fs::path& directory, const RunOptions& options, const CaseFile&
     sum_up();
   } catch (const std::exception& error) {
     complain(failure_text(error));
-    fail(verdict, error);
+    fail(run_outcome, error);
     tell_of_failure(directory, input, error);  // in case that more cannot be told
-    attempt(verdict, sum_up);
+    attempt(run_outcome, sum_up);
   }
   for (std::size_t k = run->notes.size(); k < summary.notes.size(); ++k) {
     log->info("note: {}", summary.notes[k]);
   }
-  log->info("{}: {}; {}", to_string(verdict.ending), verdict.reason, summary.outcome);
-  for (const std::string& doubt : summary.doubts) log->info("doubt: {}", doubt);
+  log->info("{}: {}; {}", to_string(run_outcome.termination), run_outcome.reason, summary.outcome);
+  for (const std::string& warning : summary.warnings) log->info("doubt: {}", warning);
   if (!options.quiet) fmt::print("{}", summary.text);
-  return exit_status_of(verdict.ending);
+  return exit_status_of(run_outcome.termination);
 }
 
 }  // namespace

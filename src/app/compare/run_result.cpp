@@ -39,10 +39,10 @@ void read_summary(const fs::path& directory, RunResult& result) {
     result.notes.push_back(
         fmt::format("{} ({}); the rows so far are compared", result.status, text("reason")));
   }
-  if (const auto doubts = json->find("doubts"); doubts != json->end()) {
-    for (const auto& doubt : *doubts) {
-      if (doubt.is_string())
-        result.notes.push_back("doubt: " + printable(doubt.get<std::string>()));
+  if (const auto warnings = json->find("doubts"); warnings != json->end()) {
+    for (const auto& warning : *warnings) {
+      if (warning.is_string())
+        result.notes.push_back("doubt: " + printable(warning.get<std::string>()));
     }
   }
   for (const auto& [name, value] : json->items()) {

@@ -46,7 +46,7 @@ std::vector<Index> neighbors_of(const Model& model, Index particle, const Vector
     if (particles.kind[i] == ParticleKind::solid && fits) neighbors.push_back(i);
   };
   const std::vector<Index>& cut = network.cut_elements;
-  for (Index e = 0; e < network.first_tie; ++e) {
+  for (Index e = 0; e < network.first_slip_spring; ++e) {
     const Index i = network.bonds.first[e], j = network.bonds.second[e];
     if (i != particle && j != particle) continue;
     if (!std::binary_search(cut.begin(), cut.end(), e)) add(i == particle ? j : i);
@@ -234,11 +234,12 @@ std::vector<Gauge> build_gauges(const CaseFile& input, const Model& model,
   return gauges;
 }
 
-StressInput stress_input(const Model& model, const Csr& families, Secants secants) {
-  return {model.network, families, model.problem, model.hooke, model.elements.has_value(), secants};
+StressInput stress_input(const Model& model, const Csr& neighbourhoods, Secants secants) {
+  return {model.network, neighbourhoods, model.problem, model.hooke, model.elements.has_value(),
+          secants};
 }
 
-std::vector<double> gauge_values(const Model& model, const ModelState& state, Csr& families) {
+std::vector<double> gauge_values(const Model& model, const ModelState& state, Csr& neighbourhoods) {
   const std::size_t width = model.network.width();
   std::vector<double> values;
   for (const Gauge& gauge : model.gauges) {
@@ -257,10 +258,10 @@ std::vector<double> gauge_values(const Model& model, const ModelState& state, Cs
       values.push_back(value);
       continue;
     }
-    if (families.rows() == 0) {
-      families = bonds_of_particles(model.network.bonds, model.network.particles.size());
+    if (neighbourhoods.rows() == 0) {
+      neighbourhoods = bonds_of_particles(model.network.bonds, model.network.particles.size());
     }
-    const StressInput input = stress_input(model, families, state.secants);
+    const StressInput input = stress_input(model, neighbourhoods, state.secants);
     for (const Gauge::Term& term : gauge.terms) {
       value += term.weight * stress_at(input, state.motion, term.particle)[component];
     }

@@ -34,10 +34,10 @@ double gauge_value(const Gauge& gauge, int dim, Displacement displacement) {
 
 /// Values of all gauges.
 /// \param families  bonds of each particle; filled when a gauge needs them, for the next call
-std::vector<double> gauge_values(const Model& model, const ModelState& state, Csr& families);
+std::vector<double> gauge_values(const Model& model, const ModelState& state, Csr& neighbourhoods);
 
 /// What stresses at the particles of a model are found from.
 /// \param families  bonds of each particle; must outlive the result
-StressInput stress_input(const Model& model, const Csr& families, Secants secants = {});
+StressInput stress_input(const Model& model, const Csr& neighbourhoods, Secants secants = {});
 
 }  // namespace perilink

@@ -12,20 +12,20 @@ void add(const Vector3& more, Vector3& sum) {
   for (int a = 0; a < 3; ++a) sum[a] += more[a];
 }
 
-double relative(std::span<const DrivenPlace> places, const std::array<bool, 6>& held, int first,
-                int last) {
+double relative(std::span<const PrescribedRegion> places, const std::array<bool, 6>& held,
+                int first, int last) {
   double largest = 0.0, alone = 0.0;
-  for (const DrivenPlace& a : places) {
+  for (const PrescribedRegion& a : places) {
     double to_frame = 0.0, whole = 0.0;  // squares
     for (int c = first; c < last; ++c) {
       if (!a.drives[c]) continue;
       const double square = std::pow(std::max(std::abs(a.low[c]), std::abs(a.high[c])), 2);
       const auto drivers = std::count_if(places.begin(), places.end(),
-                                         [&](const DrivenPlace& b) { return b.drives[c]; });
+                                         [&](const PrescribedRegion& b) { return b.drives[c]; });
       whole += square;
       if (held[c] || drivers == 1) to_frame += square;
     }
-    for (const DrivenPlace& b : places) {
+    for (const PrescribedRegion& b : places) {
       double square = 0.0;
       for (int c = first; c < last; ++c) {
         if (!a.drives[c] || !b.drives[c]) continue;
@@ -41,10 +41,10 @@ double relative(std::span<const DrivenPlace> places, const std::array<bool, 6>& 
 
 }  // namespace
 
-double total_load(std::span<const LoadedPlace> places) {
+double total_load(std::span<const LoadRegion> places) {
   Vector3 force{}, moment{};
   double forces = 0.0, moments = 0.0;
-  for (const LoadedPlace& place : places) {
+  for (const LoadRegion& place : places) {
     const double own = length_of(place.force);
     forces += std::max(own, place.sizes - own);
     add(place.force, force);
@@ -54,7 +54,7 @@ double total_load(std::span<const LoadedPlace> places) {
   return forces > 0.0 ? 0.5 * (forces + length_of(force)) : 0.5 * (moments + length_of(moment));
 }
 
-double relative_motion(std::span<const DrivenPlace> places, const std::array<bool, 6>& held,
+double relative_motion(std::span<const PrescribedRegion> places, const std::array<bool, 6>& held,
                        int dim) {
   const double displacement = relative(places, held, 0, dim);
   return displacement > 0.0 ? displacement : relative(places, held, dim, 6);

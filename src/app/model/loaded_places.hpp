@@ -13,14 +13,14 @@
 namespace perilink {
 
 /// A region, or the particle of a point load, that forces load.
-struct LoadedPlace {
+struct LoadRegion {
   std::string name;
   Vector3 force{}, moment{};  ///< resultants at load factor 1 [force], [force length]
   double sizes = 0.0;         ///< sum of the sizes of its forces, at least |force| [force]
 };
 
 /// A region that displacements drive.
-struct DrivenPlace {
+struct PrescribedRegion {
   std::string name;
   std::vector<std::size_t> slots;       ///< driven components of the motions of its particles
   std::array<bool, 6> drives{};         ///< the components among them
@@ -41,13 +41,13 @@ Place& place_named(std::vector<Place>& places, const std::string& name) {
 /// places and supports bear one each. Forces F give F against supports or one another, 2 F side by
 /// side. A place alone gives its resultant, but no less than half the sum of the sizes of its
 /// forces, which is what a pressure all around gives. Without forces the same of moments.
-double total_load(std::span<const LoadedPlace> places);
+double total_load(std::span<const LoadRegion> places);
 
 /// Largest difference between the driven displacements of two places, or of one and what holds the
 /// body still; a vector of the components that both have. Without displacements that of rotations.
 /// \param held  components that something holds; those that a single place drives count as held
 /// \param dim   components of displacements, rotations come behind
-double relative_motion(std::span<const DrivenPlace> places, const std::array<bool, 6>& held,
+double relative_motion(std::span<const PrescribedRegion> places, const std::array<bool, 6>& held,
                        int dim);
 
 }  // namespace perilink

@@ -47,8 +47,8 @@ struct Model : LoadedNetwork {
   std::vector<double> crack_cost;
   std::optional<LinearElements> elements;         ///< with method = "linear_elements"
   std::optional<ParticleFitReport> particle_fit;  ///< with model = "particles"
-  std::vector<LoadedPlace> loaded_places;         ///< by forces, where nothing is driven
-  std::vector<DrivenPlace> driven_places;
+  std::vector<LoadRegion> load_regions;           ///< by forces, where nothing is driven
+  std::vector<PrescribedRegion> prescribed_regions;
   std::vector<Gauge> gauges;
   /// Whether, per particle, a displacement of it is prescribed by a support or driven (planes of
   /// symmetry grip nothing: a crack may run into them).

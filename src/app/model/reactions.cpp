@@ -91,7 +91,7 @@ std::vector<std::uint8_t> held_slots(const Model& model) {
   std::vector<std::uint8_t> held(model.unknowns.number.size(), 0);
   for (std::size_t slot = 0; slot < held.size(); ++slot) {
     if (model.unknowns.number[slot] == no_index) held[slot] = 1;
-    for (const LoadSet& set : model.sets) {
+    for (const LoadCase& set : model.sets) {
       if (set.unknowns.number[slot] == no_index) held[slot] = 1;
     }
   }
@@ -104,9 +104,9 @@ std::vector<std::uint8_t> held_slots(const Model& model) {
 
 void pass_to_held(const Model& model, std::span<const std::uint8_t> whole,
                   std::span<const double> loads, std::span<double> forces) {
-  if (!model.carried) return;
-  const CarriedBody& body = *model.carried;
-  pass_to_held(body.carriers, body.free, whole.empty() ? body.whole : whole, loads, forces);
+  if (!model.embedded) return;
+  const EmbeddedBody& body = *model.embedded;
+  pass_to_held(body.hosts, body.free, whole.empty() ? body.whole : whole, loads, forces);
 }
 
 std::vector<double> holding_forces(const Model& model, const ModelState& state) {
@@ -158,13 +158,13 @@ Reaction reaction_on(const Model& model, std::span<const Index> particles,
   return sum;
 }
 
-std::vector<HeldPlace> held_places(const CaseFile& input, const Model& model) {
+std::vector<SupportRegion> support_regions(const CaseFile& input, const Model& model) {
   const std::vector<std::uint8_t> held = held_slots(model);
   const auto width = static_cast<std::size_t>(model.network.width());
   std::vector<std::uint8_t> taken(held.size() / width, 0);
-  std::vector<HeldPlace> places;
+  std::vector<SupportRegion> places;
   const auto add = [&](const std::string& name, const std::vector<Index>& particles) {
-    HeldPlace& place = place_named(places, name);
+    SupportRegion& place = place_named(places, name);
     for (const Index i : particles) {
       const auto own = held.begin() + static_cast<std::ptrdiff_t>(i * width);
       const bool holds = std::any_of(own, own + static_cast<std::ptrdiff_t>(width),
@@ -192,11 +192,11 @@ std::vector<HeldPlace> held_places(const CaseFile& input, const Model& model) {
   for (std::size_t k = 0; k < input.springs.size(); ++k) {
     add("springs: " + input.springs[k].region, sprung_particles(input, model, k));
   }
-  std::erase_if(places, [](const HeldPlace& place) { return place.particles.empty(); });
+  std::erase_if(places, [](const SupportRegion& place) { return place.particles.empty(); });
   return places;
 }
 
-ReactionTable reaction_table(const std::vector<HeldPlace>& places, const Model& model,
+ReactionTable reaction_table(const std::vector<SupportRegion>& places, const Model& model,
                              const ModelState& state, std::vector<double> forces) {
   const int dim = model.network.dim();
   std::string text = dim == 2 ? "place,x,y,force_x,force_y,moment\n"
@@ -207,7 +207,7 @@ ReactionTable reaction_table(const std::vector<HeldPlace>& places, const Model& 
   const Reaction all = reaction_on(model, everything, present_loads(model, state));
   Reaction sum = about({}, all);
   std::string loads = row_of("loads", sum, dim);
-  for (const HeldPlace& place : places) {
+  for (const SupportRegion& place : places) {
     const Reaction reaction = reaction_on(model, place.particles, forces);
     text += row_of(place.name, reaction, dim);
     const Reaction moved = about({}, reaction);
@@ -230,7 +230,7 @@ void ReactionBalance::add(Index row, const Reaction& sum, double length, double 
   imbalance_ = imbalance;
 }
 
-std::optional<std::string> ReactionBalance::doubt() const {
+std::optional<std::string> ReactionBalance::warning() const {
   if (row_ == 0) return std::nullopt;
   return fmt::format(
       "reactions and loads of row {} are out of balance by {:.2g} of their sizes: forces or "

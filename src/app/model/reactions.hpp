@@ -40,7 +40,7 @@ Reaction reaction_on(const Model& model, std::span<const Index> particles,
                      std::span<const double> forces);
 
 /// Particles that an entry of the case holds.
-struct HeldPlace {
+struct SupportRegion {
   std::string name;  ///< "supports: left", "symmetry: x = 0"
   std::vector<Index> particles;
 };
@@ -48,7 +48,7 @@ struct HeldPlace {
 /// Every particle that is held, once: those that several entries hold are at the first. The regions
 /// of [[supports]], planes of [[symmetry]], regions of [[springs]], [[displacements]] and
 /// [[velocities]]; entries of one table and region are one place.
-std::vector<HeldPlace> held_places(const CaseFile& input, const Model& model);
+std::vector<SupportRegion> support_regions(const CaseFile& input, const Model& model);
 
 struct ReactionTable {
   /// A row for each place, one for all loads and one for the sum of all, with moments about the
@@ -57,7 +57,7 @@ struct ReactionTable {
   Reaction sum;  ///< sum of loads and reactions, about the middle of all particles
 };
 /// \param forces  holding_forces(), where they are known already: of bodies in motion
-ReactionTable reaction_table(const std::vector<HeldPlace>& places, const Model& model,
+ReactionTable reaction_table(const std::vector<SupportRegion>& places, const Model& model,
                              const ModelState& state, std::vector<double> forces = {});
 
 /// Compares reactions with loads over the rows of a quasistatic run.
@@ -68,7 +68,7 @@ class ReactionBalance {
   /// \param tolerance  on the sum over the largest size of loads and reactions so far [-]
   void add(Index row, const Reaction& sum, double length, double tolerance);
   /// A warning about the first row whose reactions do not balance its loads.
-  std::optional<std::string> doubt() const;
+  std::optional<std::string> warning() const;
 
  private:
   double size_ = 0.0;       // largest sum of the sizes of loads and reactions so far [force]

@@ -37,7 +37,7 @@ void read_lines(const VtuGrid& grid, const std::vector<double>& element, PlotBod
   const VtuArray* opening = grid.find_cell_data("crack_opening");
   for (std::size_t cell = 0; cell < grid.types.size(); ++cell) {
     const std::size_t end = static_cast<std::size_t>(grid.offsets[cell]);
-    const bool outlined = element[cell] == static_cast<double>(FieldElement::carrier) ||
+    const bool outlined = element[cell] == static_cast<double>(FieldElement::host) ||
                           element[cell] == static_cast<double>(FieldElement::cell);
     if (body.dim == 2 && has_particles && outlined) {
       const auto begin = static_cast<std::size_t>(cell > 0 ? grid.offsets[cell - 1] : 0);
@@ -68,7 +68,7 @@ std::vector<double> particle_sizes(const VtuGrid& grid, const PlotBody& body) {
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const double volume = volumes->values[i];
     if (!(volume > 0.0)) continue;
-    const bool flat = body.dim == 2 || body.is_sheet;
+    const bool flat = body.dim == 2 || body.is_mid_surface;
     sizes[i] = flat ? std::sqrt(volume / thickness * 2.0 / std::numbers::sqrt3) : std::cbrt(volume);
   }
   return sizes;
@@ -101,7 +101,7 @@ PlotBody read_body(const VtuGrid& grid, const std::string& path) {
     body.kind.push_back(static_cast<int>(kind));
   }
   read_lines(grid, values_of(grid.find_cell_data("element"), "element", 1, path), body);
-  body.is_sheet = body.dim == 3 && grid.field("thickness", 0.0) > 0.0;
+  body.is_mid_surface = body.dim == 3 && grid.field("thickness", 0.0) > 0.0;
   body.sizes = particle_sizes(grid, body);
   // What can break is coloured by its damage.
   const VtuArray* stress = grid.find_point_data("stress");
@@ -112,7 +112,7 @@ PlotBody read_body(const VtuGrid& grid, const std::string& path) {
     }
   }
   const auto is_damaged = [](double damage) { return damage > 0.0; };
-  if (body.is_sheet && std::none_of(body.damage.begin(), body.damage.end(), is_damaged)) {
+  if (body.is_mid_surface && std::none_of(body.damage.begin(), body.damage.end(), is_damaged)) {
     for (const Vector3& u : body.displacements) body.stress.push_back(length(u));
   }
   return body;

@@ -28,7 +28,7 @@ struct PlotBody {
   /// half a cell or less.
   std::vector<double> sizes;
   std::vector<double> openings;  ///< per broken bond [length]; empty: not in the file
-  bool is_sheet = false;         ///< a plate or shell in space
+  bool is_mid_surface = false;   ///< a plate or shell in space
   std::vector<double> stress;    ///< von Mises [force/length^2]; of elastic analyses, else empty;
                                  ///< of sheets without damage the size of the displacement [length]
   std::vector<int> kind;         ///< 0 solid, 1 ghost, 2 rebar, 3 anchor

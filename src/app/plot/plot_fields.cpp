@@ -48,9 +48,10 @@ ColorBar color_bar(const PlotBody& body, const PlotLabels& labels) {
   ColorBar bar;
   if (body.stress.empty()) return bar;
   const bool known = !labels.force.empty() && !labels.length.empty();
-  bar.label = body.is_sheet ? with_unit("displacement", labels.length)
-                            : with_unit("von Mises stress",
-                                        known ? labels.force + "/" + labels.length + "²" : "");
+  bar.label =
+      body.is_mid_surface
+          ? with_unit("displacement", labels.length)
+          : with_unit("von Mises stress", known ? labels.force + "/" + labels.length + "²" : "");
   const double largest = *std::max_element(body.stress.begin(), body.stress.end());
   if (largest > 0.0) bar.high = largest;
   return bar;
@@ -269,7 +270,7 @@ std::vector<KeyEntry> draw_body(Svg& svg, const Scene& scene, const std::string&
   if (scene.body.dim == 3) {
     draw_balls(svg, scene);
     // Elsewhere bonds would shine through from the far side.
-    if (scene.body.is_sheet) draw_bond_hairlines(svg, scene);
+    if (scene.body.is_mid_surface) draw_bond_hairlines(svg, scene);
   } else {
     if (scene.square) {
       draw_squares(svg, scene);

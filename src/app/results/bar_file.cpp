@@ -12,7 +12,7 @@ std::string bar_table(const Network& network, const BarState& state) {
                   network.dim() == 3 ? ",z" : "");
   double distance = 0.0;
   for (std::size_t s = 0; s < state.force.size(); ++s) {
-    const Index e = network.first_segment + static_cast<Index>(s);
+    const Index e = network.first_bar_element + static_cast<Index>(s);
     const double length = network.bonds.length(e);
     distance = network.bars.continues(s) ? distance : 0.0;
     const auto first = network.particles.position(network.bonds.first[e]);

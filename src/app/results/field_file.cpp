@@ -56,7 +56,7 @@ void append_cells(VtuGrid& grid, const Network& network, std::span<const Index> 
   for (const Index b : broken_elements) {
     append_cell(grid, VtuCell::line, ends(b), FieldElement::broken_bond, broken_at += 1.0);
   }
-  for (Index b = network.first_segment; b < network.num_elements(); ++b) {
+  for (Index b = network.first_bar_element; b < network.num_elements(); ++b) {
     append_cell(grid, VtuCell::line, ends(b), FieldElement::rebar_segment, 0.0);
   }
   for (Index k = 0; network.cells && k < network.cells->cells.size(); ++k) {
@@ -95,7 +95,7 @@ std::vector<std::pair<std::string, double>> field_data_of(const FieldMoment& mom
 
 VtuGrid make_field_grid(const Network& network, Secants secants, std::span<const double> motion,
                         const FieldMoment& moment, std::span<const Index> broken_elements_in_order,
-                        const Csr& families) {
+                        const Csr& neighbourhoods) {
   const int dim = network.dim();
   const std::vector<double> displacement = translations(network, motion);
 
@@ -104,15 +104,15 @@ VtuGrid make_field_grid(const Network& network, Secants secants, std::span<const
   append_cells(grid, network, broken_elements_in_order);
   grid.point_data = {
       {"displacement", 3, padded_to_three(displacement, dim)},
-      {"damage", 1, particle_damage(network, families, secants)},
+      {"damage", 1, particle_damage(network, neighbourhoods, secants)},
       {"region", 1, as_doubles(network.particles.material)},
       {"kind", 1, as_doubles(network.particles.kind)},
       {"volume", 1, network.particles.volumes},
       {"strain_energy_density", 1, strain_energy_density(network, secants, motion)},
       {"principal_strain", 3,
-       network.shell
-           ? face_strains(network, families, secants, motion)
-           : padded_to_three(principal_strains(network, families, secants, displacement), dim)},
+       network.shell ? face_strains(network, neighbourhoods, secants, motion)
+                     : padded_to_three(
+                           principal_strains(network, neighbourhoods, secants, displacement), dim)},
   };
   if (network.carries_moments()) {
     grid.point_data.push_back({"rotation", dim == 2 ? 1 : 3, rotations(network, motion)});
@@ -181,28 +181,28 @@ void add_openings(VtuGrid& grid, const Network& network, const CrackOpenings& op
   grid.cell_data.push_back({"crack_opening", 1, std::move(of_cells)});
 }
 
-void add_carriers(VtuGrid& grid, const Particles& particles, const Carriers& carriers,
-                  std::span<const std::uint8_t> whole) {
+void add_hosts(VtuGrid& grid, const Particles& particles, const Hosts& hosts,
+               std::span<const std::uint8_t> whole) {
   const auto dim = static_cast<std::size_t>(particles.dim);
   std::vector<Index> corners;
-  for (Index e = 0; e < carriers.size(); ++e) {
+  for (Index e = 0; e < hosts.size(); ++e) {
     if (whole[e] == 0) continue;
     corners.clear();
-    for (const Index node : carriers.corners_of.row(e)) {
+    for (const Index node : hosts.corners_of.row(e)) {
       const auto away = [&](Index i) {
         double square = 0.0;
         for (std::size_t a = 0; a < dim; ++a) {
           const double gap =
-              particles.position(i)[a] - carriers.nodes[static_cast<std::size_t>(node) * dim + a];
+              particles.position(i)[a] - hosts.nodes[static_cast<std::size_t>(node) * dim + a];
           square += gap * gap;
         }
         return square;
       };
-      const auto inside = carriers.inside.row(e);
+      const auto inside = hosts.inside.row(e);
       corners.push_back(*std::min_element(inside.begin(), inside.end(),
                                           [&](Index i, Index j) { return away(i) < away(j); }));
     }
-    append_cell(grid, cell_of(dim, corners.size()), corners, FieldElement::carrier, 0.0);
+    append_cell(grid, cell_of(dim, corners.size()), corners, FieldElement::host, 0.0);
   }
 }
 

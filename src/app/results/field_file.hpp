@@ -8,7 +8,7 @@
 #include "assembly/results/crack_state.hpp"
 #include "assembly/results/section_forces.hpp"
 #include "base/csr.hpp"
-#include "discretization/carriers/carriers.hpp"
+#include "discretization/hosts/hosts.hpp"
 #include "io/fields/vtu.hpp"
 #include "network/network.hpp"
 
@@ -20,7 +20,7 @@ enum class FieldElement {
   broken_bond = 1,
   rebar_segment = 2,
   cell = 3,
-  carrier = 4,  ///< finite element that carries particles
+  host = 4,  ///< finite element that carries particles
 };
 
 /// The moment of a run that a field file shows.
@@ -48,7 +48,7 @@ struct FieldMoment {
 /// \param families                  bonds of each particle (bonds_of_particles)
 VtuGrid make_field_grid(const Network& network, Secants secants, std::span<const double> motion,
                         const FieldMoment& moment, std::span<const Index> broken_elements_in_order,
-                        const Csr& families);
+                        const Csr& neighbourhoods);
 
 /// Adds what bars bear as fields of cells, zero but for their segments: axial_strain, axial_force,
 /// axial_stress, slip and bond_stress (BarState). Before anything else is added to the cells.
@@ -71,8 +71,8 @@ void add_openings(VtuGrid& grid, const Network& network, const CrackOpenings& op
 /// Adds the finite elements that carry particles, between those nearest to their corners:
 /// lines along beams, quadrilaterals in the plane, hexahedra in space.
 /// \param whole  per element, whether it carries
-void add_carriers(VtuGrid& grid, const Particles& particles, const Carriers& carriers,
-                  std::span<const std::uint8_t> whole);
+void add_hosts(VtuGrid& grid, const Particles& particles, const Hosts& hosts,
+               std::span<const std::uint8_t> whole);
 
 /// Numbers the vertices of particles that crack, where no bonds break, in `broken_at`.
 /// \param cracked  particles, first one first

@@ -11,13 +11,13 @@ namespace {
 enum class FieldJob : int { write_piece, send_stresses };
 
 /// Stresses at all particles that a rank knows.
-std::vector<double> stresses_of(const PartSolver& solver, const Csr& families,
+std::vector<double> stresses_of(const PartSolver& solver, const Csr& neighbourhoods,
                                 const PieceInput& input) {
-  return particle_stresses({solver.part().network, families, input.problem, input.hooke},
+  return particle_stresses({solver.part().network, neighbourhoods, input.problem, input.hooke},
                            solver.last_motion());
 }
 
-Csr families_of(const Network& network) {
+Csr neighbourhoods_of(const Network& network) {
   return bonds_of_particles(network.bonds, network.particles.size());
 }
 
@@ -25,10 +25,10 @@ Csr families_of(const Network& network) {
 VtuGrid own_grid(const PartSolver& solver, const PieceInput& input) {
   const BodyPart& part = solver.part();
   const Network& network = part.network;
-  const Csr families = families_of(network);
-  VtuGrid grid =
-      make_field_grid(network, part.secants(), solver.last_motion(), input.moment, {}, families);
-  add_stresses(grid, stresses_of(solver, families, input), network.dim());
+  const Csr neighbourhoods = neighbourhoods_of(network);
+  VtuGrid grid = make_field_grid(network, part.secants(), solver.last_motion(), input.moment, {},
+                                 neighbourhoods);
+  add_stresses(grid, stresses_of(solver, neighbourhoods, input), network.dim());
   const auto owned = static_cast<std::size_t>(part.owned());
   grid.points.resize(3 * owned);
   for (VtuArray& array : grid.point_data) array.values.resize(owned * array.components);
@@ -40,7 +40,8 @@ VtuGrid own_grid(const PartSolver& solver, const PieceInput& input) {
 }
 
 std::vector<double> own_stresses(const PartSolver& solver, const PieceInput& input) {
-  std::vector<double> stresses = stresses_of(solver, families_of(solver.part().network), input);
+  std::vector<double> stresses =
+      stresses_of(solver, neighbourhoods_of(solver.part().network), input);
   stresses.resize(static_cast<std::size_t>(solver.part().owned()) * Stress{}.size());
   return stresses;
 }

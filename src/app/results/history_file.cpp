@@ -71,10 +71,10 @@ constexpr std::array columns = {
     column<&StepRecord::element>("element"),
     column<&StepRecord::events>("events", With::batches),
     column<&StepRecord::stage>("stage", With::stages),
-    column<&StepRecord::avalanche>("avalanche", With::stages),
+    column<&StepRecord::at_constant_load>("avalanche", With::stages),
     column<&StepRecord::side_change>("side_change", With::stages),
     column<&StepRecord::elements>("elements", With::elements),
-    column<&StepRecord::freed_energy>("freed_energy", With::elements),
+    column<&StepRecord::constraint_energy>("freed_energy", With::elements),
 };
 
 struct TimeColumn {

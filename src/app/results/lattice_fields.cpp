@@ -34,7 +34,8 @@ std::vector<double> stresses(const ExplicitModel& model, const ExplicitState& st
   std::vector<double> values;
   values.reserve(6 * model.lattice.particle_slot.size());
   for_each_particle(model.lattice, [&](Index row, Index slot) {
-    const SymmetricTensor stress = particles.stress(state, particles.family(state, row, slot));
+    const SymmetricTensor stress =
+        particles.stress(state, particles.neighbourhood(state, row, slot));
     values.insert(values.end(), stress.begin(), stress.end());
   });
   return values;

@@ -65,11 +65,11 @@ BondRunCase build_bond_run(const CaseFile& input, const Model& model) {
 
 MovingBondsRun::MovingBondsRun(const CaseFile& of_case, int on_threads, bool quiet)
     : NetworkRun(of_case, on_threads, quiet),
-      families_(bonds_of_particles(model_.network.bonds, model_.network.particles.size())) {}
+      neighbourhoods_(bonds_of_particles(model_.network.bonds, model_.network.particles.size())) {}
 
 void MovingBondsRun::write_state(const ExplicitRecord& record, const BondRunState& state) {
   files_->write_fields(record.step, record.time, [&] {
-    if (const auto places = held_places(input, model_); !places.empty()) {
+    if (const auto places = support_regions(input, model_); !places.empty()) {
       const ModelState now{{}, state.motion.displacement, 1.0, record.load_factor};
       files_->write_table("reactions", record.step,
                           reaction_table(places, model_, now, state.reactions()).text);
@@ -79,8 +79,9 @@ void MovingBondsRun::write_state(const ExplicitRecord& record, const BondRunStat
     const bool bonds_break = !model_.network.has_states();
     std::vector<double> motion = state.motion.displacement;
     follow_particles(model_.network, motion);  // anchors stand still in these runs
-    VtuGrid grid = make_field_grid(model_.network, state.bonds.secants(), motion, moment,
-                                   bonds_break ? state.broken : std::vector<Index>{}, families_);
+    VtuGrid grid =
+        make_field_grid(model_.network, state.bonds.secants(), motion, moment,
+                        bonds_break ? state.broken : std::vector<Index>{}, neighbourhoods_);
     if (bonds_break) {
       add_forces_and_cracks(grid, record, state, motion);
       return grid;
@@ -98,11 +99,11 @@ void MovingBondsRun::add_forces_and_cracks(VtuGrid& grid, const ExplicitRecord& 
                                            const BondRunState& state,
                                            const std::vector<double>& motion) {
   const std::vector<double> secants = state.bonds.secants();
-  const CrackOpenings openings = crack_openings(model_.network, families_, secants, motion);
+  const CrackOpenings openings = crack_openings(model_.network, neighbourhoods_, secants, motion);
   add_openings(grid, model_.network, openings, state.broken);
   cracks_ = widest_cracks(model_.network, openings);
   if (input.analysis.strain == Strain::green) return;
-  add_stresses(grid, particle_stresses(stress_input(model_, families_, secants), motion),
+  add_stresses(grid, particle_stresses(stress_input(model_, neighbourhoods_, secants), motion),
                model_.network.dim());
   if (model_.network.bars.bar.empty()) return;
   const BarState bars = bar_state(model_.network, secants, motion);
@@ -115,7 +116,7 @@ void MovingBondsRun::on_row(const ExplicitRecord& record, const BondRunState& st
   if (!model_.gauges.empty()) {
     const std::vector<double> secants = state.bonds.secants();
     gauges = gauge_values(model_, {secants, state.motion.displacement, 1.0, record.load_factor},
-                          families_);
+                          neighbourhoods_);
   }
   files_->add_row(record, gauges);
   if (files_->fields_are_due(record.time)) write_state(record, state);
@@ -154,7 +155,7 @@ class BondRun final : public MovingBondsRun {
     result_ = run_explicit_bonds(model_, built_.inertia, built_.rules, built_.options, *this);
   }
 
-  Verdict verdict() override { return {result_.ending, result_.reason}; }
+  RunOutcome run_outcome() override { return {result_.termination, result_.reason}; }
 
   void tell(Summary& summary) const override {
     MotionExtras extras;
@@ -166,7 +167,7 @@ class BondRun final : public MovingBondsRun {
     const double length = longest_side(model_.network.particles);
     RunFacts facts = run_facts(input, length, files().peaks().highest().load);
     facts.loose_pieces = loose_pieces_;
-    summary.add_doubts(doubts_about(result_, facts));
+    summary.add_warnings(warnings_about(result_, facts));
   }
 
  private:

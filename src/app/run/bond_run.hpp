@@ -38,7 +38,7 @@ class MovingBondsRun : public NetworkRun, protected BondRunObserver {
   Index loose_pieces_ = 0;         ///< parts of the broken body at the end that nothing holds
 
  private:
-  Csr families_;
+  Csr neighbourhoods_;
 };
 
 }  // namespace perilink

@@ -23,7 +23,7 @@ DamageRun::DamageRun(const CaseFile& of_case, int on_threads, bool quiet)
   for (const Index element : model_.network.cut_elements) is_broken_[element] = 1;
   if (const auto note = note_of_separated_body(input, model_, threads)) notes.push_back(*note);
   plan += fmt::format(", {} unknowns", model_.unknowns.count);
-  places_held_ = held_places(input, model_);
+  places_held_ = support_regions(input, model_);
   for (const StageSection& stage : input.stages) {
     const auto earlier =
         std::find_if(input.stages.begin(), input.stages.end(),
@@ -42,18 +42,18 @@ void DamageRun::analyse() {
     try {
       result_ = run_damage_analysis(model_, options, *this);
       done = true;
-    } catch (const LateConversion& late) {
+    } catch (const MissedRelease& late) {
       begin_again(late);
     }
   }
 }
 
 /// From the beginning, without the elements that the run has converted by now.
-void DamageRun::begin_again(const LateConversion& late) {
-  ++late_conversions_;
-  CarriedBody& body = *model_.carried;
+void DamageRun::begin_again(const MissedRelease& late) {
+  ++missed_releases_;
+  EmbeddedBody& body = *model_.embedded;
   body.whole = late.whole;
-  model_.unknowns = carried_motion(body.carriers, body.free, body.whole);
+  model_.unknowns = embedded_motion(body.hosts, body.free, body.whole);
   files_->begin_again();
   broken_.clear();
   std::fill(is_broken_.begin(), is_broken_.end(), 0);
@@ -73,29 +73,29 @@ void DamageRun::tell(Summary& summary) const {
   const CurvePoint peak{result_.peak_displacement, result_.peak_load};
   const double length = longest_side(model_.network.particles);
   if (result_.beyond_small_strains) {
-    found.doubts.push_back(doubt_about_crushing(result_.peaks.highest()));
-  } else if (auto doubt = doubt_about_size(peak, length)) {
-    found.doubts.push_back(std::move(*doubt));
-  } else if (auto end = doubt_about_end(result_.last.displacement, length)) {
-    found.doubts.push_back(std::move(*end));
+    found.warnings.push_back(warning_about_crushing(result_.peaks.highest()));
+  } else if (auto warning = warning_about_size(peak, length)) {
+    found.warnings.push_back(std::move(*warning));
+  } else if (auto end = warning_about_end(result_.last.displacement, length)) {
+    found.warnings.push_back(std::move(*end));
   }
-  if (auto doubt = balance_.doubt()) found.doubts.push_back(std::move(*doubt));
-  if (late_conversions_ > 0) {
+  if (auto warning = balance_.warning()) found.warnings.push_back(std::move(*warning));
+  if (missed_releases_ > 0) {
     summary.add_note(fmt::format(
         "{} conversions of elements came late: a bond was past its limit before its element let go "
         "of it. Each time the run began again with these elements converted; a smaller `alert` in "
         "[elements] saves that time",
-        late_conversions_));
+        missed_releases_));
   }
-  summary.add_note(note_of_grips(model_, broken_));
+  summary.add_note(note_of_clamps(model_, broken_));
   if (const auto text = text_of_peaks(result_, model_, broken_)) {
-    (input.rebar.empty() ? found.doubts : summary.notes).push_back(*text);
+    (input.rebar.empty() ? found.warnings : summary.notes).push_back(*text);
   }
   tell_stresses(summary, found);
   tell_quasistatic(summary, input, model_, found, seconds.analysis);
   tell_stages(summary, input, result_.stages);
   tell_cracks(summary, cracks_);
-  if (model_.carried) tell_elements(summary);
+  if (model_.embedded) tell_elements(summary);
 }
 
 /// Quantities of the bonds at the peak and at the end, and what is doubtful about them.
@@ -110,23 +110,23 @@ void DamageRun::tell_stresses(Summary& summary, Equilibria& found) const {
   if (softened_.cracks + softened_.diffuse > 0.0) {
     summary.add("diffuse_energy", softened_.diffuse);
   }
-  for (auto& doubt : {doubt_about_compression(at(result_.peaks.highest().load)),
-                      doubt_about_diffuse_softening(softened_)}) {
-    if (doubt) found.doubts.push_back(*doubt);
+  for (auto& warning : {warning_about_compression(at(result_.peaks.highest().load)),
+                        warning_about_diffuse_softening(softened_)}) {
+    if (warning) found.warnings.push_back(*warning);
   }
 }
 
 void DamageRun::tell_elements(Summary& summary) const {
   summary.add("elements_at_end", result_.elements);
   summary.add("conversions", result_.conversions);
-  summary.add("late_conversions", late_conversions_);
+  summary.add("late_conversions", missed_releases_);
   summary.add("unknowns_at_end", result_.unknowns);
-  summary.add("freed_energy", result_.last.freed_energy);
+  summary.add("freed_energy", result_.last.constraint_energy);
   const double work = std::abs(result_.last.external_work);
   summary.line("conversions",
                "{}: {} elements at the end, with {} unknowns; freed {:.2g} of the work",
                result_.conversions, result_.elements, result_.unknowns,
-               work > 0.0 ? result_.last.freed_energy / work : 0.0);
+               work > 0.0 ? result_.last.constraint_energy / work : 0.0);
 }
 
 /// With which displacements are to be multiplied, StepState::displacement.
@@ -158,17 +158,17 @@ void DamageRun::note_places(const StepRecord& record, StateSource& source) {
     return;
   highest_ = std::abs(record.load);
   high_rows_.push_back({highest_, record.load_factor, {}});
-  if (model_.driven_places.empty()) return;  // a look at the state may cost a solve
+  if (model_.prescribed_regions.empty()) return;  // a look at the state may cost a solve
   const StepState state = source.state();
   high_rows_.back().places =
-      place_forces(model_, record.load_factor, state.secants, state.displacement, {}, state.whole);
+      region_forces(model_, record.load_factor, state.secants, state.displacement, {}, state.whole);
 }
 
-std::vector<PlaceForce> DamageRun::places_at_peak() const {
+std::vector<RegionForce> DamageRun::places_at_peak() const {
   for (const HighRow& row : high_rows_) {
     if (row.load != std::abs(result_.peak_load)) continue;
-    return model_.driven_places.empty() ? place_forces(model_, row.load_factor, {}, {})
-                                        : row.places;
+    return model_.prescribed_regions.empty() ? region_forces(model_, row.load_factor, {}, {})
+                                             : row.places;
   }
   return {};
 }
@@ -211,22 +211,24 @@ ModelState DamageRun::model_state(const StepRecord& record, const StepState& sta
 void DamageRun::write_state(const StepRecord& record, StateSource& source) {
   const Network& network = model_.network;
   files_->write_fields(record.step, record.step, [&] {
-    if (families_.rows() == 0) {
-      families_ = bonds_of_particles(network.bonds, network.particles.size());
+    if (neighbourhoods_.rows() == 0) {
+      neighbourhoods_ = bonds_of_particles(network.bonds, network.particles.size());
     }
     const StepState state = source.state();
     std::vector<double> motion(state.displacement.begin(), state.displacement.end());
     for (double& u : motion) u *= scale_of(record);
     VtuGrid grid = make_field_grid(network, state.secants, motion, moment_of(record, input, model_),
-                                   broken_, families_);
+                                   broken_, neighbourhoods_);
     if (network.is_beam()) {
       add_section_forces(grid, section_forces(network, state.secants, motion));
     }
     if (!network.has_sections()) {
-      add_stresses(grid, particle_stresses(stress_input(model_, families_, state.secants), motion),
+      add_stresses(grid,
+                   particle_stresses(stress_input(model_, neighbourhoods_, state.secants), motion),
                    network.dim());
       note_compression(record, grid);
-      const CrackOpenings openings = crack_openings(network, families_, state.secants, motion);
+      const CrackOpenings openings =
+          crack_openings(network, neighbourhoods_, state.secants, motion);
       add_openings(grid, network, openings, broken_);
       cracks_ = widest_cracks(network, openings);
     }
@@ -236,8 +238,8 @@ void DamageRun::write_state(const StepRecord& record, StateSource& source) {
       add_bars(grid, bars);
       files_->write_table("bars", record.step, bar_table(network, bars));
     }
-    if (model_.carried) {
-      add_carriers(grid, network.particles, model_.carried->carriers, state.whole);
+    if (model_.embedded) {
+      add_hosts(grid, network.particles, model_.embedded->hosts, state.whole);
     }
     return grid;
   });
@@ -264,7 +266,7 @@ void DamageRun::show_progress(const StepRecord& record) {
     const std::string& name = input.stages[static_cast<std::size_t>(record.stage - 1)].name;
     state = fmt::format("{}: {}", name, state);
   }
-  if (model_.carried) state += fmt::format(", {} elements", record.elements);
+  if (model_.embedded) state += fmt::format(", {} elements", record.elements);
   files_->bar().draw(state, done);
 }
 
@@ -274,7 +276,7 @@ void DamageRun::on_step(const StepRecord& record, StateSource& source) {
   note_places(record, source);
   std::vector<double> gauges;
   if (!model_.gauges.empty())
-    gauges = gauge_values(model_, model_state(record, source.state()), families_);
+    gauges = gauge_values(model_, model_state(record, source.state()), neighbourhoods_);
   files_->add_row(record, gauges);
   show_progress(record);
   if (wants_fields(record)) write_state(record, source);

@@ -16,7 +16,7 @@ class DamageRun final : public NetworkRun, public StepObserver {
   DamageRun(const CaseFile& of_case, int on_threads, bool quiet);
 
   void analyse() override;
-  Verdict verdict() override { return {result_.ending, result_.reason}; }
+  RunOutcome run_outcome() override { return {result_.termination, result_.reason}; }
   void tell(Summary& summary) const override;
 
   void on_step(const StepRecord& record, StateSource& source) override;
@@ -28,33 +28,33 @@ class DamageRun final : public NetworkRun, public StepObserver {
   ModelState model_state(const StepRecord& record, const StepState& state) const;
   void note_places(const StepRecord& record, StateSource& source);
   void note_compression(const StepRecord& record, const VtuGrid& grid);
-  std::vector<PlaceForce> places_at_peak() const;
+  std::vector<RegionForce> places_at_peak() const;
   void tell_stresses(Summary& summary, Equilibria& found) const;
   void tell_elements(Summary& summary) const;
-  void begin_again(const LateConversion& late);
+  void begin_again(const MissedRelease& late);
   void note_broken(const StepRecord& record, StateSource& source);
   bool wants_fields(const StepRecord& record) const;
   void write_state(const StepRecord& record, StateSource& source);
   void show_progress(const StepRecord& record);
 
   DamageResult result_;
-  Index late_conversions_ = 0;  ///< after each of which the run began again
-  Csr families_;                ///< made with the first field file
-  std::vector<Index> broken_;   ///< bonds and ties, in the order of breaking
+  Index missed_releases_ = 0;  ///< after each of which the run began again
+  Csr neighbourhoods_;         ///< made with the first field file
+  std::vector<Index> broken_;  ///< bonds and ties, in the order of breaking
   std::vector<std::uint8_t> is_broken_;
   Index last_element_ = no_index;  ///< that failed at the end of the last row
   Index last_events_ = 1;          ///< elements that failed with it
   Index broken_at_fields_ = 0;     ///< number of broken bonds in the last field file
   Index last_stage_ = 0;           ///< where the last row was
   double highest_ = 0.0;           ///< |load| so far
-  std::vector<HeldPlace> places_held_;
+  std::vector<SupportRegion> places_held_;
   std::vector<std::size_t> set_of_stage_;  ///< in Model::sets
   std::vector<double> set_factors_;        ///< per set, in the last row
   std::vector<ToldCrack> cracks_;          ///< in the last field file
   /// A row with the largest |load| so far, where there are several places.
   struct HighRow {
     double load, load_factor;
-    std::vector<PlaceForce> places;  ///< driven ones; others follow from the load factor
+    std::vector<RegionForce> places;  ///< driven ones; others follow from the load factor
   };
   std::vector<HighRow> high_rows_;
   Compression compression_;  ///< at a load of one; of stages the largest of all field files

@@ -14,20 +14,20 @@
 namespace perilink {
 namespace {
 
-VtuGrid make_grid(const Model& model, const Csr& families, Secants secants,
+VtuGrid make_grid(const Model& model, const Csr& neighbourhoods, Secants secants,
                   std::span<const double> displacement, const std::optional<BarState>& bars,
                   const FieldMoment& moment) {
   const Network& network = model.network;
   VtuGrid grid = model.elements
                      ? make_element_grid(*model.elements, network.particles, displacement, moment)
-                     : make_field_grid(network, secants, displacement, moment, {}, families);
+                     : make_field_grid(network, secants, displacement, moment, {}, neighbourhoods);
   if (bars) add_bars(grid, *bars);
-  if (model.carried) {
-    add_carriers(grid, network.particles, model.carried->carriers, model.carried->whole);
+  if (model.embedded) {
+    add_hosts(grid, network.particles, model.embedded->hosts, model.embedded->whole);
   }
   if (network.is_beam()) add_section_forces(grid, section_forces(network, secants, displacement));
   if (network.has_sections()) return grid;
-  add_stresses(grid, particle_stresses(stress_input(model, families, secants), displacement),
+  add_stresses(grid, particle_stresses(stress_input(model, neighbourhoods, secants), displacement),
                network.dim());
   return grid;
 }
@@ -50,7 +50,8 @@ void for_each_bond(const Model& model, Visit visit) {
     return;
   }
   const Bonds& bonds = model.network.bonds;
-  for (Index e = 0; e < model.network.first_tie; ++e) visit(bonds.first[e], bonds.second[e]);
+  for (Index e = 0; e < model.network.first_slip_spring; ++e)
+    visit(bonds.first[e], bonds.second[e]);
 }
 
 /// Share of the bonds whose vectors change by more than a tenth of their lengths.
@@ -95,7 +96,7 @@ class ElasticRun final : public NetworkRun {
     const StepRecord& row = answer_.row;
     if (has_several_places(model_) && row.load != 0.0) {
       places_ =
-          place_forces(model_, row.load_factor, secants, displacement, answer_.solution.forces);
+          region_forces(model_, row.load_factor, secants, displacement, answer_.solution.forces);
     }
     ModelState state{secants, displacement};
     state.internal = answer_.solution.forces;
@@ -106,9 +107,9 @@ class ElasticRun final : public NetworkRun {
       state.stresses = stresses =
           stresses_of_parts(*answer_.solution.team, model_.network.particles.size(), pieces);
     }
-    Csr families;
-    files_->add_row(row, gauge_values(model_, state, families));
-    write_reactions(row, held_places(input, model_), state);
+    Csr neighbourhoods;
+    files_->add_row(row, gauge_values(model_, state, neighbourhoods));
+    write_reactions(row, support_regions(input, model_), state);
     std::optional<BarState> bars;
     if (!model_.network.bars.bar.empty()) {
       bars = bar_state(model_.network, secants, displacement);
@@ -121,36 +122,36 @@ class ElasticRun final : public NetworkRun {
       return;
     }
     files_->write_fields(row.step, row.step, [&] {
-      if (families.rows() == 0) {
-        families = bonds_of_particles(model_.network.bonds, model_.network.particles.size());
+      if (neighbourhoods.rows() == 0) {
+        neighbourhoods = bonds_of_particles(model_.network.bonds, model_.network.particles.size());
       }
-      VtuGrid grid = make_grid(model_, families, secants, displacement, bars, moment);
-      families = {};  // the file takes room, too
+      VtuGrid grid = make_grid(model_, neighbourhoods, secants, displacement, bars, moment);
+      neighbourhoods = {};  // the file takes room, too
       return grid;
     });
   }
 
-  Verdict verdict() override { return {answer_.ending, answer_.reason}; }
+  RunOutcome run_outcome() override { return {answer_.termination, answer_.reason}; }
 
   void tell(Summary& summary) const override {
     Equilibria found(answer_);
     found.places = places_;
     if (!answer_.solution.displacement.empty()) {
       const double share = share_of_large_motion(model_, answer_.solution.displacement);
-      if (auto doubt = doubt_about_motion(share)) found.doubts.push_back(std::move(*doubt));
+      if (auto warning = warning_about_motion(share)) found.warnings.push_back(std::move(*warning));
     }
-    if (auto doubt = balance_.doubt()) found.doubts.push_back(std::move(*doubt));
+    if (auto warning = balance_.warning()) found.warnings.push_back(std::move(*warning));
     tell_quasistatic(summary, input, model_, found, seconds.analysis);
     const ElasticResult& solution = answer_.solution;
-    if (solution.boxes == 0) return;
+    if (solution.subdomains == 0) return;
     summary.add("iterations", solution.iterations);
-    summary.add("boxes", solution.boxes);
+    summary.add("boxes", solution.subdomains);
     summary.add("solution_error", solution.error);
   }
 
  private:
   ElasticAnswer answer_;
-  std::vector<PlaceForce> places_;
+  std::vector<RegionForce> places_;
 };
 
 }  // namespace

@@ -28,7 +28,7 @@ class LatticeRun final : public RunKind, private ExplicitObserver {
     result_ = run_explicit_analysis(built_.model, state, built_.options, *this);
   }
 
-  Verdict verdict() override { return {result_.ending, result_.reason}; }
+  RunOutcome run_outcome() override { return {result_.termination, result_.reason}; }
 
   void tell(Summary& summary) const override {
     const LatticeRows& lattice = built_.model.lattice;
@@ -45,8 +45,8 @@ class LatticeRun final : public RunKind, private ExplicitObserver {
     const double length = longest_side(lattice.dim, lattice.particles(), [&](Index i, int axis) {
       return lattice.positions[lattice.at(axis, lattice.particle_slot[i])];
     });
-    summary.add_doubts(
-        doubts_about(result_, run_facts(input, length, files().peaks().highest().load)));
+    summary.add_warnings(
+        warnings_about(result_, run_facts(input, length, files().peaks().highest().load)));
   }
 
  private:
@@ -78,7 +78,7 @@ class LatticeRun final : public RunKind, private ExplicitObserver {
 
   /// Forces in the step before, as in the history.
   void write_reactions(const ExplicitRecord& record, const ExplicitState& state) {
-    const std::vector<HeldPlace> held = held_places(input, built_.places);
+    const std::vector<SupportRegion> held = support_regions(input, built_.places);
     if (held.empty()) return;
     const LatticeRows& lattice = built_.model.lattice;
     std::vector<double> forces;

@@ -31,29 +31,29 @@ ElasticAnswer solve_elastic(const Model& model, const ElasticOptions& options) {
   row.load = model.reference.driven ? 2.0 * energy / model.reference.value : model.reference.value;
   row.displacement = row.load != 0.0 ? 2.0 * energy / row.load : 0.0;
   row.residual = answer.solution.residual;
-  row.factorizations = answer.solution.boxes == 0 ? 1 : 0;
+  row.factorizations = answer.solution.subdomains == 0 ? 1 : 0;
   answer.peaks.add({row.displacement, row.load});
   return answer;
 }
 
-std::vector<PlaceForce> place_forces(const Model& model, double load_factor, Secants secants,
-                                     std::span<const double> motion, std::vector<double> forces,
-                                     std::span<const std::uint8_t> whole) {
+std::vector<RegionForce> region_forces(const Model& model, double load_factor, Secants secants,
+                                       std::span<const double> motion, std::vector<double> forces,
+                                       std::span<const std::uint8_t> whole) {
   const std::size_t dim = model.network.dim(), width = model.network.width();
-  std::vector<PlaceForce> places;
-  for (const LoadedPlace& place : model.loaded_places) {
-    PlaceForce& at = places.emplace_back(PlaceForce{place.name, {}});
+  std::vector<RegionForce> places;
+  for (const LoadRegion& place : model.load_regions) {
+    RegionForce& at = places.emplace_back(RegionForce{place.name, {}});
     for (std::size_t a = 0; a < dim; ++a) at.force.push_back(load_factor * place.force[a]);
   }
-  if (model.driven_places.empty()) return places;
+  if (model.prescribed_regions.empty()) return places;
   if (forces.empty()) {
     forces = model.elements ? internal_force(*model.elements, motion).forces
                             : internal_force(model.network, secants, motion).forces;
   }
   load_particles(model.network, forces);
   pass_to_held(model, whole, model.loads.forces, forces);
-  for (const DrivenPlace& place : model.driven_places) {
-    PlaceForce& at = places.emplace_back(PlaceForce{place.name, std::vector<double>(dim, 0.0)});
+  for (const PrescribedRegion& place : model.prescribed_regions) {
+    RegionForce& at = places.emplace_back(RegionForce{place.name, std::vector<double>(dim, 0.0)});
     double sum = 0.0;
     for (const std::size_t slot : place.slots) {
       if (slot % width >= dim) continue;  // a moment
@@ -76,8 +76,8 @@ std::string text_of_ranks(const FactorStatistics& factor) {
 
 std::string solver_text(const FactorStatistics& factor) {
   std::string work =
-      factor.boxes > 0
-          ? fmt::format("conjugate gradients with {} boxes, made {} time{}", factor.boxes,
+      factor.subdomains > 0
+          ? fmt::format("conjugate gradients with {} boxes, made {} time{}", factor.subdomains,
                         factor.factorizations, factor.factorizations == 1 ? "" : "s")
           : fmt::format("{} factorisations", factor.factorizations);
   if (factor.iterations > 0) work += fmt::format(", {} iterations", factor.iterations);
@@ -102,9 +102,9 @@ namespace {
 
 std::string solver_text(const ElasticResult& solution) {
   if (solution.displacement.empty()) return "no equilibrium found";
-  if (solution.boxes == 0) return "1 factorisation";
+  if (solution.subdomains == 0) return "1 factorisation";
   return fmt::format("{} iterations of conjugate gradients with {} boxes{}, error {:.1e}",
-                     solution.iterations, solution.boxes, text_of_ranks(solution.factor),
+                     solution.iterations, solution.subdomains, text_of_ranks(solution.factor),
                      solution.error);
 }
 
@@ -129,7 +129,7 @@ void tell_equilibria(Summary& summary, const CaseFile& input, const Equilibria& 
     summary.add("smoothed_peak_load", *found.smoothed_peak_load);
     summary.line("", "{:.6g} of the smooth curve through the events", *found.smoothed_peak_load);
   }
-  for (const PlaceForce& place : found.places) {
+  for (const RegionForce& place : found.places) {
     summary.json["places"].push_back({{"name", place.name}, {"force", place.force}});
     summary.line("", "({}) by {}", joined(place.force), place.name);
   }
@@ -159,7 +159,7 @@ void tell_stages(Summary& summary, const CaseFile& input, const std::vector<Stag
     const std::string& name = input.stages[k].name;
     summary.json["stages"].push_back({{"name", name},
                                       {"loads", input.stages[k].loads},
-                                      {"status", to_string(stage.ending)},
+                                      {"status", to_string(stage.termination)},
                                       {"reason", stage.reason},
                                       {"load_factor", stage.last.load_factor},
                                       {"load", stage.last.load},
@@ -175,7 +175,7 @@ void tell_stages(Summary& summary, const CaseFile& input, const std::vector<Stag
     const bool goes_on =
         k + 1 < stages.size() && input.stages[k + 1].loads == input.stages[k].loads;
     if (stage.largest.load != stage.peak.load && !goes_on && k + 1 < stages.size()) {
-      summary.doubts.push_back(fmt::format(
+      summary.warnings.push_back(fmt::format(
           "stage \"{}\": residual strength: its load reached {:.6g}, and climbed again, to "
           "{:.6g}, which is carried by what is left of a body that has failed",
           name, stage.peak.load, stage.largest.load));
@@ -190,16 +190,17 @@ void tell_quasistatic(Summary& summary, const CaseFile& input, const Model& mode
                       const Equilibria& found, double seconds) {
   const Index rows = found.last.step;
   tell_equilibria(summary, input, found);
-  summary.add_doubts(doubts_of_balance(found.energy_error, found.largest_residual, found.unsolved));
-  summary.add_doubts(found.doubts);
-  summary.add("doubts", summary.doubts);
+  summary.add_warnings(
+      warnings_of_balance(found.energy_error, found.largest_residual, found.unsolved));
+  summary.add_warnings(found.warnings);
+  summary.add("doubts", summary.warnings);
   tell_body(summary, model, fmt::format(", {} unknowns", model.unknowns.count));
-  if (model.carried) {
-    const std::vector<std::uint8_t>& whole = model.carried->whole;
+  if (model.embedded) {
+    const std::vector<std::uint8_t>& whole = model.embedded->whole;
     const auto carrying = std::count(whole.begin(), whole.end(), 1);
     summary.add("elements", carrying);
     summary.line("elements", "{} carry particles, which would have {} unknowns", carrying,
-                 model.carried->free.count);
+                 model.embedded->free.count);
   }
   summary.add("notes", summary.notes);
   summary.add("factorizations", found.factor.factorizations);

@@ -17,7 +17,7 @@ namespace perilink {
 
 /// The elastic equilibrium of a body at load factor 1.
 struct ElasticAnswer {
-  Ending ending = Ending::completed;
+  Termination termination = Termination::completed;
   std::string reason;
   ElasticResult solution;
   StepRecord row;  ///< all its history
@@ -28,14 +28,14 @@ struct ElasticAnswer {
 ElasticAnswer solve_elastic(const Model& model, const ElasticOptions& options);
 
 /// Force on the body at a loaded or driven place.
-struct PlaceForce {
+struct RegionForce {
   std::string name;
   std::vector<double> force;  ///< size dim [force]
 };
 
 /// Whether there are several; one bears the whole load.
 inline bool has_several_places(const Model& model) {
-  return model.loaded_places.size() + model.driven_places.size() > 1;
+  return model.load_regions.size() + model.prescribed_regions.size() > 1;
 }
 
 /// Forces of all places at a load factor.
@@ -43,10 +43,10 @@ inline bool has_several_places(const Model& model) {
 /// \param motion   at load factor 1, shape (particles, width) [length]
 /// \param forces   that hold the particles so, where they are known (InternalForce::forces)
 /// \param whole    see ModelState::whole
-std::vector<PlaceForce> place_forces(const Model& model, double load_factor, Secants secants,
-                                     std::span<const double> motion,
-                                     std::vector<double> forces = {},
-                                     std::span<const std::uint8_t> whole = {});
+std::vector<RegionForce> region_forces(const Model& model, double load_factor, Secants secants,
+                                       std::span<const double> motion,
+                                       std::vector<double> forces = {},
+                                       std::span<const std::uint8_t> whole = {});
 
 /// What equilibria tell.
 struct Equilibria {
@@ -64,8 +64,8 @@ struct Equilibria {
   Index broken_bonds = 0;                         ///< with the one that separated the body
   double energy_error = 0.0;                      ///< over the work [-]
   std::optional<double> smoothed_peak_load = {};  ///< where the path of events is long enough
-  std::vector<PlaceForce> places = {};            ///< at the peak, where there are several
-  std::vector<std::string> doubts = {};           ///< beside those about the balance
+  std::vector<RegionForce> places = {};           ///< at the peak, where there are several
+  std::vector<std::string> warnings = {};         ///< beside those about the balance
 };
 
 /// Curve, energies and errors.

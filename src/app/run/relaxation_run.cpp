@@ -48,7 +48,7 @@ class RelaxationRun final : public MovingBondsRun {
     result_ = run_dynamic_relaxation(model_, relaxation_options(input, threads), *this);
   }
 
-  Verdict verdict() override { return {result_.ending, result_.reason}; }
+  RunOutcome run_outcome() override { return {result_.termination, result_.reason}; }
 
   void tell(Summary& summary) const override {
     const Index broken = result_.last.broken_bonds;
@@ -69,7 +69,7 @@ class RelaxationRun final : public MovingBondsRun {
                  energy.external_work, energy.fractured, broken, energy.external_damping);
     tell_cracks(summary, cracks_);
     tell_body(summary, model_);
-    summary.add_doubts(doubts_at_rest(energy));
+    summary.add_warnings(warnings_at_rest(energy));
     summary.rate = bond_rate(result_.iterations);
     summary.outcome = fmt::format("{} iterations, {} broken bonds, residual {:.2e}",
                                   result_.iterations, broken, result_.residual);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/quasistatic/boxes/box_factor.hpp"
+#include "analysis/quasistatic/subdomains/subdomain_factor.hpp"
 #include "app/run/summary.hpp"
 #include "base/timer.hpp"
 
@@ -138,7 +138,7 @@ Index field_files(const OutputSection& output, Index broken_bonds) {
   return files;
 }
 
-ExpectedCost expected_cost_of_boxes(const Network& network, bool events) {
+ExpectedCost expected_cost_of_subdomains(const Network& network, bool events) {
   const double bonds = network.num_elements();
   ExpectedCost cost;
   const bool frames = network.carries_moments();

@@ -38,7 +38,7 @@ ExpectedCost expected_cost(const Network& network, const FactorStatistics& facto
 
 /// What conjugate gradients cost in place of a factor.
 /// \param events  whether the run follows events
-ExpectedCost expected_cost_of_boxes(const Network& network, bool events);
+ExpectedCost expected_cost_of_subdomains(const Network& network, bool events);
 
 /// Time of a step of an explicit run, from some steps of it that begin at rest [s]. What cracks
 /// cost is a mean, what flow costs is not in it.

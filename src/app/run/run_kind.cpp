@@ -24,7 +24,7 @@ std::string NetworkRun::bond_rate(Index steps) const {
   return rate_text(1.0 * model_.network.num_elements() * steps, seconds.analysis, "bond-steps");
 }
 
-void NetworkRun::write_reactions(const StepRecord& row, const std::vector<HeldPlace>& places,
+void NetworkRun::write_reactions(const StepRecord& row, const std::vector<SupportRegion>& places,
                                  const ModelState& state) {
   if (places.empty()) return;
   const ReactionTable table = reaction_table(places, model_, state);
@@ -40,18 +40,18 @@ std::string rate_text(double count, double seconds, const std::string& unit) {
 }
 
 Summary summary_of(RunKind& run, const std::filesystem::path& directory) {
-  const Verdict verdict = run.verdict();
+  const RunOutcome run_outcome = run.run_outcome();
   const PhaseSeconds& seconds = run.seconds;
-  const std::string status = to_string(verdict.ending);
+  const std::string status = to_string(run_outcome.termination);
   Summary summary;
   summary.notes = run.notes;
-  summary.json = summary_head(run.input, status, verdict.reason);
+  summary.json = summary_head(run.input, status, run_outcome.reason);
   summary.text = (run.input.title.empty() ? run.input.path : run.input.title) + "\n";
-  summary.line("ended", "{} ({})", status, verdict.reason);
+  summary.line("ended", "{} ({})", status, run_outcome.reason);
   run.tell(summary);
 
   summary.add("notes", summary.notes);
-  summary.add("doubts", summary.doubts);
+  summary.add("doubts", summary.warnings);
   nlohmann::ordered_json phases = {
       {"set_up", seconds.set_up}, {"analysis", seconds.analysis}, {"output", seconds.output}};
   for (const auto& [part, time] : seconds.parts) phases[part] = time;
@@ -64,7 +64,7 @@ Summary summary_of(RunKind& run, const std::filesystem::path& directory) {
   summary.add("version", program_version());
   summary.add("commit", program_commit());
   for (const std::string& note : summary.notes) summary.line("note", "{}", note);
-  for (const std::string& doubt : summary.doubts) summary.line("doubt", "{}", doubt);
+  for (const std::string& warning : summary.warnings) summary.line("doubt", "{}", warning);
   summary.line("results", "{}", directory.string());
   return summary;
 }

@@ -23,8 +23,8 @@ struct PhaseSeconds {
 };
 
 /// How a run ended, in its result.
-struct Verdict {
-  Ending& ending;
+struct RunOutcome {
+  Termination& termination;
   std::string& reason;
 };
 
@@ -43,7 +43,7 @@ class RunKind {
   RunFiles& files() const { return *files_; }
   /// Runs the analysis; an ending that it tells itself is in verdict().
   virtual void analyse() = 0;
-  virtual Verdict verdict() = 0;
+  virtual RunOutcome run_outcome() = 0;
   /// Adds what this kind of run tells, between what all kinds tell.
   virtual void tell(Summary& summary) const = 0;
 
@@ -69,7 +69,7 @@ class NetworkRun : public RunKind {
   std::string bond_rate(Index steps) const;
   /// Writes reactions_STEP.csv of an equilibrium and compares its sum with zero: to 1e-8, or what
   /// the residual of the equilibrium can leave.
-  void write_reactions(const StepRecord& row, const std::vector<HeldPlace>& places,
+  void write_reactions(const StepRecord& row, const std::vector<SupportRegion>& places,
                        const ModelState& state);
 
   Model model_;

@@ -8,7 +8,7 @@ namespace perilink {
 namespace {
 
 /// How many elements end at particles that supports or driven displacements hold.
-std::size_t count_at_grips(const Model& model, std::span<const Index> elements) {
+std::size_t count_at_clamps(const Model& model, std::span<const Index> elements) {
   const Bonds& bonds = model.network.bonds;
   return std::count_if(elements.begin(), elements.end(), [&](Index e) {
     return model.gripped[bonds.first[e]] != 0 || model.gripped[bonds.second[e]] != 0;
@@ -17,15 +17,15 @@ std::size_t count_at_grips(const Model& model, std::span<const Index> elements) 
 
 }  // namespace
 
-std::optional<std::string> note_of_grips(const Model& model, std::span<const Index> broken) {
+std::optional<std::string> note_of_clamps(const Model& model, std::span<const Index> broken) {
   if (model.network.is_beam()) return std::nullopt;  // moments are largest at loads and supports
-  const std::size_t at_grip = count_at_grips(model, broken);
-  if (at_grip == 0) return std::nullopt;
+  const std::size_t at_clamp = count_at_clamps(model, broken);
+  if (at_clamp == 0) return std::nullopt;
   return fmt::format(
       "{} of {} broken bonds end at particles of [[supports]] or [[displacements]]; where the body "
       "should not break there, give it a material with fracture_energy = \"infinite\"; hold planes "
       "of symmetry by [[symmetry]], which this note leaves out",
-      at_grip, broken.size());
+      at_clamp, broken.size());
 }
 
 std::optional<std::string> text_of_peaks(const PeakWatch& peaks, bool bars) {
@@ -43,17 +43,17 @@ std::optional<std::string> text_of_peaks(const PeakWatch& peaks, bool bars) {
 
 std::optional<std::string> text_of_peaks(const DamageResult& result, const Model& model,
                                          std::span<const Index> broken) {
-  const bool bars = model.network.first_tie < model.network.num_elements();
+  const bool bars = model.network.first_slip_spring < model.network.num_elements();
   std::optional<std::string> text = text_of_peaks(result.peaks, bars);
   const std::size_t before = static_cast<std::size_t>(result.broken_as_gave_way);
   if (!text || broken.size() <= before) return text;
   const std::span<const Index> later = broken.subspan(before);
-  const auto at_grips = count_at_grips(model, later);
-  if (at_grips == 0) return text;
+  const auto at_clamps = count_at_clamps(model, later);
+  if (at_clamps == 0) return text;
   return fmt::format(
       "{}; {} of the {} bonds that broke since then end at particles of "
       "[[supports]] or [[displacements]]",
-      *text, at_grips, later.size());
+      *text, at_clamps, later.size());
 }
 
 }  // namespace perilink

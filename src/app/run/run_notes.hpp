@@ -12,7 +12,7 @@ namespace perilink {
 /// Where bonds broke at particles that supports or driven displacements hold: nothing of the body
 /// may be wrong with that, but often the grips are.
 /// \param broken  elements that broke
-std::optional<std::string> note_of_grips(const Model& model, std::span<const Index> broken);
+std::optional<std::string> note_of_clamps(const Model& model, std::span<const Index> broken);
 
 /// Where the load climbed above its first peak after the body had failed: which peak is which. A
 /// doubt, with bars a note.

@@ -25,12 +25,12 @@ std::string text_of_pieces(Index pieces) {
 }
 
 /// Runs that were cut short were not meant to end where they did.
-void doubt_motion(const ExplicitResult& result, const RunFacts& facts,
-                  std::vector<std::string>& doubts) {
+void warning_motion(const ExplicitResult& result, const RunFacts& facts,
+                    std::vector<std::string>& warnings) {
   constexpr double most_moving = 0.1;
-  if (facts.impact || result.ending != Ending::completed) return;
+  if (facts.impact || result.termination != Termination::completed) return;
   if (result.last.time < facts.wave_time) {
-    doubts.push_back(fmt::format(
+    warnings.push_back(fmt::format(
         "the run ends after {:.2g}, before a wave has gone along the body and back, which takes "
         "{:.2g}: what happens at one end is not known at the other; are modulus, density and time "
         "in units of one system?",
@@ -38,7 +38,7 @@ void doubt_motion(const ExplicitResult& result, const RunFacts& facts,
   }
   const double moving = moving_part(result.last.energy);
   if (moving <= most_moving) return;
-  doubts.push_back(fmt::format(
+  warnings.push_back(fmt::format(
       "{:.0f} % of the work is kinetic energy at the end: {}; loads and displacements are no "
       "static ones: load more slowly, damp the motion, or hold what flies",
       100.0 * moving, text_of_pieces(facts.loose_pieces)));
@@ -59,11 +59,11 @@ RunFacts run_facts(const CaseFile& input, double length, double peak_load) {
   return facts;
 }
 
-std::vector<std::string> doubts_about(const ExplicitResult& result, const RunFacts& facts) {
+std::vector<std::string> warnings_about(const ExplicitResult& result, const RunFacts& facts) {
   constexpr double most_surplus = 0.01, most_difference = 0.05;
-  std::vector<std::string> doubts;
+  std::vector<std::string> warnings;
   if (result.largest_surplus > most_surplus) {
-    doubts.push_back(
+    warnings.push_back(
         fmt::format("energy appeared from nothing or vanished, up to {:.2g} % of the work: forces "
                     "and losses of these rules belong to no energy, or the step is too large",
                     100.0 * result.largest_surplus));
@@ -73,17 +73,17 @@ std::vector<std::string> doubts_about(const ExplicitResult& result, const RunFac
   const bool carries = reaction > 0.5 * load && load > 0.0;
   const double difference = std::abs(load - reaction);
   if (carries && difference > most_difference * reaction) {
-    doubts.push_back(
+    warnings.push_back(
         fmt::format("the peaks of load and reaction differ by {:.2g} %: inertia, or damping of the "
                     "motion by mass, is in the load; load more slowly, damp less, or read the "
                     "reaction",
                     100.0 * difference / reaction));
   }
-  doubt_motion(result, facts, doubts);
-  return doubts;
+  warning_motion(result, facts, warnings);
+  return warnings;
 }
 
-std::vector<std::string> doubts_at_rest(const EnergyBalance& energy) {
+std::vector<std::string> warnings_at_rest(const EnergyBalance& energy) {
   constexpr double most_surplus = 0.01;
   const double kept = energy.stored + energy.fractured;
   if (kept <= (1.0 + most_surplus) * energy.external_work) return {};
@@ -93,7 +93,7 @@ std::vector<std::string> doubts_at_rest(const EnergyBalance& energy) {
       kept, energy.external_work)};
 }
 
-std::optional<std::string> doubt_about_size(const CurvePoint& peak, double length) {
+std::optional<std::string> warning_about_size(const CurvePoint& peak, double length) {
   constexpr double small = 0.1;
   const double part = std::abs(peak.displacement) / length;
   if (part <= small) return std::nullopt;
@@ -104,7 +104,7 @@ std::optional<std::string> doubt_about_size(const CurvePoint& peak, double lengt
       peak.load, peak.displacement, part);
 }
 
-std::optional<std::string> doubt_about_end(double displacement, double length) {
+std::optional<std::string> warning_about_end(double displacement, double length) {
   const double part = std::abs(displacement) / length;
   if (part <= 1.0) return std::nullopt;
   return fmt::format(
@@ -114,7 +114,7 @@ std::optional<std::string> doubt_about_end(double displacement, double length) {
       part);
 }
 
-std::optional<std::string> doubt_about_motion(double share) {
+std::optional<std::string> warning_about_motion(double share) {
   constexpr double few = 0.01;  // around point loads strains have no limit
   if (share <= few) return std::nullopt;
   return fmt::format(
@@ -124,7 +124,7 @@ std::optional<std::string> doubt_about_motion(double share) {
       100.0 * share);
 }
 
-std::string doubt_about_crushing(const CurvePoint& largest) {
+std::string warning_about_crushing(const CurvePoint& largest) {
   return fmt::format(
       "bonds are shorter than small strains allow, or were about to be: the largest load, {:.6g} "
       "at displacement {:.6g}, may be borne by what is crushed and is no strength of the body; "
@@ -146,7 +146,7 @@ Compression largest_compression(const Network& network, std::span<const double> 
   return worst;
 }
 
-std::optional<std::string> doubt_about_compression(const Compression& at_largest_load) {
+std::optional<std::string> warning_about_compression(const Compression& at_largest_load) {
   constexpr double most = 10.0;  // compressive over tensile strength of concrete and rock
   if (at_largest_load.times <= most) return std::nullopt;
   return fmt::format(
@@ -163,9 +163,9 @@ namespace {
 /// stiffness times the square of its extension at the critical stretch [-].
 double energy_until(const BondLaw& law, double secant) {
   double energy = 0.0;
-  for (int k = 0; law.tooth(k).secant > secant; ++k) {
-    const Tooth tooth = law.tooth(k);
-    energy += tooth.limit * tooth.limit * (tooth.secant - law.tooth(k + 1).secant);
+  for (int k = 0; law.segment(k).secant > secant; ++k) {
+    const Segment segment = law.segment(k);
+    energy += segment.limit * segment.limit * (segment.secant - law.segment(k + 1).secant);
   }
   return energy;
 }
@@ -175,7 +175,7 @@ double energy_until(const BondLaw& law, double secant) {
 SoftenedEnergy softened_energy(const Network& network, Secants secants) {
   constexpr double of_crack = 0.1;  // bonds at the strength of a sound body have lost 3 to 5 %
   SoftenedEnergy energy;
-  for (Index e = 0; e < network.first_tie; ++e) {
+  for (Index e = 0; e < network.first_slip_spring; ++e) {
     const double left = secants.least(e);
     const BondLaw& law = network.law(e);
     if (left == 1.0 || !network.can_break(e) || law.is_brittle() || law.crushes()) continue;
@@ -189,7 +189,7 @@ SoftenedEnergy softened_energy(const Network& network, Secants secants) {
   return energy;
 }
 
-std::optional<std::string> doubt_about_diffuse_softening(const SoftenedEnergy& energy) {
+std::optional<std::string> warning_about_diffuse_softening(const SoftenedEnergy& energy) {
   constexpr double most = 0.1;
   if (!(energy.cracks > 0.0) || energy.diffuse <= most * energy.cracks) return std::nullopt;
   return fmt::format(
@@ -200,31 +200,31 @@ std::optional<std::string> doubt_about_diffuse_softening(const SoftenedEnergy& e
       energy.diffuse, 100.0 * energy.diffuse / energy.cracks, horizon_advice);
 }
 
-std::vector<std::string> doubts_of_balance(double energy_error, double largest_residual,
-                                           double unsolved) {
+std::vector<std::string> warnings_of_balance(double energy_error, double largest_residual,
+                                             double unsolved) {
   // Results are printed with six digits; equilibria are exact but for round-off, which leaves ten.
   constexpr double most_imbalance = 1e-6;
-  std::vector<std::string> doubts;
+  std::vector<std::string> warnings;
   // Written so that what is not a number is in doubt too.
   if (!(energy_error <= most_imbalance)) {
-    doubts.push_back(
+    warnings.push_back(
         fmt::format("work and energies are out of balance, up to {:.2g} of the work: the body is "
                     "so compliant that round-off has reached its results",
                     energy_error));
   }
   if (!(unsolved <= most_imbalance)) {
-    doubts.push_back(
+    warnings.push_back(
         fmt::format("up to {:.2g} of the load is out of balance, since the iterations ended at an "
                     "error of {:.1g}: a smaller `tolerance` in [analysis], or solver = "
                     "\"direct\", brings displacements nearer",
                     largest_residual, unsolved));
   } else if (!(largest_residual <= most_imbalance)) {
-    doubts.push_back(
+    warnings.push_back(
         fmt::format("up to {:.2g} of the load is out of balance: the stiffness matrix is so close "
                     "to singular that displacements are not solved for to six digits",
                     largest_residual));
   }
-  return doubts;
+  return warnings;
 }
 
 }  // namespace perilink

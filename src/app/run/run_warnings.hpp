@@ -51,23 +51,23 @@ RunFacts run_facts(const CaseFile& input, double length, double peak_load);
 /// too much by more than a hundredth of the work, a load that the supports do not feel, a run that
 /// ends before a wave has come back, and more than a tenth of the work in motion at the end, unless
 /// the run is an impact.
-std::vector<std::string> doubts_about(const ExplicitResult& result, const RunFacts& facts);
+std::vector<std::string> warnings_about(const ExplicitResult& result, const RunFacts& facts);
 
 /// The same of a dynamic relaxation: more energy stored and dissipated than its load steps saw as
 /// work.
-std::vector<std::string> doubts_at_rest(const EnergyBalance& energy);
+std::vector<std::string> warnings_at_rest(const EnergyBalance& energy);
 
 /// A peak at displacements for which bonds of small displacements are not made.
 /// \param length  longest side of the body [length]
-std::optional<std::string> doubt_about_size(const CurvePoint& peak, double length);
+std::optional<std::string> warning_about_size(const CurvePoint& peak, double length);
 
 /// A last row in which the body has moved farther than it is long.
-std::optional<std::string> doubt_about_end(double displacement, double length);
+std::optional<std::string> warning_about_end(double displacement, double length);
 
 /// The same of an elastic run: more than a hundredth of the bonds change by more than a tenth of
 /// their lengths, longer or turned.
 /// \param share  how many do, over all bonds or edges of linear elements [-]
-std::optional<std::string> doubt_about_motion(double share);
+std::optional<std::string> warning_about_motion(double share);
 
 /// Compression of the particle where it is most times the tensile strength of its material.
 struct Compression {
@@ -80,7 +80,7 @@ struct Compression {
 Compression largest_compression(const Network& network, std::span<const double> principal);
 
 /// A body that is compressed by more than ten times its tensile strength.
-std::optional<std::string> doubt_about_compression(const Compression& at_largest_load);
+std::optional<std::string> warning_about_compression(const Compression& at_largest_load);
 
 /// Energy that bonds have dissipated by softening in tension [force length].
 struct SoftenedEnergy {
@@ -90,17 +90,17 @@ struct SoftenedEnergy {
 SoftenedEnergy softened_energy(const Network& network, Secants secants);
 
 /// Diffuse softening of more than a tenth of the energy of the cracks.
-std::optional<std::string> doubt_about_diffuse_softening(const SoftenedEnergy& energy);
+std::optional<std::string> warning_about_diffuse_softening(const SoftenedEnergy& energy);
 
 /// The largest load of a run that went on, or ended, where bonds are too short for small strains.
-std::string doubt_about_crushing(const CurvePoint& largest);
+std::string warning_about_crushing(const CurvePoint& largest);
 
 /// The same of a quasistatic run: energies that balance, or forces, to no more than six digits.
 /// \param energy_error      largest of all rows, over the work [-]
 /// \param largest_residual  forces out of balance, over the loads [-]
 /// \param unsolved          what conjugate gradients have left of the answer, in the norm of energy
 ///                          [-]; 0 by a factor
-std::vector<std::string> doubts_of_balance(double energy_error, double largest_residual,
-                                           double unsolved = 0.0);
+std::vector<std::string> warnings_of_balance(double energy_error, double largest_residual,
+                                             double unsolved = 0.0);
 
 }  // namespace perilink

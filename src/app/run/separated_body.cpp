@@ -35,8 +35,9 @@ std::string loose_piece(const Model& model, const std::vector<Index>& without) {
 void refuse_pieces_on_bars(const CaseFile& input, const Model& model, int threads) {
   const Network& network = model.network;
   if (network.bars.bar.empty()) return;
-  std::vector<Index> bars(static_cast<std::size_t>(network.num_elements() - network.first_tie));
-  std::iota(bars.begin(), bars.end(), network.first_tie);
+  std::vector<Index> bars(
+      static_cast<std::size_t>(network.num_elements() - network.first_slip_spring));
+  std::iota(bars.begin(), bars.end(), network.first_slip_spring);
   const std::string piece = loose_piece(model, bars);
   if (piece.empty()) return;
   try {

@@ -40,7 +40,7 @@ void tell_peaks(Summary& summary, const CaseFile& input, const PeakWatch& peaks,
 void tell_residual_strength(Summary& summary, const CaseFile& input, const PeakWatch& peaks) {
   const bool bars = !input.rebar.empty();
   if (const auto text = text_of_peaks(peaks, bars)) {
-    (bars ? summary.notes : summary.doubts).push_back(*text);
+    (bars ? summary.notes : summary.warnings).push_back(*text);
   }
 }
 
@@ -95,9 +95,9 @@ void tell_motion(Summary& summary, const CaseFile& input, const RunFiles& files,
 
 namespace {
 
-std::int64_t bonds_and_ties(const Model& model) {
+std::int64_t bonds_and_slip_springs(const Model& model) {
   if (model.pattern) return static_cast<std::int64_t>(model.pattern->num_bonds());
-  return model.network.first_segment - model.network.num_edges_of_cells();
+  return model.network.first_bar_element - model.network.num_edges_of_cells();
 }
 
 std::string cells_text(const Network& network) {
@@ -138,7 +138,7 @@ void tell_cracks(Summary& summary, const std::vector<ToldCrack>& cracks) {
 void tell_body(Summary& summary, const Model& model, const std::string& more) {
   const Network& network = model.network;
   summary.add("particles", network.particles.size());
-  summary.add("bonds", model.elements ? std::int64_t{0} : bonds_and_ties(model));
+  summary.add("bonds", model.elements ? std::int64_t{0} : bonds_and_slip_springs(model));
   if (model.elements) summary.add("cells", model.elements->cells.size());
   if (network.cells) summary.add("cells", network.cells->cells.size());
   summary.add("unknowns", model.unknowns.count);
@@ -153,8 +153,8 @@ std::string size_text(const Model& model) {
   const Index particles = model.network.particles.size();
   return model.elements ? fmt::format("{} particles, {} linear elements", particles,
                                       model.elements->cells.size())
-                        : fmt::format("{} particles, {} bonds{}", particles, bonds_and_ties(model),
-                                      cells_text(model.network));
+                        : fmt::format("{} particles, {} bonds{}", particles,
+                                      bonds_and_slip_springs(model), cells_text(model.network));
 }
 
 double peak_memory_bytes() {

@@ -20,18 +20,18 @@ namespace perilink {
 struct Summary {
   nlohmann::ordered_json json;
   std::string text;
-  std::vector<std::string> notes;   ///< what is worth knowing
-  std::vector<std::string> doubts;  ///< what makes the numbers doubtful, a sentence each
-  std::string outcome;              ///< steps and cracks, for the log
-  std::string rate;                 ///< how fast the analysis was: "0.2 ms per row"; may be empty
+  std::vector<std::string> notes;     ///< what is worth knowing
+  std::vector<std::string> warnings;  ///< what makes the numbers doubtful, a sentence each
+  std::string outcome;                ///< steps and cracks, for the log
+  std::string rate;                   ///< how fast the analysis was: "0.2 ms per row"; may be empty
 
   /// A key that is there keeps its place.
   void add(const std::string& key, nlohmann::ordered_json value) { json[key] = std::move(value); }
   void add_note(const std::optional<std::string>& note) {
     if (note) notes.push_back(*note);
   }
-  void add_doubts(const std::vector<std::string>& more) {
-    doubts.insert(doubts.end(), more.begin(), more.end());
+  void add_warnings(const std::vector<std::string>& more) {
+    warnings.insert(warnings.end(), more.begin(), more.end());
   }
   /// \param label  what the line is about; empty: the same as the line above
   template <class... Args>

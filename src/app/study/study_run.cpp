@@ -36,9 +36,10 @@ class StudyObserver final : public StepObserver {
   void on_end(const StepRecord& last, StateSource& source) override {
     if (model_.gauges.empty()) return;
     const StepState state = source.state();
-    Csr families;
-    gauges = gauge_values(
-        model_, {state.secants, state.displacement, last.load_factor, last.load_factor}, families);
+    Csr neighbourhoods;
+    gauges = gauge_values(model_,
+                          {state.secants, state.displacement, last.load_factor, last.load_factor},
+                          neighbourhoods);
   }
   bool stop_requested() override { return stop_signal_received(); }
 
@@ -80,7 +81,7 @@ void check_refinement(const VarySection& vary, const BodySection& body) {
 struct Repeat {
   CaseFile input;
   Model model;
-  Ending ending = Ending::completed;
+  Termination termination = Termination::completed;
   std::string reason;
   Summary found;                     ///< the quantities of its run
   std::optional<std::string> note;   ///< on its peaks
@@ -104,15 +105,15 @@ void analyse_elastic(Repeat& repeat, int threads) {
   repeat.seconds.factorization = seconds.factorization;
   repeat.seconds.solve = seconds.solve;
   repeat.displacement = std::move(answer.solution.displacement);
-  Csr families;
-  repeat.gauges = gauge_values(repeat.model, {{}, repeat.displacement}, families);
+  Csr neighbourhoods;
+  repeat.gauges = gauge_values(repeat.model, {{}, repeat.displacement}, neighbourhoods);
 }
 
 void analyse_damage(Repeat& repeat, int threads) {
   StudyObserver observer(repeat.model);
   const DamageResult result =
       run_damage_analysis(repeat.model, damage_options(repeat.input, threads), observer);
-  repeat.ending = result.ending;
+  repeat.termination = result.termination;
   repeat.reason = result.reason;
   tell_equilibria(repeat.found, repeat.input, Equilibria(result));
   repeat.note = text_of_peaks(result.peaks, !repeat.input.rebar.empty());
@@ -161,7 +162,7 @@ void fill_in(StudyMember& member, const StudyFile& study, const Repeat& repeat) 
   member.horizon = model.horizon;
   member.particles = model.network.particles.size();
   member.bonds =
-      model.elements ? 0 : model.network.first_segment - model.network.num_edges_of_cells();
+      model.elements ? 0 : model.network.first_bar_element - model.network.num_edges_of_cells();
   member.unknowns = model.unknowns.count;
   member.note = repeat.note.value_or("");
   for (const ErrorSection& error : study.errors) {
@@ -312,7 +313,8 @@ StudyMember run_member(const StudyFile& study, const StudySeries& series,
   try {
     for (int k = 0; k < study.repeats; ++k) {
       const Repeat repeat = run_once(study, keys, threads, on_search);
-      if (repeat.ending == Ending::failed || repeat.ending == Ending::interrupted) {
+      if (repeat.termination == Termination::failed ||
+          repeat.termination == Termination::interrupted) {
         member.failure = repeat.reason;
         return member;
       }

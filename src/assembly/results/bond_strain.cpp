@@ -94,11 +94,11 @@ void add_bond(const Network& network, Secants secants, std::span<const double> m
 }
 
 template <int Dim>
-SymmetricTensor strain_in(const Network& network, const Csr& families, Secants secants,
+SymmetricTensor strain_in(const Network& network, const Csr& neighbourhoods, Secants secants,
                           std::span<const double> motion, Index particle) {
   Virial<Dim> virial;
-  for (const Index e : families.row(particle)) {
-    if (e < network.first_tie) add_bond<Dim>(network, secants, motion, e, virial);
+  for (const Index e : neighbourhoods.row(particle)) {
+    if (e < network.first_slip_spring) add_bond<Dim>(network, secants, motion, e, virial);
   }
   const Eigen::LDLT<decltype(virial.intact)> factor(virial.intact);
   const auto pivots = factor.vectorD();
@@ -112,10 +112,10 @@ SymmetricTensor strain_in(const Network& network, const Csr& families, Secants s
 
 }  // namespace
 
-SymmetricTensor bond_strain(const Network& network, const Csr& families, Secants secants,
+SymmetricTensor bond_strain(const Network& network, const Csr& neighbourhoods, Secants secants,
                             std::span<const double> motion, Index particle) {
-  return network.dim() == 2 ? strain_in<2>(network, families, secants, motion, particle)
-                            : strain_in<3>(network, families, secants, motion, particle);
+  return network.dim() == 2 ? strain_in<2>(network, neighbourhoods, secants, motion, particle)
+                            : strain_in<3>(network, neighbourhoods, secants, motion, particle);
 }
 
 }  // namespace perilink

@@ -21,7 +21,7 @@ inline bool is_cut(const Network& network, Index element) {
 /// strain. Ties, bars and open bonds across a pre-crack do not count.
 /// \param families  bonds of each particle (bonds_of_particles)
 /// \param motion    shape (particles, width)
-SymmetricTensor bond_strain(const Network& network, const Csr& families, Secants secants,
+SymmetricTensor bond_strain(const Network& network, const Csr& neighbourhoods, Secants secants,
                             std::span<const double> motion, Index particle);
 
 }  // namespace perilink

@@ -12,11 +12,11 @@ namespace {
 constexpr double half_of_stiffness = 0.5;
 
 /// Sum of what the damaged bonds of a particle have lost, times n n.
-SymmetricTensor lost_at(const Network& network, const Csr& families, Secants secants,
+SymmetricTensor lost_at(const Network& network, const Csr& neighbourhoods, Secants secants,
                         Index particle) {
   SymmetricTensor sum{};
-  for (const Index e : families.row(particle)) {
-    if (e >= network.first_tie || secants.axial(e) > half_of_stiffness) continue;
+  for (const Index e : neighbourhoods.row(particle)) {
+    if (e >= network.first_slip_spring || secants.axial(e) > half_of_stiffness) continue;
     const auto direction = network.bonds.direction(e);
     Vector3 n{};
     std::copy(direction.begin(), direction.end(), n.begin());
@@ -29,13 +29,13 @@ SymmetricTensor lost_at(const Network& network, const Csr& families, Secants sec
   return sum;
 }
 
-double opening_of(const Network& network, const Csr& families, Secants secants,
+double opening_of(const Network& network, const Csr& neighbourhoods, Secants secants,
                   std::span<const double> motion, Index bond) {
   const Bonds& bonds = network.bonds;
   const int dim = network.dim();
   const auto width = static_cast<std::size_t>(network.width());
-  SymmetricTensor lost = lost_at(network, families, secants, bonds.first[bond]);
-  const SymmetricTensor more = lost_at(network, families, secants, bonds.second[bond]);
+  SymmetricTensor lost = lost_at(network, neighbourhoods, secants, bonds.first[bond]);
+  const SymmetricTensor more = lost_at(network, neighbourhoods, secants, bonds.second[bond]);
   for (std::size_t c = 0; c < lost.size(); ++c) lost[c] += more[c];
   const Vector3 normal = principal_direction(lost, dim);
   double along = 0.0, apart = 0.0;
@@ -77,13 +77,13 @@ CrackState summed_up(const CrackOpenings& openings, std::span<const std::size_t>
   return state;
 }
 
-CrackOpenings crack_openings(const Network& network, const Csr& families, Secants secants,
+CrackOpenings crack_openings(const Network& network, const Csr& neighbourhoods, Secants secants,
                              std::span<const double> motion) {
   CrackOpenings openings;
-  for (Index e = 0; e < network.first_tie; ++e) {
+  for (Index e = 0; e < network.first_slip_spring; ++e) {
     if (secants.axial(e) > half_of_stiffness) continue;
     openings.bonds.push_back(e);
-    openings.opening.push_back(opening_of(network, families, secants, motion, e));
+    openings.opening.push_back(opening_of(network, neighbourhoods, secants, motion, e));
   }
   const std::vector<Index> sets = connected_sets(network, openings.bonds);
   std::vector<std::vector<std::size_t>> members;

@@ -30,7 +30,7 @@ struct CrackOpenings {
 /// bond that runs obliquely through a crack shows the same opening as one that runs straight.
 /// \param families  bonds of each particle (bonds_of_particles)
 /// \param motion    shape (particles, width)
-CrackOpenings crack_openings(const Network& network, const Csr& families, Secants secants,
+CrackOpenings crack_openings(const Network& network, const Csr& neighbourhoods, Secants secants,
                              std::span<const double> motion);
 
 /// The largest opening of the bonds of each particle; shape (particles) [length].

@@ -29,8 +29,8 @@ void find_neighbors(const StressInput& input, Index particle, std::vector<Index>
   const Particles& particles = network.particles;
   found.clear();
   const auto append = [&](Index i) {
-    for (const Index e : input.families.row(i)) {
-      if (e >= network.first_tie || is_open(input, e)) continue;
+    for (const Index e : input.neighbourhoods.row(i)) {
+      if (e >= network.first_slip_spring || is_open(input, e)) continue;
       const Index j = network.bonds.other_end(e, i);
       if (j == particle || particles.kind[j] != ParticleKind::solid) continue;
       if (particles.material[j] == particles.material[particle]) found.push_back(j);
@@ -107,8 +107,8 @@ bool fit_gradient(std::span<const double> offsets, std::span<double> weights) {
 bool is_damaged(const StressInput& input, Index particle) {
   if (input.secants.size() == 0) return false;
   bool open = false, closed = false;
-  for (const Index e : input.families.row(particle)) {
-    if (e >= input.network.first_tie || !(input.secants.least(e) < 1.0)) continue;
+  for (const Index e : input.neighbourhoods.row(particle)) {
+    if (e >= input.network.first_slip_spring || !(input.secants.least(e) < 1.0)) continue;
     if (!is_cut(input.network, e)) return true;
     (input.secants.axial(e) > 0.0 ? closed : open) = true;
   }
@@ -140,7 +140,7 @@ Eigen::Matrix3d StressFinder<Dim>::strain_at(Index particle) {
   Eigen::Matrix3d strain = Eigen::Matrix3d::Zero();
   if (is_damaged(input_, particle)) {
     const SymmetricTensor e =
-        bond_strain(input_.network, input_.families, input_.secants, motion_, particle);
+        bond_strain(input_.network, input_.neighbourhoods, input_.secants, motion_, particle);
     strain << e[0], e[3], e[5], e[3], e[1], e[4], e[5], e[4], e[2];
     return strain;
   }

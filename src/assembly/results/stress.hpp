@@ -19,7 +19,7 @@ using Stress = SymmetricTensor;
 /// What stresses at particles are found from.
 struct StressInput {
   const Network& network;
-  const Csr& families;  ///< bonds of each particle (bonds_of_particles)
+  const Csr& neighbourhoods;  ///< bonds of each particle (bonds_of_particles)
   Problem problem = Problem::plane_stress;
   std::span<const HookeConstants> materials;  ///< by Particles::material
   /// Whether neighbours of neighbours count, too: edges of linear elements alone are too few.

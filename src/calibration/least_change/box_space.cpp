@@ -110,7 +110,7 @@ void BoxSpace::make_boxes(const PointEquations& equations, FieldsOfBoxes fields)
 }
 
 void BoxSpace::number_points() {
-  for (Index b = 0; b < num_boxes(); ++b) {
+  for (Index b = 0; b < num_subdomains(); ++b) {
     for (std::size_t k = 0; k < boxes_[b].size(); ++k) {
       box_of_[boxes_[b][k]] = b;
       place_[boxes_[b][k]] = static_cast<Index>(k);
@@ -142,14 +142,14 @@ void BoxSpace::find_fields(const PointEquations& equations, const std::vector<do
     inside = inner_variables(equations, active);
   }
   fields_.resize(boxes_.size());
-  for_each_side_by_side(num_boxes(), threads_, [&](Index b) {
+  for_each_side_by_side(num_subdomains(), threads_, [&](Index b) {
     const MatrixXd fields = soft ? soft_fields(b, inside[b], equations, active, blocks)
                                  : killing_fields(equations, boxes_[b]);
     fields_[b] = {static_cast<std::size_t>(fields.cols()),
                   {fields.data(), static_cast<std::size_t>(fields.size())}};
   });
   first_field_.assign(boxes_.size() + 1, 0);
-  for (Index b = 0; b < num_boxes(); ++b) {
+  for (Index b = 0; b < num_subdomains(); ++b) {
     first_field_[b + 1] = first_field_[b] + static_cast<Index>(fields_[b].count());
   }
 }
@@ -212,7 +212,7 @@ void BoxSpace::sort_variables(const PointEquations& equations) {
   order_.reserve(equations.first.size());
   groups_.clear();
   pairs_.clear();
-  for (Index b = 0; b < num_boxes(); ++b) pairs_.emplace_back(b, b);
+  for (Index b = 0; b < num_subdomains(); ++b) pairs_.emplace_back(b, b);
   for (Index v = 0; v < equations.num_variables(); ++v) {
     Key key;
     int count = 0;
@@ -302,8 +302,8 @@ auto BoxSpace::products(std::size_t group, const PointEquations& equations,
 }
 
 /// Adds what variables between the boxes of the key give, those inside of a large box to its own.
-void BoxSpace::add(const Key& key, const GroupProducts& sums, BoxMatrix& matrix,
-                   BoxMatrix* inside) {
+void BoxSpace::add(const Key& key, const GroupProducts& sums, SubdomainMatrix& matrix,
+                   SubdomainMatrix* inside) {
   for (int k = 0; k < 4 && key[k] != no_index; ++k) {
     if (CoarseSystem::large_box(key[k]) != CoarseSystem::large_box(key[0])) inside = nullptr;
   }
@@ -320,17 +320,17 @@ void BoxSpace::refactorize(const PointEquations& equations, const std::vector<do
                            const std::vector<double>& diagonal) {
   if (num_fields() == 0) return;
   sort_variables(equations);
-  BoxMatrix matrix{first_field_, pairs_, {}}, inside{first_field_, pairs_, {}};
+  SubdomainMatrix matrix{first_field_, pairs_, {}}, inside{first_field_, pairs_, {}};
   for (const auto& [a, b] : pairs_) {
     matrix.blocks.push_back(MatrixXd::Zero(num_fields(b), num_fields(a)));
   }
   // What large boxes are made of, once.
-  const bool parts = CoarseSystem::is_nested(num_boxes()) && !coarse_.has_fields();
+  const bool parts = CoarseSystem::is_nested(num_subdomains()) && !coarse_.has_fields();
   for (const auto& [a, b] : pairs_) {
     const bool joined = parts && CoarseSystem::large_box(a) == CoarseSystem::large_box(b);
     inside.blocks.push_back(joined ? MatrixXd::Zero(num_fields(b), num_fields(a)) : MatrixXd());
   }
-  for (Index b = 0; b < num_boxes(); ++b) add_diagonal(b, diagonal, matrix.block(b, b));
+  for (Index b = 0; b < num_subdomains(); ++b) add_diagonal(b, diagonal, matrix.block(b, b));
   const Index num_groups = static_cast<Index>(groups_.size()) - 1;
   std::exception_ptr error;
   // Sums in the order of the groups, whichever thread makes them.
@@ -354,8 +354,8 @@ void BoxSpace::add_correction(const double* residual, double* result) const {
   if (num_fields() == 0) return;
   const std::size_t rows = static_cast<std::size_t>(rows_);
   std::vector<double> coarse(static_cast<std::size_t>(num_fields()), 0.0);
-#pragma omp parallel for schedule(static) if (num_boxes() > boxes_for_threads)
-  for (Index b = 0; b < num_boxes(); ++b) {
+#pragma omp parallel for schedule(static) if (num_subdomains() > boxes_for_threads)
+  for (Index b = 0; b < num_subdomains(); ++b) {
     for (std::size_t k = 0; k < boxes_[b].size(); ++k) {
       fields_[b].add_sums(k * rows,
                           {residual + static_cast<std::size_t>(boxes_[b][k]) * rows, rows},
@@ -363,8 +363,8 @@ void BoxSpace::add_correction(const double* residual, double* result) const {
     }
   }
   coarse_.solve(coarse);
-#pragma omp parallel for schedule(static) if (num_boxes() > boxes_for_threads)
-  for (Index b = 0; b < num_boxes(); ++b) {
+#pragma omp parallel for schedule(static) if (num_subdomains() > boxes_for_threads)
+  for (Index b = 0; b < num_subdomains(); ++b) {
     std::vector<double> local(boxes_[b].size() * rows, 0.0);
     fields_[b].add_fields({coarse.data() + first_field_[b], coarse.data() + first_field_[b + 1]},
                           local.data());

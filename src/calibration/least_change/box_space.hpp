@@ -40,10 +40,10 @@ class BoxSpace {
 
   Index num_fields() const { return first_field_.back(); }
   /// Whether the coarse system is not solved exactly, which takes more iterations.
-  bool is_nested() const { return CoarseSystem::is_nested(num_boxes()); }
+  bool is_nested() const { return CoarseSystem::is_nested(num_subdomains()); }
 
  private:
-  Index num_boxes() const { return static_cast<Index>(boxes_.size()); }
+  Index num_subdomains() const { return static_cast<Index>(boxes_.size()); }
   Index num_fields(Index box) const { return first_field_[box + 1] - first_field_[box]; }
   using Key = std::array<Index, 4>;  // boxes on which a variable acts, ascending
   using GroupProducts = std::array<std::array<Eigen::MatrixXd, 4>, 4>;
@@ -51,7 +51,8 @@ class BoxSpace {
   void add_diagonal(Index box, const std::vector<double>& diagonal, Eigen::MatrixXd& own) const;
   GroupProducts products(std::size_t group, const PointEquations& equations,
                          const std::vector<double>& active) const;
-  static void add(const Key& key, const GroupProducts& sums, BoxMatrix& matrix, BoxMatrix* inside);
+  static void add(const Key& key, const GroupProducts& sums, SubdomainMatrix& matrix,
+                  SubdomainMatrix* inside);
   void make_boxes(const PointEquations& equations, FieldsOfBoxes fields);
   void number_points();
   std::vector<std::vector<Index>> inner_variables(const PointEquations& equations,

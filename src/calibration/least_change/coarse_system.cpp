@@ -44,26 +44,26 @@ BoxFields fields_of(const MatrixXd& columns) {
 
 }  // namespace
 
-bool BoxMatrix::has(Index a, Index b) const {
+bool SubdomainMatrix::has(Index a, Index b) const {
   return std::ranges::binary_search(pairs, std::pair(std::min(a, b), std::max(a, b)));
 }
 
-MatrixXd& BoxMatrix::block(Index a, Index b) {
+MatrixXd& SubdomainMatrix::block(Index a, Index b) {
   return const_cast<MatrixXd&>(std::as_const(*this).block(a, b));
 }
 
-const MatrixXd& BoxMatrix::block(Index a, Index b) const {
+const MatrixXd& SubdomainMatrix::block(Index a, Index b) const {
   const auto found = std::ranges::lower_bound(pairs, std::pair(std::min(a, b), std::max(a, b)));
   return blocks[static_cast<std::size_t>(found - pairs.begin())];
 }
 
-void CoarseSystem::factorize(const BoxMatrix& matrix, const BoxMatrix& inside) {
+void CoarseSystem::factorize(const SubdomainMatrix& matrix, const SubdomainMatrix& inside) {
   first_ = matrix.first;
-  if (!is_nested(matrix.num_boxes())) return factorize_directly(matrix);
+  if (!is_nested(matrix.num_subdomains())) return factorize_directly(matrix);
   if (fields_.empty()) find_fields(matrix, inside);
-  roots_.resize(static_cast<std::size_t>(matrix.num_boxes()));
+  roots_.resize(static_cast<std::size_t>(matrix.num_subdomains()));
   const int threads = prepare_blas(omp_get_max_threads());
-  for_each_side_by_side(matrix.num_boxes(), threads, [&](Index box) {
+  for_each_side_by_side(matrix.num_subdomains(), threads, [&](Index box) {
     const MatrixXd own = with_raised_diagonal(matrix.block(box, box));
     const Eigen::LLT<MatrixXd> factor(own);
     if (factor.info() != Eigen::Success) throw SolverError(no_factor);
@@ -73,8 +73,8 @@ void CoarseSystem::factorize(const BoxMatrix& matrix, const BoxMatrix& inside) {
   if (first_large_.back() > 0) factorize_directly(of_large_boxes(matrix));
 }
 
-void CoarseSystem::find_fields(const BoxMatrix& matrix, const BoxMatrix& inside) {
-  const Index large = large_box(matrix.num_boxes() - 1) + 1;
+void CoarseSystem::find_fields(const SubdomainMatrix& matrix, const SubdomainMatrix& inside) {
+  const Index large = large_box(matrix.num_subdomains() - 1) + 1;
   fields_.resize(static_cast<std::size_t>(large));
   for_each_side_by_side(large, prepare_blas(omp_get_max_threads()),
                         [&](Index g) { fields_[g] = soft_fields(g, matrix, inside); });
@@ -85,9 +85,10 @@ void CoarseSystem::find_fields(const BoxMatrix& matrix, const BoxMatrix& inside)
 }
 
 /// As those of points (BoxSpace::soft_fields).
-BoxFields CoarseSystem::soft_fields(Index large, const BoxMatrix& matrix, const BoxMatrix& inside) {
+BoxFields CoarseSystem::soft_fields(Index large, const SubdomainMatrix& matrix,
+                                    const SubdomainMatrix& inside) {
   const Index begin = large * boxes_of_large;
-  const Index end = std::min(matrix.num_boxes(), begin + boxes_of_large);
+  const Index end = std::min(matrix.num_subdomains(), begin + boxes_of_large);
   const auto place = [&](Index box) { return matrix.first[box] - matrix.first[begin]; };
   MatrixXd local = MatrixXd::Zero(place(end), place(end));
   std::vector<Eigen::LLT<MatrixXd>> own;
@@ -118,8 +119,8 @@ BoxFields CoarseSystem::soft_fields(Index large, const BoxMatrix& matrix, const 
 }
 
 /// P' A P.
-BoxMatrix CoarseSystem::of_large_boxes(const BoxMatrix& matrix) const {
-  BoxMatrix large{first_large_, {}, {}};
+SubdomainMatrix CoarseSystem::of_large_boxes(const SubdomainMatrix& matrix) const {
+  SubdomainMatrix large{first_large_, {}, {}};
   for (const auto& [a, b] : matrix.pairs) large.pairs.emplace_back(large_box(a), large_box(b));
   std::ranges::sort(large.pairs);
   large.pairs.erase(std::unique(large.pairs.begin(), large.pairs.end()), large.pairs.end());
@@ -147,7 +148,7 @@ BoxMatrix CoarseSystem::of_large_boxes(const BoxMatrix& matrix) const {
   return large;
 }
 
-void CoarseSystem::factorize_directly(const BoxMatrix& matrix) {
+void CoarseSystem::factorize_directly(const SubdomainMatrix& matrix) {
   const Index unknowns = matrix.first.back();
   SparseMatrix coarse(unknowns, unknowns);
   Index size = 0;

@@ -14,12 +14,12 @@
 namespace perilink {
 
 /// A symmetric matrix of the fields of boxes, by its blocks.
-struct BoxMatrix {
+struct SubdomainMatrix {
   std::vector<Index> first;                    ///< where each box begins, and the end of all
   std::vector<std::pair<Index, Index>> pairs;  ///< boxes (a, b), a <= b, ascending
   std::vector<Eigen::MatrixXd> blocks;         ///< per pair, shape (fields of b, fields of a)
 
-  Index num_boxes() const { return static_cast<Index>(first.size()) - 1; }
+  Index num_subdomains() const { return static_cast<Index>(first.size()) - 1; }
   Index size(Index box) const { return first[box + 1] - first[box]; }
   /// \param a, b  boxes in any order
   bool has(Index a, Index b) const;
@@ -35,11 +35,11 @@ class CoarseSystem {
  public:
   /// The large box of each box.
   static Index large_box(Index box) { return box / boxes_of_large; }
-  static bool is_nested(Index num_boxes) { return num_boxes > most_in_factor; }
+  static bool is_nested(Index num_subdomains) { return num_subdomains > most_in_factor; }
 
   /// \param matrix  that of all variables
   /// \param inside  that of those inside of large boxes, where it is nested; asked for at first
-  void factorize(const BoxMatrix& matrix, const BoxMatrix& inside);
+  void factorize(const SubdomainMatrix& matrix, const SubdomainMatrix& inside);
   bool has_fields() const { return !fields_.empty(); }
 
   /// \param values  right side and solution, shape (fields)
@@ -48,10 +48,11 @@ class CoarseSystem {
  private:
   static constexpr Index boxes_of_large = 8, most_in_factor = 128;
 
-  void find_fields(const BoxMatrix& matrix, const BoxMatrix& inside);
-  static BoxFields soft_fields(Index large, const BoxMatrix& matrix, const BoxMatrix& inside);
-  BoxMatrix of_large_boxes(const BoxMatrix& matrix) const;
-  void factorize_directly(const BoxMatrix& matrix);
+  void find_fields(const SubdomainMatrix& matrix, const SubdomainMatrix& inside);
+  static BoxFields soft_fields(Index large, const SubdomainMatrix& matrix,
+                               const SubdomainMatrix& inside);
+  SubdomainMatrix of_large_boxes(const SubdomainMatrix& matrix) const;
+  void factorize_directly(const SubdomainMatrix& matrix);
 
   std::vector<Index> first_;
   /// Inverse of the lower factor of each box's own block, transposed, where it is nested: what it

@@ -43,7 +43,7 @@ struct Lattice {
 };
 
 /// Vectors from an interior particle to all its neighbours within the horizon.
-struct BulkFamily {
+struct InteriorNeighbourhood {
   int dim = 2;
   std::vector<Vector3> offsets;  ///< [length]
 };
@@ -96,12 +96,12 @@ struct Body {
   std::vector<Group> groups;  ///< meshes only
   /// Meshes only, per cell: nonzero where it is an ordinary finite element without bonds; empty:
   /// nowhere. The lattice is then that of the others.
-  std::vector<std::uint8_t> glued = {};
+  std::vector<std::uint8_t> tied = {};
   std::vector<BeamSpan> spans = {};  ///< beams only, in the order of their particles
 };
 
 /// Family of a particle far from every surface.
-BulkFamily bulk_family(const Lattice& lattice, double horizon);
+InteriorNeighbourhood interior_neighbourhood(const Lattice& lattice, double horizon);
 
 /// Radius of the particles that Peri2D's horizon level 0–8 encloses, in spacings
 /// (Gerstle, Sau & Silling 2005, Fig. 5).

@@ -251,12 +251,12 @@ std::vector<Index> materials_of_cells(const Mesh& mesh, std::span<const Region> 
   return result;
 }
 
-Simplices cells_of(const Body& body, bool glued) {
-  if (body.glued.empty() && !glued) return body.cells;
+Simplices cells_of(const Body& body, bool tied) {
+  if (body.tied.empty() && !tied) return body.cells;
   Simplices chosen;
   chosen.dim = body.cells.dim;
-  for (Index k = 0; k < static_cast<Index>(body.glued.size()); ++k) {
-    if ((body.glued[k] != 0) != glued) continue;
+  for (Index k = 0; k < static_cast<Index>(body.tied.size()); ++k) {
+    if ((body.tied[k] != 0) != tied) continue;
     const auto cell = body.cells.cell(k);
     chosen.vertices.insert(chosen.vertices.end(), cell.begin(), cell.end());
     chosen.material.push_back(body.cells.material[k]);
@@ -265,7 +265,7 @@ Simplices cells_of(const Body& body, bool glued) {
 }
 
 Body make_mesh_body(const Mesh& mesh, std::span<const Index> material, double thickness,
-                    std::span<const std::uint8_t> glued) {
+                    std::span<const std::uint8_t> tied) {
   if (material.size() != static_cast<std::size_t>(mesh.num_cells())) {
     throw std::invalid_argument("every cell of the mesh needs a material or none");
   }
@@ -287,8 +287,8 @@ Body make_mesh_body(const Mesh& mesh, std::span<const Index> material, double th
   for (const MeshGroup& group : mesh.groups) {
     body.groups.push_back(body_group(mesh, group, faces, numbering, body.cells.size()));
   }
-  for (Index cell = 0; !glued.empty() && cell < mesh.num_cells(); ++cell) {
-    if (numbering.cell[cell] != no_index) body.glued.push_back(glued[cell]);
+  for (Index cell = 0; !tied.empty() && cell < mesh.num_cells(); ++cell) {
+    if (numbering.cell[cell] != no_index) body.tied.push_back(tied[cell]);
   }
   body.lattice = lattice_of(body, thickness);
   return body;

@@ -16,7 +16,7 @@ std::vector<Index> materials_of_cells(const Mesh& mesh, std::span<const Region> 
                                       std::span<const Index> material);
 
 /// The cells of a body that are ordinary finite elements, or all others.
-Simplices cells_of(const Body& body, bool glued);
+Simplices cells_of(const Body& body, bool tied);
 
 /// Body with a particle at every vertex of the cells that have a material.
 /// - Volume: integral of the vertex's linear shape function, a third of the triangles around it
@@ -33,6 +33,6 @@ Simplices cells_of(const Body& body, bool glued);
 /// \throws std::invalid_argument where nothing is left, a cell has no volume, cells overlap, parts
 ///         touch without being joined, or a group's facet is no side of a cell
 Body make_mesh_body(const Mesh& mesh, std::span<const Index> material, double thickness,
-                    std::span<const std::uint8_t> glued = {});
+                    std::span<const std::uint8_t> tied = {});
 
 }  // namespace perilink

@@ -181,7 +181,7 @@ struct RebarSection {
   std::optional<double> rupture_strain = {};
   std::vector<std::array<double, 2>> curve = {};  ///< strain and stress from the end of elasticity
   RebarBond bond = RebarBond::perfect;
-  bool ties_break = true;  ///< bond = concrete; false: they hold whatever happens
+  bool slip_springs_break = true;  ///< bond = concrete; false: they hold whatever happens
   std::optional<double> bond_stiffness = {};           ///< linear [force/length^3]
   std::optional<double> bond_strength = {};            ///< linear [force/length^2]
   std::vector<std::array<double, 2>> bond_curve = {};  ///< slip and bond stress
@@ -258,10 +258,12 @@ struct ElementsSection {
   int order = 2;                       ///< degree of the polynomials along each axis: 1 or 2
   std::vector<std::string> regions;    ///< with elements; empty: the whole body
   std::vector<std::string> particles;  ///< regions without
-  std::vector<std::string> glued;      ///< regions of a mesh whose cells are ordinary elements
-  double alert = 0.5;  ///< part of its limit that a bond reaches before its element converts
-  std::optional<double> alert_strain;  ///< principal strain that an element reaches then instead
-  std::optional<double> halo;  ///< around an element that is converted; absent: a horizon [length]
+  std::vector<std::string> tied;       ///< regions of a mesh whose cells are ordinary elements
+  double release_threshold =
+      0.5;  ///< part of its limit that a bond reaches before its element converts
+  std::optional<double> release_strain;  ///< principal strain that an element reaches then instead
+  std::optional<double>
+      buffer_zone;  ///< around an element that is converted; absent: a horizon [length]
 };
 
 /// [output]

@@ -50,7 +50,7 @@ const Without horizons = {
      delete_it},
 };
 /// Those that say which bonds there are.
-const Without families = [] {
+const Without neighbourhoods = [] {
   Without keys = horizons;
   keys.push_back(of_beams);
   return keys;
@@ -155,7 +155,7 @@ const Without springs = {
      "delete one of the two", "body.method"}};
 const Without spring_stiffness = {
     {beam, "is given per area, but a beam has no faces", "give `total`"}};
-const Without outside_of_sheets = {
+const Without outside_of_mid_surfaces = {
     {plane, "is an axis that a two-dimensional body does not have",
      "delete it, or set problem = \"three_dimensional\" in [body]"},
     {shell, "is given, but places of a shell are those of its flat sheet, x and y", delete_it}};
@@ -181,7 +181,7 @@ const Without rebar = {
     {elements, "is \"linear_elements\", but the case has [[rebar]], which bonds tie",
      "delete one of the two", "body.method"}};
 
-const Without carriers = {
+const Without hosts = {
     {shell, "is given, but elements do not carry particles of shells", flat_instead},
     {particles, no_particle_table, another_model},
     {lattice, no_lattice_table, another_model},
@@ -208,7 +208,7 @@ const Without stages = {
     {elastic | explicit_ | relaxation,
      "is given, but type = \"{type}\" lets all loads grow together", damage_instead}};
 
-const Without alert_strains = {
+const Without release_strains = {
     {elastic, {}, {}},
     {beam, "is given, but the mean strain of a bent line tells nothing of its faces",
      "give `alert`"}};
@@ -227,14 +227,14 @@ const std::vector<KeySchema> body_keys = {
     {"mesh", in_beams},
     {"mesh_size", in_beams},
     {"pattern", in_beams},
-    {"surface", families},
+    {"surface", neighbourhoods},
     {"columns", {on_lattice}},
     "spacing",
     {"horizon", horizons},
-    {"horizon_level", families},
+    {"horizon_level", neighbourhoods},
     {"horizon_ratio", horizons},
-    {"micromodulus", families},
-    {"critical_stretch", families},
+    {"micromodulus", neighbourhoods},
+    {"critical_stretch", neighbourhoods},
     {"rotation", lattices},
     {"offset", lattices},
     {"variant", lattices}};
@@ -330,7 +330,9 @@ const std::vector<TableSchema>& case_schema() {
   static const std::vector<TableSchema> schema = {
       {"", false, {"title", "units"}},
       {"body", false, body_keys},
-      {"regions", true, {"name", "group", "x", "y", {"z", outside_of_sheets}, "center", "radius"}},
+      {"regions",
+       true,
+       {"name", "group", "x", "y", {"z", outside_of_mid_surfaces}, "center", "radius"}},
       {"materials", true, material_keys},
       {"supports", true, {"region", "fix"}},
       {"displacements", true, motions(true)},
@@ -354,9 +356,9 @@ const std::vector<TableSchema>& case_schema() {
         "particles",
         {"glued", in_beams},
         {"alert", set_aside(elastic)},
-        {"alert_strain", alert_strains},
+        {"alert_strain", release_strains},
         {"halo", set_aside(elastic)}},
-       carriers},
+       hosts},
       {"gauges",
        true,
        {"name",

@@ -25,8 +25,8 @@ constexpr const char* not_by_gmsh =
 
 struct Format {
   std::string_view name;
-  std::string_view endings;  ///< file names end so; between blanks
-  std::string_view begin;    ///< first bytes; empty: not told by them
+  std::string_view termination_names;  ///< file names end so; between blanks
+  std::string_view begin;              ///< first bytes; empty: not told by them
   const char* advice;
 };
 
@@ -65,11 +65,11 @@ std::string conversion_to_first_order(const std::string& path) {
 }
 
 std::pair<std::string, std::string> other_format(std::string_view bytes, const std::string& path) {
-  std::string ending = fmt::format(" {} ", std::filesystem::path(path).extension().string());
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  std::string termination = fmt::format(" {} ", std::filesystem::path(path).extension().string());
+  for (char& c : termination) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   const Format* found = nullptr;
   for (const Format& format : formats) {
-    if (format.endings.find(ending) != std::string_view::npos) {
+    if (format.termination_names.find(termination) != std::string_view::npos) {
       found = &format;
       break;
     }

@@ -38,12 +38,12 @@ struct Parts {
   bool two_kinds = false;  ///< near and far ones
   bool singular = false;
 
-  Parts(std::span<const FamilyBond> family, int dim, double volume) {
+  Parts(std::span<const NeighbourhoodBond> neighbourhood, int dim, double volume) {
     const int size = dim == 2 ? 3 : 6;
     own = far = state = Tensor::Zero(size, size);
     Strain sum = Strain::Zero(size);
     bool any_far = false, any_near = false;
-    for (const FamilyBond& bond : family) {
+    for (const NeighbourhoodBond& bond : neighbourhood) {
       const Strain n = product(bond.direction, dim);
       const Tensor part = 0.5 * bond.length / volume * n * n.transpose();
       own += part;
@@ -65,9 +65,9 @@ struct Parts {
 
 /// The energy sum_j L_j (own + far_j) S_j^2 + state (sum_j L_j S_j)^2 is positive for every
 /// deformation where each bond's part is and what the state takes away is less.
-bool is_positive(const ParticleModuli& moduli, std::span<const FamilyBond> family) {
+bool is_positive(const ParticleModuli& moduli, std::span<const NeighbourhoodBond> neighbourhood) {
   double reach = 0.0;
-  for (const FamilyBond& bond : family) {
+  for (const NeighbourhoodBond& bond : neighbourhood) {
     const double own = moduli.own + (bond.far ? moduli.far : 0.0);
     if (!(own > 0.0)) return false;
     reach += bond.length / own;
@@ -98,23 +98,23 @@ ParticleModuli solve(const Parts& parts, const Tensor& wanted, bool with_far, bo
 }  // namespace
 
 ParticleFit fit_particle_moduli(Problem problem, double youngs_modulus, double poissons_ratio,
-                                std::span<const FamilyBond> family, double volume) {
+                                std::span<const NeighbourhoodBond> neighbourhood, double volume) {
   const int dim = dimension_of(problem);
   const Tensor wanted = hooke_tensor(problem, youngs_modulus, poissons_ratio);
   ParticleFit fit;
-  if (family.empty()) {
+  if (neighbourhood.empty()) {
     fit.kind = FitKind::singular;
     fit.residual = 1.0;
     return fit;
   }
-  const Parts parts(family, dim, volume);
+  const Parts parts(neighbourhood, dim, volume);
   bool unique = true;
   fit.moduli = solve(parts, wanted, parts.two_kinds, unique);
   fit.kind = unique ? FitKind::least : FitKind::many;
   if (!unique) fit.moduli = solve(parts, wanted, false, unique);
   if (parts.singular) {
     fit.kind = FitKind::singular;
-  } else if (!is_positive(fit.moduli, family)) {
+  } else if (!is_positive(fit.moduli, neighbourhood)) {
     fit.kind = FitKind::indefinite;
   }
   if (fit.kind == FitKind::singular || fit.kind == FitKind::indefinite) {

@@ -8,7 +8,7 @@
 namespace perilink {
 
 /// A bond of a particle to one of its neighbours.
-struct FamilyBond {
+struct NeighbourhoodBond {
   Vector3 direction{};  ///< unit vector
   double length = 0.0;  ///< L [length]
   bool far = false;     ///< to one of the second neighbours
@@ -47,6 +47,6 @@ struct ParticleFit {
 /// their own stretch, in the plane too, and lengths weigh the sum.
 /// \param volume  V of the particle [length^3]
 ParticleFit fit_particle_moduli(Problem problem, double youngs_modulus, double poissons_ratio,
-                                std::span<const FamilyBond> family, double volume);
+                                std::span<const NeighbourhoodBond> neighbourhood, double volume);
 
 }  // namespace perilink

@@ -115,30 +115,30 @@ class Cell {
 class CellBonds {
  public:
   CellBonds(std::size_t count, const BondLaw& law, double critical_stretch)
-      : law_(law), critical_(critical_stretch), tooth_(count, 0) {}
+      : law_(law), critical_(critical_stretch), segment_(count, 0) {}
 
   /// Stretch over the limit of the next event at the stress of one [length^2/force].
   double ratio(const Cell& cell, std::size_t bond, double sign) const {
     if (!law_.crushes())
-      return sign * cell.stretch(bond) / (critical_ * law_.tooth(tooth_[bond]).limit);
+      return sign * cell.stretch(bond) / (critical_ * law_.segment(segment_[bond]).limit);
     const double stretch = sign * cell.axial_stretch(bond) / critical_;
-    const int tooth = tooth_[bond];
-    if (stretch > 0.0) return tooth < 0 ? 0.0 : stretch / law_.tooth(tooth).limit;
-    if (tooth > 0 || !awake_) return 0.0;
-    return -stretch / (tooth == 0 ? law_.first_in_compression() : law_.tooth(tooth)).limit;
+    const int segment = segment_[bond];
+    if (stretch > 0.0) return segment < 0 ? 0.0 : stretch / law_.segment(segment).limit;
+    if (segment > 0 || !awake_) return 0.0;
+    return -stretch / (segment == 0 ? law_.first_in_compression() : law_.segment(segment)).limit;
   }
   void pass(Cell& cell, std::size_t bond, double sign) {
     const bool compressed = law_.crushes() && sign * cell.axial_stretch(bond) < 0.0;
-    tooth_[bond] = BondLaw::after(tooth_[bond], compressed);
+    segment_[bond] = BondLaw::after(segment_[bond], compressed);
     awake_ = awake_ || !compressed;
-    const double secant = law_.tooth(tooth_[bond]).secant;
+    const double secant = law_.segment(segment_[bond]).secant;
     law_.keeps_shear() ? cell.set_axial_secant(bond, secant) : cell.set_secant(bond, secant);
   }
 
  private:
   const BondLaw& law_;
   double critical_;
-  std::vector<int> tooth_;
+  std::vector<int> segment_;
   bool awake_ = false;
 };
 
@@ -203,19 +203,19 @@ double cell_modulus(std::span<const CellBond> bonds, int dim, const Vector3& pul
 double cell_strength(std::span<const CellBond> bonds, int dim, const Vector3& pull,
                      const BondLaw& law) {
   Cell cell(bonds, dim, pull);
-  std::vector<int> tooth(bonds.size(), 0);
+  std::vector<int> segment(bonds.size(), 0);
   std::vector<double> ratio(bonds.size());
   double strength = 0.0;
   while (cell.solve()) {
     for (std::size_t b = 0; b < bonds.size(); ++b) {
-      ratio[b] = cell.stretch(b) / law.tooth(tooth[b]).limit;
+      ratio[b] = cell.stretch(b) / law.segment(segment[b]).limit;
     }
     const double largest = *std::max_element(ratio.begin(), ratio.end());
     if (!(largest > 0.0)) break;
     strength = std::max(strength, 1.0 / largest);
     for (std::size_t b = 0; b < bonds.size(); ++b) {
       if (ratio[b] >= (1.0 - alike_in_cell) * largest)
-        cell.set_secant(b, law.tooth(++tooth[b]).secant);
+        cell.set_secant(b, law.segment(++segment[b]).secant);
     }
   }
   return strength * cell.intact_softness();

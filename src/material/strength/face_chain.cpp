@@ -37,7 +37,7 @@ struct Crossing {
   std::size_t bond;
   int lower;  ///< number of its lower layer
   double secant = 1.0;
-  int tooth = 0;
+  int segment = 0;
 };
 
 /// Layers numbered from 0, the face in their middle. Those in front do not move but by the uniform
@@ -196,7 +196,7 @@ double face_strength(std::span<const LayerBond> bonds, std::array<double, 2> sid
   while (chain.solve()) {
     for (std::size_t b = 0; b < ratio.size(); ++b) {
       const Crossing& one = chain.crossing()[b];
-      ratio[b] = chain.stretch(one) / law.tooth(one.tooth).limit;
+      ratio[b] = chain.stretch(one) / law.segment(one.segment).limit;
     }
     const double largest = *std::max_element(ratio.begin(), ratio.end());
     if (!(largest > 0.0)) break;
@@ -204,7 +204,7 @@ double face_strength(std::span<const LayerBond> bonds, std::array<double, 2> sid
     for (std::size_t b = 0; b < ratio.size(); ++b) {
       if (ratio[b] < (1.0 - alike) * largest) continue;
       Crossing& one = chain.crossing()[b];
-      one.secant = law.tooth(++one.tooth).secant;
+      one.secant = law.segment(++one.segment).secant;
     }
   }
   return strength;

@@ -16,7 +16,7 @@ namespace perilink {
 namespace {
 
 /// Ties are not stiffer than those of this length, in spacings.
-constexpr double shortest_tie = 0.1;
+constexpr double shortest_slip_spring = 0.1;
 
 /// Stiffness of ties that are meant to be rigid, over that of the segments of their bar: loads pass
 /// from the bar to the solid within a third of a segment.
@@ -27,7 +27,7 @@ std::vector<std::uint8_t> perfectly_tied(const RebarMesh& mesh, const NetworkInp
                                          Index num_particles) {
   std::vector<std::uint8_t> perfect(static_cast<std::size_t>(num_particles), 0);
   for (Index segment = 0; segment < mesh.segments.size(); ++segment) {
-    if (input.bar_materials[mesh.bar_of_segment[segment]].ties_break) continue;
+    if (input.bar_materials[mesh.bar_of_element[segment]].slip_springs_break) continue;
     perfect[mesh.segments.first[segment]] = 1;
     perfect[mesh.segments.second[segment]] = 1;
   }
@@ -35,15 +35,16 @@ std::vector<std::uint8_t> perfectly_tied(const RebarMesh& mesh, const NetworkInp
 }
 
 /// Bonds of nodes to the particles of the solid around them.
-void add_bonded_ties(const Body& body, const NetworkInput& input, RebarMesh& mesh,
-                     const std::function<TieConstants(Index)>& constants_of, Network& network) {
+void add_bonded_slip_springs(const Body& body, const NetworkInput& input, RebarMesh& mesh,
+                             const std::function<SlipSpringConstants(Index)>& constants_of,
+                             Network& network) {
   const Particles& particles = network.particles;
   if (!input.cracks.empty()) {
     const CutBonds cut = find_cut_bonds(particles, mesh.ties, input.cracks, body.lattice.spacing);
     keep_bonds(mesh.ties, cut.keep);
   }
   const auto perfect = perfectly_tied(mesh, input, particles.size());
-  const double least_length = shortest_tie * body.lattice.spacing;
+  const double least_length = shortest_slip_spring * body.lattice.spacing;
   for (Index tie = 0; tie < mesh.ties.size(); ++tie) {
     const Index solid = mesh.ties.first[tie];
     const Index node = mesh.ties.second[tie];
@@ -64,22 +65,22 @@ Bonds ways_to_solid(const Body& body, const NetworkInput& input, const RebarMesh
                    [](ParticleKind kind) { return kind != ParticleKind::solid; }) -
       particles.kind.begin());
   std::vector<double> nodes;
-  for (const BarNode& node : mesh.anchored) {
+  for (const BarNode& node : mesh.embedded) {
     const auto x = particles.position(node.particle);
     nodes.insert(nodes.end(), x.begin(), x.end());
   }
   const std::span<const double> solid(particles.positions.data(),
                                       static_cast<std::size_t>(num_solid) * dim);
-  const Csr near = find_neighbors(solid, nodes, dim, anchor_reach * body.lattice.spacing);
+  const Csr near = find_neighbors(solid, nodes, dim, embedded_point_reach * body.lattice.spacing);
   Bonds ways;
   ways.dim = dim;
   for (Index k = 0; k < near.rows(); ++k) {
-    const auto x = particles.position(mesh.anchored[k].particle);
+    const auto x = particles.position(mesh.embedded[k].particle);
     const auto holds = [&](const Box& box) { return box.contains(x, 1e-6 * body.lattice.spacing); };
     if (!input.solid.empty() && std::none_of(input.solid.begin(), input.solid.end(), holds)) {
       continue;  // it stands out of the body
     }
-    for (const Index i : near.row(k)) ways.append(particles, i, mesh.anchored[k].particle);
+    for (const Index i : near.row(k)) ways.append(particles, i, mesh.embedded[k].particle);
   }
   if (!input.cracks.empty()) {
     keep_bonds(ways, find_cut_bonds(particles, ways, input.cracks, body.lattice.spacing).keep);
@@ -139,31 +140,32 @@ void append_element(Network& network, Index first, Index second, double length,
 }
 
 /// An anchor at the place of a particle.
-Index add_anchor(Network& network, Index at, std::span<const Index> particles,
-                 std::span<const double> weights) {
+Index add_embedded_point(Network& network, Index at, std::span<const Index> particles,
+                         std::span<const double> weights) {
   Particles& all = network.particles;
   for (int a = 0; a < all.dim; ++a) {
     all.positions.push_back(all.positions[static_cast<std::size_t>(at) * all.dim + a]);
   }
   all.volumes.push_back(all.volumes[at]);
   all.material.push_back(no_index);
-  all.kind.push_back(ParticleKind::anchor);
-  network.anchors.append(particles, weights);
+  all.kind.push_back(ParticleKind::embedded_point);
+  network.embedded_points.append(particles, weights);
   return all.size() - 1;
 }
 
 /// The anchor of each node and its ties: one along the bar, by the law of its bond, and rigid ones
 /// across it.
-class AnchoredTies {
+class EmbeddedSlipSprings {
  public:
-  AnchoredTies(const Body& body, const NetworkInput& input, const RebarMesh& mesh, Network& network)
+  EmbeddedSlipSprings(const Body& body, const NetworkInput& input, const RebarMesh& mesh,
+                      Network& network)
       : input_(input),
         spacing_(body.lattice.spacing),
         network_(network),
         laws_(network),
         ways_(ways_to_solid(body, input, mesh, network.particles)) {
     std::size_t next = 0;
-    for (const BarNode& node : mesh.anchored) {
+    for (const BarNode& node : mesh.embedded) {
       const std::size_t begin = next;
       while (next < ways_.second.size() && ways_.second[next] == node.particle) ++next;
       add(node, begin, next);
@@ -190,11 +192,11 @@ class AnchoredTies {
       weights.push_back(all[k]);
     }
     if (particles.empty()) return;  // it hangs on its bar
-    const Index anchor = add_anchor(network_, node.particle, particles, weights);
-    add_ties(node, anchor);
+    const Index embedded_point = add_embedded_point(network_, node.particle, particles, weights);
+    add_slip_springs(node, embedded_point);
   }
 
-  void add_ties(const BarNode& node, Index anchor) {
+  void add_slip_springs(const BarNode& node, Index embedded_point) {
     const BarMaterial& bar = input_.bar_materials[node.bar];
     const BarBond& bond = bar.bond;
     const double firm = rigid * bar.youngs_modulus * bar.area / (spacing_ * spacing_) * node.length;
@@ -208,7 +210,7 @@ class AnchoredTies {
           slips ? bond.curve->initial_stiffness() * bond.perimeter * node.length : firm;
       const bool limited = slips && !bond.elastic;
       const double stretch = limited ? bond.curve->points.front()[0] / spacing_ : infinity;
-      append_element(network_, node.particle, anchor, spacing_, against, stiffness);
+      append_element(network_, node.particle, embedded_point, spacing_, against, stiffness);
       add_critical_stretch(input_, stretch, network_);
       if (limited) laws_.give(node.bar, [&] { return law_of(*bond.curve, BondLaw::usual_ratio); });
     }
@@ -224,7 +226,7 @@ class AnchoredTies {
 void add_segments(const NetworkInput& input, const RebarMesh& mesh, Network& network) {
   BarLaws laws(network), plateau(network);
   for (Index segment = 0; segment < mesh.segments.size(); ++segment) {
-    const Index number = mesh.bar_of_segment[segment];
+    const Index number = mesh.bar_of_element[segment];
     const BarMaterial& bar = input.bar_materials[number];
     const double yield =
         bar.curve ? bar.curve->points.front()[0] : bar.yield_strength / bar.youngs_modulus;
@@ -233,7 +235,7 @@ void add_segments(const NetworkInput& input, const RebarMesh& mesh, Network& net
     if (bar.shifts) {
       // It ends at a point that goes with the node but for what the bar is longer or shorter by.
       const double one = 1.0;
-      second = add_anchor(network, second, {&second, 1}, {&one, 1});
+      second = add_embedded_point(network, second, {&second, 1}, {&one, 1});
     }
     const auto n = mesh.segments.direction(segment);
     Vector3 direction{};
@@ -262,14 +264,14 @@ void add_segments(const NetworkInput& input, const RebarMesh& mesh, Network& net
 }  // namespace
 
 void add_bars(const Body& body, const NetworkInput& input,
-              const std::function<TieConstants(Index)>& constants_of, Network& network) {
+              const std::function<SlipSpringConstants(Index)>& constants_of, Network& network) {
   RebarMesh mesh = add_rebar(network.particles, input.bars, body.lattice.spacing, input.horizon,
                              body.lattice.cell_volume);
-  network.first_tie = network.bonds.size();
-  add_bonded_ties(body, input, mesh, constants_of, network);
-  network.first_anchored_tie = network.bonds.size();
-  if (!mesh.anchored.empty()) AnchoredTies(body, input, mesh, network);
-  network.first_segment = network.bonds.size();
+  network.first_slip_spring = network.bonds.size();
+  add_bonded_slip_springs(body, input, mesh, constants_of, network);
+  network.first_embedded_slip_spring = network.bonds.size();
+  if (!mesh.embedded.empty()) EmbeddedSlipSprings(body, input, mesh, network);
+  network.first_bar_element = network.bonds.size();
   if (mesh.segments.size() == 0) return;
   add_segments(input, mesh, network);
   for (const BarMaterial& bar : input.bar_materials) {
@@ -280,7 +282,7 @@ void add_bars(const Body& body, const NetworkInput& input,
     }
     network.bars.curves.push_back(std::move(curve));
   }
-  network.bars.bar = std::move(mesh.bar_of_segment);
+  network.bars.bar = std::move(mesh.bar_of_element);
   network.bars.turned = std::move(mesh.turned);
 }
 

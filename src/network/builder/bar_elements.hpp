@@ -8,7 +8,7 @@
 namespace perilink {
 
 /// What a bond between particles of one material is made from.
-struct TieConstants {
+struct SlipSpringConstants {
   double micromodulus = 0.0;  ///< c [force/length^6]
   double critical_stretch = 0.0;
 };
@@ -17,6 +17,6 @@ struct TieConstants {
 /// \param constants_of  those of the bonds of a material
 /// \throws std::invalid_argument where nothing can hold an anchored bar
 void add_bars(const Body& body, const NetworkInput& input,
-              const std::function<TieConstants(Index)>& constants_of, Network& network);
+              const std::function<SlipSpringConstants(Index)>& constants_of, Network& network);
 
 }  // namespace perilink

@@ -79,7 +79,8 @@ Network make_beam(const Body& body, const NetworkInput& input) {
       }
     }
   }
-  network.first_tie = network.first_anchored_tie = network.first_segment = network.bonds.size();
+  network.first_slip_spring = network.first_embedded_slip_spring = network.first_bar_element =
+      network.bonds.size();
   if (!input.elastic) soften_bonds(body, input, network);
   return network;
 }

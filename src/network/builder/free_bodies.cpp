@@ -38,8 +38,9 @@ std::vector<double> nearest_motion(const Network& network, const Fragment& fragm
 std::vector<std::uint8_t> held_components(const Network& network, const Unknowns& unknowns) {
   std::vector<std::uint8_t> held;
   for (std::size_t slot = 0; slot < unknowns.number.size(); ++slot) {
-    const bool is_anchor = network.is_anchor(static_cast<Index>(slot / unknowns.width));
-    held.push_back(unknowns.number[slot] == no_index && !is_anchor);
+    const bool is_embedded_point =
+        network.is_embedded_point(static_cast<Index>(slot / unknowns.width));
+    held.push_back(unknowns.number[slot] == no_index && !is_embedded_point);
   }
   return held;
 }
@@ -79,7 +80,8 @@ double strained_motion(const Network& network, const Fragment& fragment,
 
 void balance_loads(const Network& network, const Fragment& fragment, std::vector<double> mass,
                    Loads& loads) {
-  std::fill(mass.begin() + std::ptrdiff_t{network.first_anchor()} * network.width(), mass.end(),
+  std::fill(mass.begin() + std::ptrdiff_t{network.first_embedded_point()} * network.width(),
+            mass.end(),
             0.0);  // anchors are moved by their particles
   std::vector<double> acceleration(mass.size(), 0.0);
   for (std::size_t slot = 0; slot < mass.size(); ++slot) {

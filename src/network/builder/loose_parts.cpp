@@ -29,7 +29,7 @@ class RigidParts {
   /// Calls visit(element, other end) for the bonds of a particle that are no open crack.
   template <class Visit>
   void for_each_bond(Index particle, Visit visit) const {
-    for (const Index e : families_.row(particle)) {
+    for (const Index e : neighbourhoods_.row(particle)) {
       if (carries_[e]) visit(e, network_.bonds.other_end(e, particle));
     }
   }
@@ -42,7 +42,7 @@ class RigidParts {
   bool holds(Index particle) const;
 
   const Network& network_;
-  Csr families_;
+  Csr neighbourhoods_;
   std::vector<std::uint8_t> carries_;
   std::vector<std::vector<Index>> parts_;
   bool begins_fixed_ = false;
@@ -53,7 +53,8 @@ class RigidParts {
 };
 
 RigidParts::RigidParts(const Network& network)
-    : network_(network), families_(bonds_of_particles(network.bonds, network.particles.size())) {
+    : network_(network),
+      neighbourhoods_(bonds_of_particles(network.bonds, network.particles.size())) {
   for (const double k : network.stiffness) carries_.push_back(k > 0.0);
   for (const Index e : network.cut_elements) carries_[e] = 0;
   const auto count = static_cast<std::size_t>(network.particles.size());
@@ -71,7 +72,8 @@ RigidParts::RigidParts(const Network& network)
 
 std::vector<Index> RigidParts::fixed_particles() const {
   std::vector<Index> fixed;
-  for (Index i = network_.first_anchor(); i < network_.particles.size(); ++i) fixed.push_back(i);
+  for (Index i = network_.first_embedded_point(); i < network_.particles.size(); ++i)
+    fixed.push_back(i);
   for (Index k = 0; network_.cells && k < network_.cells->cells.size(); ++k) {
     const auto cell = network_.cells->cells.cell(k);
     fixed.insert(fixed.end(), cell.begin(), cell.end());

@@ -17,11 +17,11 @@
 #include "network/bond_strength.hpp"
 #include "network/builder/bar_elements.hpp"
 #include "network/builder/beam_bonds.hpp"
-#include "network/builder/glued_cells.hpp"
 #include "network/builder/repeated_box.hpp"
 #include "network/builder/shell_bonds.hpp"
+#include "network/builder/tied_cells.hpp"
 #include "network/correction/surface_correction.hpp"
-#include "network/lattice_families.hpp"
+#include "network/lattice_neighbourhoods.hpp"
 #include "network/unknowns.hpp"
 #include "network/weak_interfaces.hpp"
 
@@ -60,7 +60,8 @@ class PairConstants {
       moduli.push_back(moduli_of(body, input, material));
     }
     const bool on_lattice = input.critical_stretch == Constants::lattice;
-    const BulkFamily family = on_lattice ? bulk_family(body.lattice, input.horizon) : BulkFamily{};
+    const InteriorNeighbourhood neighbourhood =
+        on_lattice ? interior_neighbourhood(body.lattice, input.horizon) : InteriorNeighbourhood{};
     for (std::size_t a = 0; a < count_; ++a) {
       for (std::size_t b = 0; b < count_; ++b) {
         const double c = 0.5 * (moduli[a].micromodulus + moduli[b].micromodulus);
@@ -69,12 +70,12 @@ class PairConstants {
             body.lattice.surface == Surface::ghost
                 ? 0.5 * (input.materials[a].fracture_energy + input.materials[b].fracture_energy)
                 : energy_between(input.materials[a], input.materials[b]);
-        const double stretch = !on_lattice
-                                   ? continuum_critical_stretch(input.problem, energy, c,
-                                                                input.horizon, input.thickness)
-                                   : lattice_critical_stretch(
-                                         energy, lattice_fracture_sum(input.problem, family.offsets,
-                                                                      body.lattice.cell_volume, c));
+        const double stretch =
+            !on_lattice ? continuum_critical_stretch(input.problem, energy, c, input.horizon,
+                                                     input.thickness)
+                        : lattice_critical_stretch(
+                              energy, lattice_fracture_sum(input.problem, neighbourhood.offsets,
+                                                           body.lattice.cell_volume, c));
         const double d = 0.5 * (moduli[a].bending_modulus + moduli[b].bending_modulus);
         pairs_.push_back({{c, d}, stretch});
       }
@@ -82,7 +83,7 @@ class PairConstants {
   }
 
   const BondConstants& of(Index a, Index b) const { return pairs_[a * count_ + b]; }
-  TieConstants tie(Index material) const {
+  SlipSpringConstants tie(Index material) const {
     const auto& [moduli, stretch] = of(material, material);
     return {moduli.micromodulus, stretch};
   }
@@ -218,7 +219,8 @@ void set_stretches(const Body& body, const NetworkInput& input, const PairConsta
     network.critical_stretch.push_back(constants.of(i, j).critical_stretch);
   }
   if (input.critical_stretch != Constants::lattice) return;
-  set_critical_stretches(input, LatticeFamilies(body, input), body.lattice.cell_volume, network);
+  set_critical_stretches(input, LatticeNeighbourhoods(body, input), body.lattice.cell_volume,
+                         network);
 }
 
 /// The same, made in a smaller box where that will do, without those that pre-cracks cut.
@@ -261,8 +263,8 @@ EvenBonds even_bonds(const Body& body, const NetworkInput& input, const Network&
   even.cracks.clear();
   even.on_search = {};
   const PairConstants constants(body, even);
-  const Network whole = body.glued.empty() ? build_bonds(body, even, constants)
-                                           : build_bonds_and_cells(body, even, constants);
+  const Network whole = body.tied.empty() ? build_bonds(body, even, constants)
+                                          : build_bonds_and_cells(body, even, constants);
   EvenBonds bonds{std::vector<double>(static_cast<std::size_t>(network.num_bonds()), 0.0)};
   if (!whole.bending.empty()) bonds.bending = bonds.stiffness;
   const auto ends = [](const Bonds& all, Index b) {
@@ -286,8 +288,8 @@ Network build_network(const Body& body, const NetworkInput& input) {
   check_input(body, input);
   if (!body.spans.empty()) return make_beam(body, input);
   const PairConstants constants(body, input);
-  Network network = body.glued.empty() ? build_bonds(body, input, constants)
-                                       : build_bonds_and_cells(body, input, constants);
+  Network network = body.tied.empty() ? build_bonds(body, input, constants)
+                                      : build_bonds_and_cells(body, input, constants);
   add_bars(
       body, input, [&](Index material) { return constants.tie(material); }, network);
   if (!input.elastic) {
@@ -297,8 +299,8 @@ Network build_network(const Body& body, const NetworkInput& input) {
   } else if (!network.cut_elements.empty()) {
     network.laws = {BondLaw::brittle().closing()};
   }
-  for (std::vector<double>* of_ties : {&network.bending, &network.bending_ratio}) {
-    if (!of_ties->empty()) of_ties->resize(network.stiffness.size(), 0.0);
+  for (std::vector<double>* of_slip_springs : {&network.bending, &network.bending_ratio}) {
+    if (!of_slip_springs->empty()) of_slip_springs->resize(network.stiffness.size(), 0.0);
   }
   if (!network.inflection.empty()) network.inflection.resize(network.stiffness.size(), 0.5);
   if (!network.hinged.empty()) network.hinged.resize(network.stiffness.size(), 0);
@@ -312,7 +314,7 @@ std::vector<Index> find_loose_particles(const Network& network) {
   const std::vector<std::uint8_t> rotating = rotating_particles(network);
   const std::vector<std::uint8_t> in_cells = vertices_of_cells(network);
   std::vector<Index> loose;
-  for (Index i = 0; i < network.first_anchor(); ++i) {  // anchors go with their particles
+  for (Index i = 0; i < network.first_embedded_point(); ++i) {  // anchors go with their particles
     if (!in_cells.empty() && in_cells[i] != 0) continue;
     // One frame holds every direction.
     if (is_loose[i] && (rotating.empty() || !rotating[i])) loose.push_back(i);

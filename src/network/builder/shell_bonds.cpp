@@ -31,12 +31,12 @@ struct MiddleSurface {
   }
 };
 
-void refuse_overlap(const Particles& sheet, double radius) {
+void refuse_overlap(const Particles& mid_surface, double radius) {
   if (radius == 0.0) return;
-  double lower = sheet.positions[0], upper = lower;
-  for (Index i = 0; i < sheet.size(); ++i) {
-    lower = std::min(lower, sheet.position(i)[0]);
-    upper = std::max(upper, sheet.position(i)[0]);
+  double lower = mid_surface.positions[0], upper = lower;
+  for (Index i = 0; i < mid_surface.size(); ++i) {
+    lower = std::min(lower, mid_surface.position(i)[0]);
+    upper = std::max(upper, mid_surface.position(i)[0]);
   }
   if (upper - lower < 2.0 * std::numbers::pi * radius) return;
   throw std::invalid_argument("the sheet is longer than its cylinder is around");
@@ -44,14 +44,14 @@ void refuse_overlap(const Particles& sheet, double radius) {
 
 /// The same particles with a third coordinate, zero.
 Particles in_space(const Particles& plane) {
-  Particles sheet = plane;
-  sheet.dim = 3;
-  sheet.positions.clear();
+  Particles mid_surface = plane;
+  mid_surface.dim = 3;
+  mid_surface.positions.clear();
   for (Index i = 0; i < plane.size(); ++i) {
     const auto x = plane.position(i);
-    sheet.positions.insert(sheet.positions.end(), {x[0], x[1], 0.0});
+    mid_surface.positions.insert(mid_surface.positions.end(), {x[0], x[1], 0.0});
   }
-  return sheet;
+  return mid_surface;
 }
 
 /// Stiffness of a ribbon against shear across the sheet over k: that of a beam that bends, and that
@@ -61,12 +61,13 @@ double shear_ratio(double poissons_ratio, double length, double thickness) {
   return 1.0 / (1.0 / of_material + length * length / (thickness * thickness));
 }
 
-void turn_facets(const MiddleSurface& surface, const Particles& sheet, Facets& facets) {
+void turn_facets(const MiddleSurface& surface, const Particles& mid_surface, Facets& facets) {
   std::vector<double> turned;
   for (Index f = 0; f < facets.size(); ++f) {
     double x = 0.0;
     const auto corners = facets.corners.row(f);
-    for (const Index i : corners) x += sheet.position(i)[0] / static_cast<double>(corners.size());
+    for (const Index i : corners)
+      x += mid_surface.position(i)[0] / static_cast<double>(corners.size());
     const auto area = facets.area_vector(f);
     const Vector3 m = surface.normal(x);
     turned.insert(turned.end(), {area[0] * m[2], area[1], -area[0] * m[0]});
@@ -81,10 +82,10 @@ void make_shell(const NetworkInput& input, Network& network) {
   refuse_overlap(network.particles, input.radius);
   const MiddleSurface surface{input.radius};
   Shell shell{in_space(network.particles), input.thickness, {}, {}, {}};
-  const Particles& sheet = shell.sheet;
-  network.particles = sheet;
-  for (Index i = 0; i < sheet.size(); ++i) {
-    const Vector3 point = surface.at(sheet.position(i)[0], sheet.position(i)[1]);
+  const Particles& mid_surface = shell.mid_surface;
+  network.particles = mid_surface;
+  for (Index i = 0; i < mid_surface.size(); ++i) {
+    const Vector3 point = surface.at(mid_surface.position(i)[0], mid_surface.position(i)[1]);
     std::copy(point.begin(), point.end(), network.particles.positions.begin() + 3L * i);
   }
   Bonds bonds;
@@ -92,11 +93,11 @@ void make_shell(const NetworkInput& input, Network& network) {
   for (Index e = 0; e < network.bonds.size(); ++e) {
     const Index i = network.bonds.first[e], j = network.bonds.second[e];
     const auto ratio = [&](Index particle) {
-      const Index material = sheet.material[particle];
+      const Index material = mid_surface.material[particle];
       return input.materials[material].poissons_ratio;
     };
     bonds.append(network.particles, i, j);
-    const double from = sheet.position(i)[0], to = sheet.position(j)[0];
+    const double from = mid_surface.position(i)[0], to = mid_surface.position(j)[0];
     const Vector3 normal = surface.normal(0.5 * (from + to));
     shell.normals.insert(shell.normals.end(), normal.begin(), normal.end());
     shell.rise.push_back(surface.rise(to - from));
@@ -104,7 +105,7 @@ void make_shell(const NetworkInput& input, Network& network) {
         shear_ratio(0.5 * (ratio(i) + ratio(j)), bonds.length(e), input.thickness));
   }
   network.bonds = std::move(bonds);
-  turn_facets(surface, sheet, network.facets);
+  turn_facets(surface, mid_surface, network.facets);
   network.shell = std::move(shell);
 }
 

@@ -25,7 +25,7 @@ std::optional<std::vector<Corner>> corners_between(const Facets& facets, const P
                                                    Joint& joint) {
   std::vector<Corner> corners;
   for (Index f = 0; f < facets.size(); ++f) {
-    if (facets.is_glued(f)) return std::nullopt;
+    if (facets.is_tied(f)) return std::nullopt;
     const Index inside = facets.inside[f], outside = facets.outside[f];
     if (facets.on_surface(f) || materials[inside] == materials[outside]) continue;
     Vector3 normal = point_of(facets.area_vectors, joint.dim, f);

@@ -125,7 +125,7 @@ void Cut::add_facets(LayerBody& cut) const {
       area[a] = side == Side::inside ? outwards : -outwards;
     }
     facets.append(corners, area, joint_.layers[layer_], no_index);
-    facets.glued.push_back(whole_.facets.on_surface(f) ? 0 : 1);
+    facets.tied.push_back(whole_.facets.on_surface(f) ? 0 : 1);
     cut.facet_of.push_back(f);
   }
 }
@@ -241,7 +241,7 @@ void put_back(const LayerBody& layer, NewBonds& made, Network& whole) {
   }
   const Facets& facets = layer.network.facets;
   for (Index f = 0; f < facets.size(); ++f) {
-    if (facets.is_glued(f)) continue;
+    if (facets.is_tied(f)) continue;
     std::copy(facets.shares.begin() + facets.corners.offsets[f],
               facets.shares.begin() + facets.corners.offsets[f + 1],
               whole.facets.shares.begin() + whole.facets.corners.offsets[layer.facet_of[f]]);

@@ -9,9 +9,9 @@
 #include "calibration/calibration.hpp"
 #include "calibration/calibration_cost.hpp"
 #include "network/bond_strength.hpp"
-#include "network/correction/glued_strength.hpp"
 #include "network/correction/layered_body.hpp"
-#include "network/lattice_families.hpp"
+#include "network/correction/tied_strength.hpp"
+#include "network/lattice_neighbourhoods.hpp"
 
 namespace perilink {
 namespace {
@@ -75,11 +75,12 @@ class Correction {
   void fade_at_horizon();
   void favor_short_bonds();
   void hinge();
-  void set_strength(const LatticeFamilies* families);
-  void take_bulk_families(const LatticeFamilies& families, std::span<const Index> of_kinds);
-  std::vector<double> wanted_moduli(const LatticeFamilies* families) const;
+  void set_strength(const LatticeNeighbourhoods* neighbourhoods);
+  void take_bulk_neighbourhoods(const LatticeNeighbourhoods& neighbourhoods,
+                                std::span<const Index> of_kinds);
+  std::vector<double> wanted_moduli(const LatticeNeighbourhoods* neighbourhoods) const;
   void scale_to(const std::vector<double>& wanted, std::span<const std::uint8_t> free);
-  std::vector<std::uint8_t> free_bonds(const LatticeFamilies& families,
+  std::vector<std::uint8_t> free_bonds(const LatticeNeighbourhoods& neighbourhoods,
                                        std::span<const Index> of_kinds) const;
 
   const Body& body_;
@@ -109,18 +110,19 @@ void Correction::favor_short_bonds() {
 }
 
 /// Which of the families bonds of each kind are.
-std::vector<Index> families_of_kinds(const LatticeFamilies& families, const Bonds& bonds) {
+std::vector<Index> neighbourhoods_of_kinds(const LatticeNeighbourhoods& neighbourhoods,
+                                           const Bonds& bonds) {
   std::vector<Index> result;
   result.reserve(bonds.lengths.size());
   for (Index k = 0; k < bonds.num_kinds(); ++k) {
-    result.push_back(families.find(bonds.direction_of_kind(k), bonds.lengths[k]));
+    result.push_back(neighbourhoods.find(bonds.direction_of_kind(k), bonds.lengths[k]));
   }
   return result;
 }
 
 /// Stiffness of the isotropic families, in proportion to the volumes of the ends.
-void Correction::take_bulk_families(const LatticeFamilies& families,
-                                    std::span<const Index> of_kinds) {
+void Correction::take_bulk_neighbourhoods(const LatticeNeighbourhoods& neighbourhoods,
+                                          std::span<const Index> of_kinds) {
   const double volume = body_.lattice.cell_volume;
   for (Index e = 0; e < network_.bonds.size(); ++e) {
     const Index i = network_.bonds.first[e], j = network_.bonds.second[e];
@@ -128,21 +130,21 @@ void Correction::take_bulk_families(const LatticeFamilies& families,
     if (k == no_index) continue;
     const double share =
         network_.particles.volumes[i] / volume * (network_.particles.volumes[j] / volume);
-    const FamilyStiffness& a = families.stiffness(material(i));
-    const FamilyStiffness& b = families.stiffness(material(j));
+    const NeighbourhoodStiffness& a = neighbourhoods.stiffness(material(i));
+    const NeighbourhoodStiffness& b = neighbourhoods.stiffness(material(j));
     network_.stiffness[e] = 0.5 * (a.axial[k] + b.axial[k]) * share;
     if (micropolar()) network_.bending[e] = 0.5 * (a.bending[k] + b.bending[k]) * share;
   }
 }
 
 /// What moduli_of_particles() would be inside the body.
-std::vector<double> Correction::wanted_moduli(const LatticeFamilies* families) const {
+std::vector<double> Correction::wanted_moduli(const LatticeNeighbourhoods* neighbourhoods) const {
   std::vector<double> per_volume;
   for (std::size_t m = 0; m < input_.materials.size(); ++m) {
     per_volume.push_back(
-        families ? families->modulus(static_cast<Index>(m)) / body_.lattice.cell_volume
-                 : continuum_modulus(input_,
-                                     moduli_of(body_, input_, input_.materials[m]).micromodulus));
+        neighbourhoods ? neighbourhoods->modulus(static_cast<Index>(m)) / body_.lattice.cell_volume
+                       : continuum_modulus(
+                             input_, moduli_of(body_, input_, input_.materials[m]).micromodulus));
   }
   std::vector<double> wanted(static_cast<std::size_t>(network_.particles.size()));
   for (Index i = 0; i < network_.particles.size(); ++i) {
@@ -167,7 +169,7 @@ void Correction::scale_to(const std::vector<double>& wanted, std::span<const std
 /// and in space where neighbours are few, the particles bonded to such ends count as well: the
 /// equations of a thinner layer are nearly singular there, and those of forces and moments along a
 /// side have no positive weights.
-std::vector<std::uint8_t> Correction::free_bonds(const LatticeFamilies& families,
+std::vector<std::uint8_t> Correction::free_bonds(const LatticeNeighbourhoods& neighbourhoods,
                                                  std::span<const Index> of_kinds) const {
   std::vector<Index> regular(static_cast<std::size_t>(network_.particles.size()), 0);
   const Bonds& bonds = network_.bonds;
@@ -181,8 +183,8 @@ std::vector<std::uint8_t> Correction::free_bonds(const LatticeFamilies& families
     ++regular[j];
   }
   std::vector<std::uint8_t> layer(regular.size());
-  for (std::size_t i = 0; i < layer.size(); ++i) layer[i] = regular[i] != families.size();
-  if (micropolar() || (network_.dim() == 3 && families.size() < enough_in_space)) {
+  for (std::size_t i = 0; i < layer.size(); ++i) layer[i] = regular[i] != neighbourhoods.size();
+  if (micropolar() || (network_.dim() == 3 && neighbourhoods.size() < enough_in_space)) {
     const std::vector<std::uint8_t> thinner = layer;
     for (Index b = 0; b < bonds.size(); ++b) {
       if (thinner[bonds.first[b]]) layer[bonds.second[b]] = 1;
@@ -201,7 +203,7 @@ void Correction::energy() {
   if (on_lattice()) {
     // Moduli of the lattice's own family, so that nothing changes inside.
     double sum = 0.0;
-    for (const Vector3& x : bulk_family(body_.lattice, input_.horizon).offsets) {
+    for (const Vector3& x : interior_neighbourhood(body_.lattice, input_.horizon).offsets) {
       sum += std::hypot(x[0], x[1], x[2]);
     }
     std::vector<double> micromoduli;
@@ -218,22 +220,22 @@ void Correction::energy() {
 
 void Correction::calibrate(bool give_up) {
   const Timer timer;
-  std::optional<LatticeFamilies> families;
+  std::optional<LatticeNeighbourhoods> neighbourhoods;
   std::vector<Index> of_kinds;
   fade_at_horizon();
   if (on_lattice()) {
-    families.emplace(body_, input_);
-    of_kinds = families_of_kinds(*families, network_.bonds);
-    take_bulk_families(*families, of_kinds);
+    neighbourhoods.emplace(body_, input_);
+    of_kinds = neighbourhoods_of_kinds(*neighbourhoods, network_.bonds);
+    take_bulk_neighbourhoods(*neighbourhoods, of_kinds);
   } else if (!can_break(input_)) {
     favor_short_bonds();
   }
-  const LatticeFamilies* family = families ? &*families : nullptr;
+  const LatticeNeighbourhoods* neighbourhood = neighbourhoods ? &*neighbourhoods : nullptr;
   CalibrationInput calibration{network_.particles, network_.bonds, {}, {}};
   calibration.give_up = give_up;
   calibration.only_alike = input_.only_alike;
-  if (family) {
-    calibration.free = free_bonds(*family, of_kinds);
+  if (neighbourhood) {
+    calibration.free = free_bonds(*neighbourhood, of_kinds);
     if (network_.hinged.empty()) {
       calibration.box = lattice_box(body_);
       const Pattern pattern = body_.lattice.pattern;
@@ -241,7 +243,7 @@ void Correction::calibrate(bool give_up) {
       if (in_space) calibration.step = body_.lattice.step;
     }
   }
-  scale_to(wanted_moduli(family), calibration.free);
+  scale_to(wanted_moduli(neighbourhood), calibration.free);
   hinge();
   for (const SolidMaterial& m : input_.materials) {
     calibration.materials.push_back(lame_constants(input_, m));
@@ -255,7 +257,7 @@ void Correction::calibrate(bool give_up) {
     balance(calibration);
     network_.calibration->seconds = timer.seconds();
   }
-  if (!input_.elastic) set_strength(family);
+  if (!input_.elastic) set_strength(neighbourhood);
 }
 
 /// Nothing turns in the planes of a joint, where the layers turn unlike.
@@ -271,11 +273,11 @@ void Correction::hinge() {
 }
 
 /// By the stiffnesses as they are now.
-void Correction::set_strength(const LatticeFamilies* families) {
-  if (families == nullptr) {
-    set_strength_of_cloud(input_, network_);
+void Correction::set_strength(const LatticeNeighbourhoods* neighbourhoods) {
+  if (neighbourhoods == nullptr) {
+    set_strength_of_unstructured(input_, network_);
   } else if (input_.critical_stretch == Constants::lattice) {
-    set_critical_stretches(input_, *families, body_.lattice.cell_volume, network_);
+    set_critical_stretches(input_, *neighbourhoods, body_.lattice.cell_volume, network_);
   }
 }
 
@@ -287,7 +289,7 @@ bool Correction::calibrate_layers() {
     return false;
   }
   if (micropolar() && on_lattice() && network_.dim() == 3 &&
-      bulk_family(body_.lattice, input_.horizon).offsets.size() < least_neighbours) {
+      interior_neighbourhood(body_.lattice, input_.horizon).offsets.size() < least_neighbours) {
     return false;
   }
   std::vector<LameConstants> constants;
@@ -298,7 +300,7 @@ bool Correction::calibrate_layers() {
   const auto calibrate_layer = [&](std::size_t layer, const Body& body, Network& network) {
     Correction(body, input_, network).calibrate(true);
     if (input_.elastic || !can_break(input_) || have_stretches(input_)) return;
-    toughen_glued_faces(*joint, layer, input_.horizon, body_.lattice.spacing, network);
+    toughen_tied_faces(*joint, layer, input_.horizon, body_.lattice.spacing, network);
   };
   if (!joint || !perilink::calibrate_layers(body_, input_, *joint, calibrate_layer, network_)) {
     return false;

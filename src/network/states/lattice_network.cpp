@@ -85,7 +85,7 @@ LatticeNetwork lattice_network(const LatticeRows& lattice, std::span<const doubl
   }
   result.left_out = lattice.particles() - network.particles.size();
   network.state_stiffness.assign(result.slots.size(), sum_modulus / (2.0 * lattice.spacing));
-  network.first_tie = network.first_segment = network.bonds.size();
+  network.first_slip_spring = network.first_bar_element = network.bonds.size();
   return result;
 }
 

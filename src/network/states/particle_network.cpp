@@ -43,17 +43,17 @@ Bonds find_candidates(const Body& body, int count) {
 }
 
 /// The neighbours of a particle among its candidates, and their constants.
-struct Family {
+struct Neighbourhood {
   std::vector<Index> elements;  ///< those chosen among the candidates
-  std::vector<FamilyBond> bonds;
+  std::vector<NeighbourhoodBond> bonds;
   ParticleFit fit;
   bool enlarged = false;  ///< beyond the nearest, which left some strain free
 };
 
-class Families {
+class Neighbourhoods {
  public:
-  Families(const Bonds& candidates, const Particles& particles, Problem problem,
-           std::span<const IsotropicMaterial> materials)
+  Neighbourhoods(const Bonds& candidates, const Particles& particles, Problem problem,
+                 std::span<const IsotropicMaterial> materials)
       : candidates_(candidates),
         particles_(particles),
         problem_(problem),
@@ -61,44 +61,46 @@ class Families {
         around_(bonds_of_particles(candidates, particles.size())),
         count_(particles.dim == 2 ? neighbors_in_plane : neighbors_in_space) {}
 
-  Family of(Index particle) const {
+  Neighbourhood of(Index particle) const {
     std::vector<Index> nearest(around_.row(particle).begin(), around_.row(particle).end());
     std::stable_sort(nearest.begin(), nearest.end(), [&](Index a, Index b) {
       return candidates_.length(a) < candidates_.length(b);
     });
-    Family family = of_nearest(particle, nearest, count_);
+    Neighbourhood neighbourhood = of_nearest(particle, nearest, count_);
     for (std::size_t more = count_ + 1;
-         family.fit.kind == FitKind::singular && more <= nearest.size(); ++more) {
-      family = of_nearest(particle, nearest, more);
-      family.enlarged = true;
+         neighbourhood.fit.kind == FitKind::singular && more <= nearest.size(); ++more) {
+      neighbourhood = of_nearest(particle, nearest, more);
+      neighbourhood.enlarged = true;
     }
-    return family;
+    return neighbourhood;
   }
 
  private:
   /// As many as `count` of those sorted by distance, with all that are as far as the last one.
-  Family of_nearest(Index particle, std::span<const Index> nearest, std::size_t count) const {
-    Family family;
+  Neighbourhood of_nearest(Index particle, std::span<const Index> nearest,
+                           std::size_t count) const {
+    Neighbourhood neighbourhood;
     if (!nearest.empty()) {
       const double last = candidates_.length(nearest[std::min(count, nearest.size()) - 1]);
       for (const Index e : nearest) {
         if (candidates_.length(e) > last * (1.0 + tie)) break;
-        family.elements.push_back(e);
-        FamilyBond bond;
+        neighbourhood.elements.push_back(e);
+        NeighbourhoodBond bond;
         bond.length = candidates_.length(e);
         bond.far = bond.length > far_from * last;
         const auto n = candidates_.direction(e);
         // Signs do not matter: products n n'.
         std::copy(n.begin(), n.end(), bond.direction.begin());
-        family.bonds.push_back(bond);
+        neighbourhood.bonds.push_back(bond);
       }
     }
     const Index number = particles_.material[particle];
     if (number == no_index) throw std::logic_error("a particle has no material");
     const IsotropicMaterial& material = materials_[number];
-    family.fit = fit_particle_moduli(problem_, material.youngs_modulus, material.poissons_ratio,
-                                     family.bonds, particles_.volumes[particle]);
-    return family;
+    neighbourhood.fit =
+        fit_particle_moduli(problem_, material.youngs_modulus, material.poissons_ratio,
+                            neighbourhood.bonds, particles_.volumes[particle]);
+    return neighbourhood;
   }
 
   const Bonds& candidates_;
@@ -109,8 +111,8 @@ class Families {
   std::size_t count_;
 };
 
-void note(const Family& family, Index particle, ParticleFitReport& report) {
-  const ParticleFit& fit = family.fit;
+void note(const Neighbourhood& neighbourhood, Index particle, ParticleFitReport& report) {
+  const ParticleFit& fit = neighbourhood.fit;
   switch (fit.kind) {
     case FitKind::exact: ++report.exact; break;
     case FitKind::least: ++report.least; break;
@@ -118,7 +120,7 @@ void note(const Family& family, Index particle, ParticleFitReport& report) {
     case FitKind::indefinite: ++report.indefinite; break;
     case FitKind::singular: ++report.singular; break;
   }
-  report.enlarged += family.enlarged ? 1 : 0;
+  report.enlarged += neighbourhood.enlarged ? 1 : 0;
   report.mean_residual += fit.residual;
   if (report.worst != no_index && !(fit.residual > report.largest_residual)) return;
   report.largest_residual = fit.residual;
@@ -135,7 +137,7 @@ void keep_neighbours(const Bonds& candidates, std::span<const double> stiffness,
     network.stiffness.push_back(stiffness[e]);
     network.state_of.push_back(state_of[e]);
   }
-  network.first_tie = network.first_segment = network.bonds.size();
+  network.first_slip_spring = network.first_bar_element = network.bonds.size();
 }
 
 }  // namespace
@@ -150,21 +152,21 @@ ParticleNetwork make_particle_network(const Body& body, Problem problem,
   network.facets = body.facets;
   const int count = body.particles.dim == 2 ? neighbors_in_plane : neighbors_in_space;
   const Bonds candidates = find_candidates(body, count);
-  const Families families(candidates, network.particles, problem, materials);
+  const Neighbourhoods neighbourhoods(candidates, network.particles, problem, materials);
   std::vector<double> stiffness(static_cast<std::size_t>(candidates.size()), 0.0);
   std::vector<std::uint8_t> state_of(stiffness.size(), 0);
   const Index size = network.particles.size();
   for (Index i = 0; i < size; ++i) {
-    const Family family = families.of(i);
-    note(family, i, result.report);
-    for (std::size_t k = 0; k < family.elements.size(); ++k) {
-      const Index e = family.elements[k];
-      const double own =
-          family.fit.moduli.own + (family.bonds[k].far ? family.fit.moduli.far : 0.0);
-      stiffness[e] += 0.5 * own / family.bonds[k].length;
+    const Neighbourhood neighbourhood = neighbourhoods.of(i);
+    note(neighbourhood, i, result.report);
+    for (std::size_t k = 0; k < neighbourhood.elements.size(); ++k) {
+      const Index e = neighbourhood.elements[k];
+      const double own = neighbourhood.fit.moduli.own +
+                         (neighbourhood.bonds[k].far ? neighbourhood.fit.moduli.far : 0.0);
+      stiffness[e] += 0.5 * own / neighbourhood.bonds[k].length;
       state_of[e] |= candidates.first[e] == i ? first_end : second_end;
     }
-    network.state_stiffness.push_back(0.5 * family.fit.moduli.state);
+    network.state_stiffness.push_back(0.5 * neighbourhood.fit.moduli.state);
   }
   result.report.mean_residual /= std::max<Index>(1, size);
   keep_neighbours(candidates, stiffness, state_of, network);

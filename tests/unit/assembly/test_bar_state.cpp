@@ -34,7 +34,7 @@ std::vector<double> linear_motion(const Network& network) {
 const double perimeter = std::sqrt(4.0 * std::numbers::pi * 0.005);
 
 double length_of(const Network& network, std::size_t segment) {
-  return network.bonds.lengths[network.first_segment + static_cast<Index>(segment)];
+  return network.bonds.lengths[network.first_bar_element + static_cast<Index>(segment)];
 }
 
 TEST(BarState, InAUniformStrainBarsBearItAndDoNotSlip) {
@@ -74,7 +74,7 @@ TEST(BarState, ABarThatIsPulledThroughTheSolidSlipsAndGivesItsForceToIt) {
   }
   const BarState state = bar_state(network, intact(network), motion);
   for (std::size_t s = 0; s < state.force.size(); ++s) {
-    const Index e = network.first_segment + static_cast<Index>(s);
+    const Index e = network.first_bar_element + static_cast<Index>(s);
     const double a = network.particles.position(network.bonds.first[e])[0];
     const double b = network.particles.position(network.bonds.second[e])[0];
     EXPECT_NEAR(state.strain[s], 0.5 * grown * (a + b), 1e-13);
@@ -109,7 +109,7 @@ TEST(BarState, SlipCountsTowardsTheEndOfTheBar) {
   AnalysisBody body = block(false);
   Network turned = body.network;
   for (std::size_t s = 0; s < turned.bars.bar.size(); ++s) {
-    const std::size_t e = static_cast<std::size_t>(turned.first_segment) + s;
+    const std::size_t e = static_cast<std::size_t>(turned.first_bar_element) + s;
     std::swap(turned.bonds.first[e], turned.bonds.second[e]);
     for (std::size_t a = 0; a < 2; ++a) turned.bonds.directions[2 * e + a] *= -1.0;
     turned.bars.turned[s] = !turned.bars.turned[s];

@@ -1,4 +1,4 @@
-#include "assembly/carried_stiffness.hpp"
+#include "assembly/embedded_stiffness.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,11 +12,11 @@ namespace {
 
 using namespace test;
 
-class CarriedStiffness : public testing::TestWithParam<bool> {};
+class EmbeddedStiffness : public testing::TestWithParam<bool> {};
 
 /// T' K T by dense products, of a block in which two nodes that are no particles carry four
 /// particles, and one of these a fixed share of a third particle's motion. 1e-12: round-off.
-TEST_P(CarriedStiffness, IsThatOfTheMotion) {
+TEST_P(EmbeddedStiffness, IsThatOfTheMotion) {
   BlockCase block;
   block.lattice = {"plane", Pattern::rectangular, Surface::none};
   block.columns = 6;
@@ -55,12 +55,12 @@ TEST_P(CarriedStiffness, IsThatOfTheMotion) {
   const auto spring = static_cast<Index>(slot(body, 8, 1));
   free(spring, spring) += 3.0;
   const Eigen::MatrixXd expected = map.transpose() * free * map;
-  const SparseMatrix lower = assemble_carried(network, secants, motion);
+  const SparseMatrix lower = assemble_embedded(network, secants, motion);
   const Eigen::MatrixXd found = Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>();
   EXPECT_LT((found - expected).norm(), 1e-12 * expected.norm());
 }
 
-INSTANTIATE_TEST_SUITE_P(Bonds, CarriedStiffness, testing::Bool());
+INSTANTIATE_TEST_SUITE_P(Bonds, EmbeddedStiffness, testing::Bool());
 
 }  // namespace
 }  // namespace perilink

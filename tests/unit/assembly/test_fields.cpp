@@ -12,29 +12,30 @@ namespace {
 
 using namespace test;
 
-Csr families_of(const Network& network) {
+Csr neighbourhoods_of(const Network& network) {
   return bonds_of_particles(network.bonds, network.particles.size());
 }
 
 TEST(ParticleDamage, IsTheBrokenShareOfTheFamilyVolume) {
   const Network network = make_network({"", Pattern::rectangular, Surface::none}, 5);
-  const Csr families = families_of(network);
+  const Csr neighbourhoods = neighbourhoods_of(network);
   std::vector<double> secants(static_cast<std::size_t>(network.num_elements()), 1.0);
-  for (const double damage : particle_damage(network, families, secants)) EXPECT_EQ(damage, 0.0);
+  for (const double damage : particle_damage(network, neighbourhoods, secants))
+    EXPECT_EQ(damage, 0.0);
   // Break all bonds of particle 0, a corner.
-  for (const Index b : families.row(0)) secants[b] = 0.0;
-  const auto damage = particle_damage(network, families, secants);
+  for (const Index b : neighbourhoods.row(0)) secants[b] = 0.0;
+  const auto damage = particle_damage(network, neighbourhoods, secants);
   EXPECT_EQ(damage[0], 1.0);
   double volume = 0.0;
-  for (const Index b : families.row(1)) {
+  for (const Index b : neighbourhoods.row(1)) {
     const Index j = network.bonds.first[b] == 1 ? network.bonds.second[b] : network.bonds.first[b];
     volume += network.particles.volumes[j];
   }
   EXPECT_NEAR(damage[1], network.particles.volumes[0] / volume, 1e-15);
   EXPECT_EQ(damage.back(), 0.0);
   // What has lost a part of its stiffness is damaged by that part.
-  for (const Index b : families.row(0)) secants[b] = 0.25;
-  EXPECT_DOUBLE_EQ(particle_damage(network, families, secants)[0], 0.75);
+  for (const Index b : neighbourhoods.row(0)) secants[b] = 0.25;
+  EXPECT_DOUBLE_EQ(particle_damage(network, neighbourhoods, secants)[0], 0.75);
 }
 
 TEST(StrainEnergyDensity, SumsToTheEnergyOfTheNetwork) {
@@ -66,7 +67,8 @@ TEST(PrincipalStrains, OfALinearFieldAreExactWhateverBondsAreBroken) {
     const int dim = network.dim();
     const auto displacement = linear_field(network.particles, gradient);
     const auto secants = random_secants(network.num_elements(), 3);
-    const auto strains = principal_strains(network, families_of(network), secants, displacement);
+    const auto strains =
+        principal_strains(network, neighbourhoods_of(network), secants, displacement);
     double trace = 0.0;
     double squares = 0.0;  // for the symmetric part
     for (int row = 0; row < dim; ++row) {
@@ -87,12 +89,12 @@ TEST(PrincipalStrains, OfALinearFieldAreExactWhateverBondsAreBroken) {
 
 TEST(PrincipalStrains, AreZeroWhereTheBondsDoNotSpanTheSpace) {
   const Network network = make_network({"", Pattern::rectangular, Surface::none}, 4);
-  const Csr families = families_of(network);
+  const Csr neighbourhoods = neighbourhoods_of(network);
   std::vector<double> secants(static_cast<std::size_t>(network.num_elements()), 1.0);
-  for (const Index b : families.row(0)) secants[b] = 0.0;
-  secants[families.row(0)[0]] = 1.0;
+  for (const Index b : neighbourhoods.row(0)) secants[b] = 0.0;
+  secants[neighbourhoods.row(0)[0]] = 1.0;
   const auto displacement = random_vector(network.particles.positions.size(), 2);
-  const auto strains = principal_strains(network, families, secants, displacement);
+  const auto strains = principal_strains(network, neighbourhoods, secants, displacement);
   EXPECT_EQ(strains[0], 0.0);
   EXPECT_EQ(strains[1], 0.0);
   EXPECT_NE(strains[2], 0.0);

@@ -24,7 +24,7 @@ Network pair_network(int count) {
   for (int n = 0; n < count; ++n) network.bonds.append(network.particles, 0, 1);
   network.stiffness.assign(static_cast<std::size_t>(count), 100.0);
   network.critical_stretch.assign(static_cast<std::size_t>(count), 1e-3);
-  network.first_tie = network.first_segment = count;
+  network.first_slip_spring = network.first_bar_element = count;
   return network;
 }
 

@@ -47,17 +47,18 @@ struct SampledSquare {
   void make_inside_right(std::span<const Index> around, Index middle) {
     const Particles& particles = problem.body.particles;
     std::vector<Vector3> offsets;
-    FamilyStiffness family;
+    NeighbourhoodStiffness neighbourhood;
     for (const Index b : around) {
       const auto to = particles.position(problem.bonds.other_end(b, middle));
       const auto from = particles.position(middle);
       offsets.push_back({to[0] - from[0], to[1] - from[1], 0.0});
-      family.axial.push_back(problem.stiffness.axial[b]);
+      neighbourhood.axial.push_back(problem.stiffness.axial[b]);
     }
-    make_isotropic(2, offsets, particles.volumes[middle], {1.0, 1.0}, family);
+    make_isotropic(2, offsets, particles.volumes[middle], {1.0, 1.0}, neighbourhood);
     std::map<long, double> of_length;
     const auto rounded = [&](Index b) { return std::lround(1e6 * problem.bonds.length(b)); };
-    for (std::size_t k = 0; k < around.size(); ++k) of_length[rounded(around[k])] = family.axial[k];
+    for (std::size_t k = 0; k < around.size(); ++k)
+      of_length[rounded(around[k])] = neighbourhood.axial[k];
     for (Index b = 0; b < problem.bonds.size(); ++b) {
       problem.stiffness.axial[b] = of_length.at(rounded(b));
     }

@@ -29,24 +29,24 @@ TEST_P(Isotropic, FamilyHasTheEnergyOfTheContinuum) {
   lattice.step = {0.5, stretch * (pattern == Pattern::hexagonal ? 0.5 * std::sqrt(0.75) : 0.5),
                   0.5};
   lattice.cell_volume = 0.1;
-  const auto family = bulk_family(lattice, ratio * 0.5);
+  const auto neighbourhood = interior_neighbourhood(lattice, ratio * 0.5);
   const LameConstants constants{2.0, bending ? 3.5 : 2.0};
-  FamilyStiffness stiffness;
-  for (const Vector3& x : family.offsets) {
+  NeighbourhoodStiffness stiffness;
+  for (const Vector3& x : neighbourhood.offsets) {
     const double length = std::hypot(x[0], x[1], x[2]);
     stiffness.axial.push_back(partial_volume(length, ratio * 0.5, 0.5) / length);
     if (bending) stiffness.bending.push_back(0.3 / (length * length * length));
   }
-  make_isotropic(lattice.dim, family.offsets, lattice.cell_volume, constants, stiffness);
+  make_isotropic(lattice.dim, neighbourhood.offsets, lattice.cell_volume, constants, stiffness);
   const double strains[4][6] = {
       {1, 0, 0, 0, 0, 0}, {1, 1, 1, 0, 0, 0}, {1, -1, 0, .3, 0, 0}, {0, .2, -.5, 1, .7, -.4}};
   for (const auto& e : strains) {
     double eps[3][3] = {{e[0], e[3], e[5]}, {e[3], e[1], e[4]}, {e[5], e[4], e[2]}};
     if (lattice.dim == 2) eps[2][2] = eps[1][2] = eps[2][1] = eps[0][2] = eps[2][0] = 0.0;
     double energy = 0.0, trace = 0.0, square = 0.0;
-    for (std::size_t k = 0; k < family.offsets.size(); ++k) {
+    for (std::size_t k = 0; k < neighbourhood.offsets.size(); ++k) {
       EXPECT_GT(stiffness.axial[k], 0.0);
-      const Vector3& x = family.offsets[k];
+      const Vector3& x = neighbourhood.offsets[k];
       Vector3 u{};
       for (int a = 0; a < 3; ++a) {
         for (int b = 0; b < 3; ++b) u[a] += eps[a][b] * x[b];
@@ -67,8 +67,8 @@ TEST_P(Isotropic, FamilyHasTheEnergyOfTheContinuum) {
   }
   // No couple on the particle in any strain: sum k_b (x x - |x|^2 / dim).
   double couple[3][3] = {}, trace = 0.0;
-  for (std::size_t k = 0; bending && k < family.offsets.size(); ++k) {
-    const Vector3& x = family.offsets[k];
+  for (std::size_t k = 0; bending && k < neighbourhood.offsets.size(); ++k) {
+    const Vector3& x = neighbourhood.offsets[k];
     for (int a = 0; a < lattice.dim; ++a) {
       for (int b = 0; b < lattice.dim; ++b) couple[a][b] += stiffness.bending[k] * x[a] * x[b];
       trace += stiffness.bending[k] * x[a] * x[a];
@@ -82,7 +82,7 @@ TEST_P(Isotropic, FamilyHasTheEnergyOfTheContinuum) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Families, Isotropic,
+    Neighbourhoods, Isotropic,
     testing::Values(Case{Pattern::rectangular, 2.0, false}, Case{Pattern::rectangular, 3.0, false},
                     Case{Pattern::rectangular, 4.0, false}, Case{Pattern::hexagonal, 1.0, false},
                     Case{Pattern::hexagonal, 3.0, false}, Case{Pattern::cubic, 2.0, false},
@@ -94,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(IsotropicWeights, RefusesAFamilyThatCannotShear) {
   const std::vector<Vector3> offsets = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}};
-  FamilyStiffness stiffness{{1, 1, 1, 1}, {}};
+  NeighbourhoodStiffness stiffness{{1, 1, 1, 1}, {}};
   EXPECT_THROW(make_isotropic(2, offsets, 1.0, {1.0, 1.0}, stiffness), std::invalid_argument);
 }
 

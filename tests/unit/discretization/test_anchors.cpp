@@ -1,4 +1,4 @@
-#include "discretization/anchors.hpp"
+#include "discretization/embedded_points.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ std::vector<double> arms_of(double x, double y, double spacing, double boundary 
   return arms;
 }
 
-TEST(Anchors, WeightsReproduceLinearFields) {
+TEST(EmbeddedPoints, WeightsReproduceLinearFields) {
   std::mt19937 random(22);
   std::uniform_real_distribution<double> shift(-0.5, 0.5);
   for (const double boundary : {-100.0, -0.01}) {
@@ -44,7 +44,7 @@ TEST(Anchors, WeightsReproduceLinearFields) {
   }
 }
 
-TEST(Anchors, WeightsChangeSmoothlyAsThePointMoves) {
+TEST(EmbeddedPoints, WeightsChangeSmoothlyAsThePointMoves) {
   std::vector<double> last;
   for (double x = 0.0; x <= 1.0; x += 1e-3) {
     const std::vector<double> now = linear_weights(arms_of(x, 0.3, 1.0), 2, 1.0);
@@ -54,19 +54,19 @@ TEST(Anchors, WeightsChangeSmoothlyAsThePointMoves) {
   }
 }
 
-TEST(Anchors, ParticlesInALineOrFarAwayMoveNothing) {
+TEST(EmbeddedPoints, ParticlesInALineOrFarAwayMoveNothing) {
   EXPECT_TRUE(linear_weights(std::vector<double>{-1, 0, 0, 0, 1, 0}, 2, 1.0).empty());
   EXPECT_TRUE(linear_weights(std::vector<double>{3, 0, 3, 1, 4, 0}, 2, 1.0).empty());
   EXPECT_TRUE(linear_weights({}, 3, 1.0).empty());
 }
 
-TEST(Anchors, AreAppendedOneByOne) {
-  Anchors anchors;
-  anchors.append(std::vector<Index>{4, 7}, std::vector<double>{0.25, 0.75});
-  anchors.append(std::vector<Index>{2}, std::vector<double>{1.0});
-  ASSERT_EQ(anchors.size(), 2);
-  EXPECT_EQ(anchors.particles.row(1)[0], 2);
-  EXPECT_EQ(anchors.weights_of(0)[1], 0.75);
+TEST(EmbeddedPoints, AreAppendedOneByOne) {
+  EmbeddedPoints embedded_points;
+  embedded_points.append(std::vector<Index>{4, 7}, std::vector<double>{0.25, 0.75});
+  embedded_points.append(std::vector<Index>{2}, std::vector<double>{1.0});
+  ASSERT_EQ(embedded_points.size(), 2);
+  EXPECT_EQ(embedded_points.particles.row(1)[0], 2);
+  EXPECT_EQ(embedded_points.weights_of(0)[1], 0.75);
 }
 
 }  // namespace

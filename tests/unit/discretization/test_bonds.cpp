@@ -47,20 +47,20 @@ TEST(Bonds, AreSortedUniqueAndWithinTheHorizon) {
 TEST(Bonds, KeepNeighboursOnTheHorizonInSpiteOfRoundOff) {
   const Body body = square(Surface::none);
   const Bonds bonds = make_bonds(body.particles, 0.3);
-  const Csr families = bonds_of_particles(bonds, body.particles.size());
-  const auto family = bulk_family(body.lattice, 0.3);
-  EXPECT_EQ(family.offsets.size(), 28U);
-  EXPECT_EQ(families.row(5 * 11 + 5).size(), 28U);
-  EXPECT_EQ(families.row(0).size(), 10U);  // a quarter of the disc with its two edges
+  const Csr neighbourhoods = bonds_of_particles(bonds, body.particles.size());
+  const auto neighbourhood = interior_neighbourhood(body.lattice, 0.3);
+  EXPECT_EQ(neighbourhood.offsets.size(), 28U);
+  EXPECT_EQ(neighbourhoods.row(5 * 11 + 5).size(), 28U);
+  EXPECT_EQ(neighbourhoods.row(0).size(), 10U);  // a quarter of the disc with its two edges
 }
 
 TEST(Bonds, FamiliesListEveryBondAtBothEnds) {
   const Body body = square(Surface::none);
   const Bonds bonds = make_bonds(body.particles, 0.2);
-  const Csr families = bonds_of_particles(bonds, body.particles.size());
-  EXPECT_EQ(families.values.size(), 2U * bonds.size());
-  for (Index i = 0; i < families.rows(); ++i) {
-    for (const Index b : families.row(i)) {
+  const Csr neighbourhoods = bonds_of_particles(bonds, body.particles.size());
+  EXPECT_EQ(neighbourhoods.values.size(), 2U * bonds.size());
+  for (Index i = 0; i < neighbourhoods.rows(); ++i) {
+    for (const Index b : neighbourhoods.row(i)) {
       EXPECT_TRUE(bonds.first[b] == i || bonds.second[b] == i);
     }
   }

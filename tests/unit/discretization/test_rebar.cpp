@@ -35,8 +35,8 @@ TEST(Rebar, DividesABarAndTiesItsNodes) {
   }
   // A node in the middle of a cell has 12 particles within two spacings: 4 at sqrt(1/2), 8 at
   // sqrt(5/2) spacings.
-  const Csr families = bonds_of_particles(mesh.ties, particles.size());
-  EXPECT_EQ(families.row(before + 5).size(), 12U);
+  const Csr neighbourhoods = bonds_of_particles(mesh.ties, particles.size());
+  EXPECT_EQ(neighbourhoods.row(before + 5).size(), 12U);
   for (Index tie = 0; tie < mesh.ties.size(); ++tie) {
     EXPECT_LT(mesh.ties.first[tie], before);
     EXPECT_GE(mesh.ties.second[tie], before);
@@ -63,10 +63,10 @@ TEST(Rebar, CrossingBarsShareTheirNode) {
   const RebarMesh mesh = add_rebar(particles, bars, 0.1, 0.2, 0.01);
   EXPECT_EQ(particles.size(), before + 19);
   EXPECT_EQ(mesh.segments.size(), 18);
-  EXPECT_EQ(mesh.bar_of_segment.front(), 0);
-  EXPECT_EQ(mesh.bar_of_segment.back(), 1);
-  const Csr families = bonds_of_particles(mesh.segments, particles.size());
-  EXPECT_EQ(families.row(before + 5).size(), 4U);
+  EXPECT_EQ(mesh.bar_of_element.front(), 0);
+  EXPECT_EQ(mesh.bar_of_element.back(), 1);
+  const Csr neighbourhoods = bonds_of_particles(mesh.segments, particles.size());
+  EXPECT_EQ(neighbourhoods.row(before + 5).size(), 4U);
 }
 
 TEST(Rebar, IsNotTiedToGhosts) {
@@ -82,22 +82,22 @@ TEST(Rebar, AnchoredBarsHaveNodesOfTheirOwn) {
   Particles particles = rebar_square();
   const Index before = particles.size();
   RebarLine bar{{0.0, 0.5, 0.0}, {0.5, 0.0, 0.0}, {{0.5, 0.5, 0.0}}};
-  bar.anchored = true;
+  bar.embedded = true;
   const RebarMesh mesh = add_rebar(particles, {bar, bar}, 0.1, 0.2, 0.01);
   EXPECT_EQ(particles.size(), before + 22) << "not even bars in one place share nodes";
   EXPECT_EQ(mesh.ties.size(), 0);
-  ASSERT_EQ(mesh.anchored.size(), 22u);
+  ASSERT_EQ(mesh.embedded.size(), 22u);
   double length = 0.0;
-  for (std::size_t k = 0; k < 11; ++k) length += mesh.anchored[k].length;
+  for (std::size_t k = 0; k < 11; ++k) length += mesh.embedded[k].length;
   EXPECT_NEAR(length, 1.0, 1e-14);
-  EXPECT_TRUE(mesh.anchored[0].begins);
-  EXPECT_TRUE(mesh.anchored[10].ends);
-  EXPECT_EQ(mesh.anchored[11].bar, 1);
-  EXPECT_NEAR(mesh.anchored[2].along[0], 1.0, 1e-14);
-  EXPECT_NEAR(mesh.anchored[5].along[0], std::sqrt(0.5), 1e-14);  // at the bend
-  EXPECT_NEAR(mesh.anchored[5].along[1], -std::sqrt(0.5), 1e-14);
-  EXPECT_NEAR(mesh.anchored[5].length, 0.1, 1e-14);
-  EXPECT_NEAR(mesh.anchored[10].along[1], -1.0, 1e-14);
+  EXPECT_TRUE(mesh.embedded[0].begins);
+  EXPECT_TRUE(mesh.embedded[10].ends);
+  EXPECT_EQ(mesh.embedded[11].bar, 1);
+  EXPECT_NEAR(mesh.embedded[2].along[0], 1.0, 1e-14);
+  EXPECT_NEAR(mesh.embedded[5].along[0], std::sqrt(0.5), 1e-14);  // at the bend
+  EXPECT_NEAR(mesh.embedded[5].along[1], -std::sqrt(0.5), 1e-14);
+  EXPECT_NEAR(mesh.embedded[5].length, 0.1, 1e-14);
+  EXPECT_NEAR(mesh.embedded[10].along[1], -1.0, 1e-14);
 }
 
 TEST(Rebar, AStirrupEndsAtItsFirstNode) {
@@ -105,17 +105,17 @@ TEST(Rebar, AStirrupEndsAtItsFirstNode) {
   const Index before = particles.size();
   RebarLine bar{
       {0.2, 0.2, 0.0}, {0.2, 0.2, 0.0}, {{0.8, 0.2, 0.0}, {0.8, 0.8, 0.0}, {0.2, 0.8, 0.0}}};
-  bar.anchored = true;
+  bar.embedded = true;
   const RebarMesh mesh = add_rebar(particles, {bar}, 0.1, 0.2, 0.01);
   EXPECT_EQ(particles.size(), before + 24);
   EXPECT_EQ(mesh.segments.size(), 24);
   EXPECT_EQ(mesh.turned.back(), 1);
-  for (const BarNode& node : mesh.anchored) {
+  for (const BarNode& node : mesh.embedded) {
     EXPECT_NEAR(node.length, 0.1, 1e-14);
     EXPECT_FALSE(node.begins || node.ends);
   }
-  EXPECT_NEAR(mesh.anchored[0].along[0], std::sqrt(0.5), 1e-14);
-  EXPECT_NEAR(mesh.anchored[0].along[1], -std::sqrt(0.5), 1e-14);
+  EXPECT_NEAR(mesh.embedded[0].along[0], std::sqrt(0.5), 1e-14);
+  EXPECT_NEAR(mesh.embedded[0].along[1], -std::sqrt(0.5), 1e-14);
 }
 
 TEST(Rebar, RefusesABarWithoutLength) {

@@ -13,7 +13,7 @@ namespace {
 struct LawCase {
   std::string name;
   BondLaw law;
-  int teeth;  ///< looked at
+  int segments;  ///< looked at
 };
 
 std::vector<LawCase> laws() {
@@ -28,11 +28,11 @@ std::vector<LawCase> laws() {
 
 TEST(BondLaws, SecantsFallAndLimitsRise) {
   for (const LawCase& of : laws()) {
-    EXPECT_EQ(of.law.tooth(0).secant, 1.0);
-    for (int k = 1; k < of.teeth; ++k) {
-      EXPECT_LT(of.law.tooth(k).secant, of.law.tooth(k - 1).secant) << of.name;
-      EXPECT_GT(of.law.tooth(k).limit, of.law.tooth(k - 1).limit) << of.name;
-      EXPECT_GE(of.law.tooth(k).secant, 0.0);
+    EXPECT_EQ(of.law.segment(0).secant, 1.0);
+    for (int k = 1; k < of.segments; ++k) {
+      EXPECT_LT(of.law.segment(k).secant, of.law.segment(k - 1).secant) << of.name;
+      EXPECT_GT(of.law.segment(k).limit, of.law.segment(k - 1).limit) << of.name;
+      EXPECT_GE(of.law.segment(k).secant, 0.0);
     }
   }
 }
@@ -40,7 +40,7 @@ TEST(BondLaws, SecantsFallAndLimitsRise) {
 /// Once broken, for good.
 TEST(BondLaws, EndWithoutStiffnessOrNever) {
   for (const LawCase& of : laws()) {
-    const Tooth last = of.law.tooth(of.teeth + 3);
+    const Segment last = of.law.segment(of.segments + 3);
     EXPECT_EQ(last.secant == 0.0, !of.law.endless()) << of.name;
     EXPECT_EQ(std::isinf(last.limit), !of.law.endless()) << of.name;
   }
@@ -64,12 +64,12 @@ TEST(BondLaws, CrushByTeethOfTheirOwn) {
   EXPECT_TRUE(both.crushes() && both.keeps_shear());
   EXPECT_FALSE(law.crushes() || law.keeps_shear());
   EXPECT_FALSE(BondLaw::brittle().crushing({{1.0, 1.0}}, 10.0, false).is_brittle());
-  for (int k = 0; k < 4; ++k) EXPECT_EQ(both.tooth(k).secant, law.tooth(k).secant);
+  for (int k = 0; k < 4; ++k) EXPECT_EQ(both.segment(k).secant, law.segment(k).secant);
   EXPECT_EQ(both.first_in_compression().limit, 12.0);
-  EXPECT_EQ(both.tooth(-1).secant, 0.4);
-  EXPECT_EQ(both.tooth(-1).limit, 30.0);
-  EXPECT_EQ(both.tooth(-2).secant, 0.0);
-  EXPECT_EQ(law.tooth(-1).secant, 0.0);
+  EXPECT_EQ(both.segment(-1).secant, 0.4);
+  EXPECT_EQ(both.segment(-1).limit, 30.0);
+  EXPECT_EQ(both.segment(-2).secant, 0.0);
+  EXPECT_EQ(law.segment(-1).secant, 0.0);
 }
 
 TEST(BondLaws, StayOnTheBranchOfTheirFirstEvent) {
@@ -80,10 +80,10 @@ TEST(BondLaws, StayOnTheBranchOfTheirFirstEvent) {
 }
 
 TEST(BondLaws, DoNotCrushWhereTheyYieldOrClose) {
-  const std::vector<Tooth> teeth = {{1.0, 1.2}};
-  EXPECT_THROW(BondLaw::plateau().crushing(teeth, 1.0, true), std::invalid_argument);
-  EXPECT_THROW(BondLaw::brittle().closing().crushing(teeth, 1.0, true), std::invalid_argument);
-  EXPECT_THROW(BondLaw::brittle().crushing(teeth, 0.0, true), std::invalid_argument);
+  const std::vector<Segment> segments = {{1.0, 1.2}};
+  EXPECT_THROW(BondLaw::plateau().crushing(segments, 1.0, true), std::invalid_argument);
+  EXPECT_THROW(BondLaw::brittle().closing().crushing(segments, 1.0, true), std::invalid_argument);
+  EXPECT_THROW(BondLaw::brittle().crushing(segments, 0.0, true), std::invalid_argument);
   EXPECT_THROW(BondLaw::brittle().crushing({}, 1.0, true), std::invalid_argument);
 }
 
@@ -102,9 +102,9 @@ TEST(PlateauLaw, DissipatesThePlateauToothByTooth) {
     const BondLaw law = BondLaw::plateau(ratio);
     double dissipated = 0.0;
     for (int k = 0; k < 60; ++k) {
-      const Tooth tooth = law.tooth(k);
-      const Tooth next = law.tooth(k + 1);
-      dissipated += 0.5 * (tooth.secant - next.secant) * tooth.limit * tooth.limit;
+      const Segment segment = law.segment(k);
+      const Segment next = law.segment(k + 1);
+      dissipated += 0.5 * (segment.secant - next.secant) * segment.limit * segment.limit;
       // The plateau from S_0 = 1 to S_(k+1) = r^(k+1), unloaded along the secant from there: work
       // 1 / 2 + (S - 1) less the stored S / 2.
       const double plateau = 0.5 * (std::pow(ratio, k + 1) - 1.0);
@@ -116,9 +116,9 @@ TEST(PlateauLaw, DissipatesThePlateauToothByTooth) {
 TEST(PlateauLaw, ForceStaysWithinTheRippleOfTheYieldForce) {
   const BondLaw law = BondLaw::plateau(1.05);
   for (int k = 0; k < 100; ++k) {
-    const double limit = law.tooth(k).limit;
-    EXPECT_NEAR(law.tooth(k).secant * limit, std::sqrt(1.05), 1e-12);
-    EXPECT_NEAR(law.tooth(k + 1).secant * limit, 1.0 / std::sqrt(1.05), 1e-12);
+    const double limit = law.segment(k).limit;
+    EXPECT_NEAR(law.segment(k).secant * limit, std::sqrt(1.05), 1e-12);
+    EXPECT_NEAR(law.segment(k + 1).secant * limit, 1.0 / std::sqrt(1.05), 1e-12);
   }
 }
 

@@ -89,7 +89,7 @@ TEST(FractureSumOfFamily, IsThatOfTheMicromodulusWhereOneMakesTheStiffness) {
     stiffness.push_back(micromodulus * volume * volume / std::hypot(x[0], x[1]));
   }
   for (const Problem problem : {Problem::plane_stress, Problem::three_dimensional}) {
-    EXPECT_NEAR(fracture_sum_of_family(problem, offsets, stiffness, volume),
+    EXPECT_NEAR(fracture_sum_of_neighbourhood(problem, offsets, stiffness, volume),
                 lattice_fracture_sum(problem, offsets, volume, micromodulus), 1e-12);
   }
 }

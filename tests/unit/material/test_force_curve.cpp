@@ -12,15 +12,15 @@ namespace {
 double dissipated(const BondLaw& law, int count) {
   double sum = 0.0;
   for (int k = 0; k < count; ++k) {
-    const double fall = law.tooth(k).secant - law.tooth(k + 1).secant;
-    sum += 0.5 * fall * std::pow(law.tooth(k).limit, 2);
+    const double fall = law.segment(k).secant - law.segment(k + 1).secant;
+    sum += 0.5 * fall * std::pow(law.segment(k).limit, 2);
   }
   return sum;
 }
 
-int count_teeth(const BondLaw& law) {
+int count_segments(const BondLaw& law) {
   int count = 0;
-  while (law.tooth(count).secant > 0.0) ++count;
+  while (law.segment(count).secant > 0.0) ++count;
   return count;
 }
 
@@ -34,7 +34,7 @@ TEST(ForceCurve, TeethOfOneThatEndsDissipateItsArea) {
       const BondLaw law = law_of(curve, ratio);
       const double unit = curve.points[0][0] * curve.points[0][1];
       const double end = curve.points.back()[0];
-      EXPECT_NEAR(dissipated(law, count_teeth(law)) * unit, curve.area(end),
+      EXPECT_NEAR(dissipated(law, count_segments(law)) * unit, curve.area(end),
                   1e-12 * curve.area(end));
       EXPECT_FALSE(law.endless());
       EXPECT_EQ(law.sense(), Sense::both);
@@ -48,10 +48,10 @@ TEST(ForceCurve, NothingStaysBehindAForceOfZero) {
   table.endless = true;
   const BondLaw law = law_of(table, 1.1), expected = law_of(softens, 1.1);
   EXPECT_FALSE(law.endless());
-  ASSERT_EQ(count_teeth(law), count_teeth(expected));
-  for (int k = 0; k < count_teeth(law); ++k) {
-    EXPECT_EQ(law.tooth(k).secant, expected.tooth(k).secant);
-    EXPECT_EQ(law.tooth(k).limit, expected.tooth(k).limit);
+  ASSERT_EQ(count_segments(law), count_segments(expected));
+  for (int k = 0; k < count_segments(law); ++k) {
+    EXPECT_EQ(law.segment(k).secant, expected.segment(k).secant);
+    EXPECT_EQ(law.segment(k).limit, expected.segment(k).limit);
   }
 }
 
@@ -62,10 +62,10 @@ TEST(ForceCurve, TeethFollowItWithTheirRipple) {
     const BondLaw law = law_of(curve, ratio);
     const double x0 = curve.points[0][0], f0 = curve.points[0][1];
     const double most = curve.endless ? 8.0 : 0.8 * curve.points.back()[0];
-    for (int k = 0; law.tooth(k).secant > 0.0 && law.tooth(k).limit * x0 < most; ++k) {
-      const double x = law.tooth(k).limit * x0;
-      const double top = law.tooth(k).secant * law.tooth(k).limit * f0;
-      const double bottom = law.tooth(k + 1).secant * law.tooth(k).limit * f0;
+    for (int k = 0; law.segment(k).secant > 0.0 && law.segment(k).limit * x0 < most; ++k) {
+      const double x = law.segment(k).limit * x0;
+      const double top = law.segment(k).secant * law.segment(k).limit * f0;
+      const double bottom = law.segment(k + 1).secant * law.segment(k).limit * f0;
       EXPECT_LE(curve.force(x), top * 1.0001);
       EXPECT_GE(curve.force(x), bottom * 0.9999);
       EXPECT_LE(top / bottom, ratio * 1.0001);
@@ -78,27 +78,27 @@ TEST(ForceCurve, OneThatStaysGoesOnAsAPlateau) {
   const BondLaw law = law_of(stays, ratio);
   ASSERT_TRUE(law.endless());
   for (int k = 80; k < 90; ++k) {
-    const Tooth now = law.tooth(k), next = law.tooth(k + 1);
+    const Segment now = law.segment(k), next = law.segment(k + 1);
     EXPECT_NEAR(now.secant / next.secant, ratio, 1e-12);
     // The geometric mean of the force above and below is that of the plateau.
     EXPECT_NEAR(now.limit * std::sqrt(now.secant * next.secant), 1.5, 1e-12);
   }
-  EXPECT_FALSE(law.is_exhausted(law.tooth(40).secant));
-  EXPECT_TRUE(law.is_exhausted(law.tooth(200).secant));
+  EXPECT_FALSE(law.is_exhausted(law.segment(40).secant));
+  EXPECT_TRUE(law.is_exhausted(law.segment(200).secant));
 }
 
 TEST(ForceCurve, APlateauIsThatOfBars) {
   const BondLaw law = law_of({{{2.0, 5.0}}, true}, 1.05);
   for (int k = 0; k < 20; ++k) {
-    EXPECT_NEAR(law.tooth(k).secant, BondLaw::plateau(1.05).tooth(k).secant, 1e-14);
-    EXPECT_NEAR(law.tooth(k).limit, BondLaw::plateau(1.05).tooth(k).limit, 1e-12);
+    EXPECT_NEAR(law.segment(k).secant, BondLaw::plateau(1.05).segment(k).secant, 1e-14);
+    EXPECT_NEAR(law.segment(k).limit, BondLaw::plateau(1.05).segment(k).limit, 1e-12);
   }
 }
 
 TEST(ForceCurve, BreaksAtOnceWhereItEndsWithItsFirstLine) {
   const BondLaw law = law_of({{{2.0, 5.0}}, false}, 1.05);
-  EXPECT_EQ(law.tooth(0).limit, 1.0);
-  EXPECT_EQ(law.tooth(1).secant, 0.0);
+  EXPECT_EQ(law.segment(0).limit, 1.0);
+  EXPECT_EQ(law.segment(1).secant, 0.0);
   EXPECT_FALSE(law.is_brittle()) << "it breaks in compression too";
 }
 

@@ -28,7 +28,9 @@ std::vector<Vector3> lattice_offsets(double skew, double row, int layers, double
   }
   return offsets;
 }
-std::vector<Vector3> square_family(double radius) { return lattice_offsets(0.0, 1.0, 0, radius); }
+std::vector<Vector3> square_neighbourhood(double radius) {
+  return lattice_offsets(0.0, 1.0, 0, radius);
+}
 std::vector<Vector3> hexagonal(double radius) {
   return lattice_offsets(0.5, std::sqrt(0.75), 0, radius);
 }
@@ -46,16 +48,16 @@ double energy_density(const std::vector<Vector3>& offsets, double volume,
   double energy = 0.0;
   for (const Vector3& xi : offsets) {
     const double length = std::hypot(xi[0], xi[1], xi[2]);
-    double stretch = 0.0, square_family = 0.0;
+    double stretch = 0.0, square_neighbourhood = 0.0;
     for (int row = 0; row < 3; ++row) {
       double component = 0.0;
       for (int col = 0; col < 3; ++col) component += strain[row][col] * xi[col] / length;
       stretch += component * xi[row] / length;
-      square_family += component * component;
+      square_neighbourhood += component * component;
     }
     energy += 0.5 * volume *
               (0.5 * moduli.micromodulus * length * stretch * stretch +
-               6.0 * moduli.bending_modulus * (square_family - stretch * stretch) / length);
+               6.0 * moduli.bending_modulus * (square_neighbourhood - stretch * stretch) / length);
   }
   return energy;
 }
@@ -66,12 +68,12 @@ double hooke(Problem problem, const ElasticConstants& elastic, const Strain& str
   const double mu = 0.5 * E / (1.0 + nu);
   const double lambda = problem == Problem::plane_stress ? E * nu / (1.0 - nu * nu)
                                                          : E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
-  double trace = 0.0, square_family = 0.0;
+  double trace = 0.0, square_neighbourhood = 0.0;
   for (int row = 0; row < 3; ++row) {
     trace += strain[row][row];
-    for (int col = 0; col < 3; ++col) square_family += strain[row][col] * strain[row][col];
+    for (int col = 0; col < 3; ++col) square_neighbourhood += strain[row][col] * strain[row][col];
   }
-  return 0.5 * lambda * trace * trace + mu * square_family;
+  return 0.5 * lambda * trace * trace + mu * square_neighbourhood;
 }
 
 // Gerstle, Sau & Aguilera 2007, section 6: c = 3.713e6 GN/m^5 and d = 18.54 GN/m^3 belong to
@@ -87,15 +89,15 @@ TEST(ContinuumMicropolar, GivesTheConstantsOfThePaper) {
 /// Gerstle, Sau & Aguilera 2007, Eqs. 16, 18 and 21.
 ElasticConstants elastic_constants(Problem problem, const MicropolarModuli& moduli, double horizon,
                                    double thickness) {
-  const double pi = std::numbers::pi, square_family = horizon * horizon;
+  const double pi = std::numbers::pi, square_neighbourhood = horizon * horizon;
   if (problem == Problem::three_dimensional) {
-    const double axial = moduli.micromodulus * square_family;
+    const double axial = moduli.micromodulus * square_neighbourhood;
     const double bending = moduli.bending_modulus;
     const double sum = axial + 6.0 * bending;
-    return {pi * square_family * axial * (axial + 36.0 * bending) / (12.0 * sum),
+    return {pi * square_neighbourhood * axial * (axial + 36.0 * bending) / (12.0 * sum),
             (axial - 24.0 * bending) / (4.0 * sum)};
   }
-  const double axial = moduli.micromodulus * square_family * thickness;
+  const double axial = moduli.micromodulus * square_neighbourhood * thickness;
   const double bending = moduli.bending_modulus * thickness;
   if (problem == Problem::plane_stress) {
     const double sum = axial + 12.0 * bending;
@@ -154,7 +156,7 @@ TEST(LatticeMicropolar, HexagonalLatticesAreIsotropicWithTheConstantsAskedFor) {
 
 TEST(LatticeMicropolar, SquareLatticesAreExactAlongTheirAxes) {
   const ElasticConstants elastic{30.0, 0.2};
-  const auto offsets = square_family(3.0);
+  const auto offsets = square_neighbourhood(3.0);
   const MicropolarModuli moduli = lattice_micropolar(Problem::plane_stress, offsets, 2.0, elastic);
   for (const Strain& strain :
        {Strain{{{1, 0, 0}, {0, 0, 0}, {0, 0, 0}}}, Strain{{{1, 0, 0}, {0, -0.2, 0}, {0, 0, 0}}}}) {
@@ -186,7 +188,8 @@ TEST(LatticeMicropolar, CubicLatticesHaveTheBulkModulusAndTheVoigtMeanOfTheShear
 
 TEST(LatticeMicropolar, AtTheLatticesOwnRatioTheBondsAreTrusses) {
   for (const Problem problem : problems) {
-    const auto offsets = problem == Problem::three_dimensional ? cubic(2.0) : square_family(3.0);
+    const auto offsets =
+        problem == Problem::three_dimensional ? cubic(2.0) : square_neighbourhood(3.0);
     const LatticeModuli truss = lattice_moduli(problem, offsets, 2.0);
     const MicropolarModuli moduli =
         lattice_micropolar(problem, offsets, 2.0, {30.0, truss.poissons_ratio});
@@ -201,8 +204,9 @@ TEST(LatticeMicropolar, AtTheLatticesOwnRatioTheBondsAreTrusses) {
 
 // The four nearest neighbours of a square lattice neither stretch nor bend in shear along the axes.
 TEST(LatticeMicropolar, RefusesNeighboursThatCannotResist) {
-  EXPECT_THROW(lattice_micropolar(Problem::plane_stress, square_family(1.0), 1.0, {30.0, -0.1}),
-               std::invalid_argument);
+  EXPECT_THROW(
+      lattice_micropolar(Problem::plane_stress, square_neighbourhood(1.0), 1.0, {30.0, -0.1}),
+      std::invalid_argument);
 }
 
 // The sums tend to the integrals: at 20 spacings the disc holds its area within a per cent, and the

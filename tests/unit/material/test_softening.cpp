@@ -32,7 +32,7 @@ std::vector<CurveCase> curves() {
   return result;
 }
 
-constexpr double ripples[] = {0.005, 0.05, 0.3, 100.0};
+constexpr double overshoots[] = {0.005, 0.05, 0.3, 100.0};
 
 /// Area under a curve by the rule of the midpoint; error of the square of the step and of the
 /// step times the jump at the end of exponential curves.
@@ -54,15 +54,15 @@ double meeting_point(const SofteningCurve& curve, double secant) {
   return low;
 }
 
-std::vector<Tooth> teeth_of(const BondLaw& law) {
-  std::vector<Tooth> teeth;
-  for (int k = 0; law.tooth(k).secant > 0.0; ++k) teeth.push_back(law.tooth(k));
-  return teeth;
+std::vector<Segment> segments_of(const BondLaw& law) {
+  std::vector<Segment> segments;
+  for (int k = 0; law.segment(k).secant > 0.0; ++k) segments.push_back(law.segment(k));
+  return segments;
 }
 
-double dissipated_by_tooth(const BondLaw& law, int tooth) {
-  const Tooth now = law.tooth(tooth);
-  return 0.5 * now.limit * now.limit * (now.secant - law.tooth(tooth + 1).secant);
+double dissipated_by_segment(const BondLaw& law, int segment) {
+  const Segment now = law.segment(segment);
+  return 0.5 * now.limit * now.limit * (now.secant - law.segment(segment + 1).secant);
 }
 
 TEST(SofteningCurves, RiseToOneAndFallToZero) {
@@ -126,55 +126,55 @@ TEST(SofteningCurves, RefuseToReleaseMoreThanTheyTake) {
   }
   EXPECT_THROW(SofteningCurve({Softening::brittle}, 2.0), std::invalid_argument);
   const SofteningCurve curve({Softening::linear}, 2.0);
-  for (const double ripple : {0.0, -0.1, nothing}) {
-    EXPECT_THROW(saw_tooth_of(curve, ripple), std::invalid_argument);
+  for (const double overshoot : {0.0, -0.1, nothing}) {
+    EXPECT_THROW(saw_tooth_of(curve, overshoot), std::invalid_argument);
   }
 }
 
-TEST(Teeth, DissipateTheEnergyOfTheCurveInSum) {
+TEST(Segments, DissipateTheEnergyOfTheCurveInSum) {
   for (const CurveCase& each : curves()) {
     const SofteningCurve curve(each.shape, each.energy);
-    for (const double ripple : ripples) {
-      const BondLaw law = saw_tooth_of(curve, ripple);
+    for (const double overshoot : overshoots) {
+      const BondLaw law = saw_tooth_of(curve, overshoot);
       double sum = 0.0;
-      for (std::size_t k = 0; k < teeth_of(law).size(); ++k) {
-        sum += dissipated_by_tooth(law, static_cast<int>(k));
+      for (std::size_t k = 0; k < segments_of(law).size(); ++k) {
+        sum += dissipated_by_segment(law, static_cast<int>(k));
       }
       // Round-off of a few hundred terms.
-      EXPECT_NEAR(2.0 * sum, each.energy, 1e-12 * each.energy) << each << ", ripple " << ripple;
+      EXPECT_NEAR(2.0 * sum, each.energy, 1e-12 * each.energy) << each << ", ripple " << overshoot;
     }
   }
 }
 
 /// Unloaded from the curve to zero, it has dissipated what lies above the secant.
-TEST(Teeth, DissipateTheEnergyOfTheCurveOneByOne) {
+TEST(Segments, DissipateTheEnergyOfTheCurveOneByOne) {
   for (const CurveCase& each : curves()) {
     const SofteningCurve curve(each.shape, each.energy);
-    for (const double ripple : ripples) {
-      const BondLaw law = saw_tooth_of(curve, ripple);
-      const std::vector<Tooth> teeth = teeth_of(law);
+    for (const double overshoot : overshoots) {
+      const BondLaw law = saw_tooth_of(curve, overshoot);
+      const std::vector<Segment> segments = segments_of(law);
       double sum = 0.0;
-      for (std::size_t k = 1; k < teeth.size(); ++k) {
-        sum += dissipated_by_tooth(law, static_cast<int>(k) - 1);
-        const double x = meeting_point(curve, teeth[k].secant);
-        EXPECT_NEAR(sum, curve.area(x) - 0.5 * teeth[k].secant * x * x, 1e-11 * each.energy)
-            << each << ", ripple " << ripple << ", tooth " << k;
+      for (std::size_t k = 1; k < segments.size(); ++k) {
+        sum += dissipated_by_segment(law, static_cast<int>(k) - 1);
+        const double x = meeting_point(curve, segments[k].secant);
+        EXPECT_NEAR(sum, curve.area(x) - 0.5 * segments[k].secant * x * x, 1e-11 * each.energy)
+            << each << ", ripple " << overshoot << ", tooth " << k;
       }
     }
   }
 }
 
-TEST(Teeth, AllButTheLastRiseByTheRipple) {
+TEST(Segments, AllButTheLastRiseByTheRipple) {
   for (const CurveCase& each : curves()) {
     const SofteningCurve curve(each.shape, each.energy);
-    for (const double ripple : ripples) {
-      const std::vector<Tooth> teeth = teeth_of(saw_tooth_of(curve, ripple));
-      for (std::size_t k = 0; k < teeth.size(); ++k) {
-        const double rise = teeth[k].secant * teeth[k].limit - curve.force(teeth[k].limit);
+    for (const double overshoot : overshoots) {
+      const std::vector<Segment> segments = segments_of(saw_tooth_of(curve, overshoot));
+      for (std::size_t k = 0; k < segments.size(); ++k) {
+        const double rise = segments[k].secant * segments[k].limit - curve.force(segments[k].limit);
         // The ends of teeth are halved down to 1e-12 of themselves.
-        EXPECT_LT(rise, ripple * (1.0 + 1e-8)) << each << ", tooth " << k;
-        if (k + 1 < teeth.size()) {
-          EXPECT_NEAR(rise, ripple, 1e-8 * ripple) << each << ", tooth " << k;
+        EXPECT_LT(rise, overshoot * (1.0 + 1e-8)) << each << ", tooth " << k;
+        if (k + 1 < segments.size()) {
+          EXPECT_NEAR(rise, overshoot, 1e-8 * overshoot) << each << ", tooth " << k;
         }
       }
     }
@@ -182,30 +182,30 @@ TEST(Teeth, AllButTheLastRiseByTheRipple) {
 }
 
 /// Both of its points lie on one straight piece.
-TEST(Teeth, EndAtTheGeometricMeanOfTheirPoints) {
+TEST(Segments, EndAtTheGeometricMeanOfTheirPoints) {
   const SofteningCurve curve({Softening::linear}, 15.0);
-  const std::vector<Tooth> teeth = teeth_of(saw_tooth_of(curve, 0.05));
-  ASSERT_GT(teeth.size(), 4U);
-  for (std::size_t k = 0; k + 1 < teeth.size(); ++k) {
-    const double begin = meeting_point(curve, teeth[k].secant);
-    const double end = meeting_point(curve, teeth[k + 1].secant);
-    EXPECT_NEAR(teeth[k].limit, std::sqrt(begin * end), 1e-11 * end);
+  const std::vector<Segment> segments = segments_of(saw_tooth_of(curve, 0.05));
+  ASSERT_GT(segments.size(), 4U);
+  for (std::size_t k = 0; k + 1 < segments.size(); ++k) {
+    const double begin = meeting_point(curve, segments[k].secant);
+    const double end = meeting_point(curve, segments[k + 1].secant);
+    EXPECT_NEAR(segments[k].limit, std::sqrt(begin * end), 1e-11 * end);
   }
 }
 
-TEST(Teeth, OneAloneBreaksAsABrittleBondOfItsEnergy) {
+TEST(Segments, OneAloneBreaksAsABrittleBondOfItsEnergy) {
   for (const CurveCase& each : curves()) {
     const BondLaw law = saw_tooth_of(SofteningCurve(each.shape, each.energy), 100.0);
     EXPECT_TRUE(law.is_brittle()) << each;
-    EXPECT_NEAR(law.tooth(0).limit, std::sqrt(each.energy), 1e-14 * each.energy) << each;
+    EXPECT_NEAR(law.segment(0).limit, std::sqrt(each.energy), 1e-14 * each.energy) << each;
   }
 }
 
-TEST(Teeth, AreMoreWhereTheyMayRiseLess) {
+TEST(Segments, AreMoreWhereTheyMayRiseLess) {
   const SofteningCurve curve({Softening::bilinear}, 12.0);
   std::size_t before = 0;
-  for (const double ripple : {1.0, 0.3, 0.1, 0.03, 0.01}) {
-    const std::size_t count = teeth_of(saw_tooth_of(curve, ripple)).size();
+  for (const double overshoot : {1.0, 0.3, 0.1, 0.03, 0.01}) {
+    const std::size_t count = segments_of(saw_tooth_of(curve, overshoot)).size();
     EXPECT_GT(count, before);
     before = count;
   }
@@ -215,15 +215,16 @@ TEST(Teeth, AreMoreWhereTheyMayRiseLess) {
 /// unloading lines, sqrt(S_k S_(k+1)) its limit, and all together take the area.
 /// Up to 1e10 times the elastic energy all curves have secants; where round-off hides their fall
 /// the search for these ends by a refusal.
-TEST(Teeth, EndForLongCurvesToo) {
+TEST(Segments, EndForLongCurvesToo) {
   for (const Softening kind : {Softening::linear, Softening::bilinear, Softening::exponential}) {
     SofteningShape shape;
     shape.kind = kind;
     const double energy = 1e10;
     double sum = 0.0, last = 1.0;
-    for (const Tooth& tooth : teeth_of(saw_tooth_of(SofteningCurve(shape, energy), 0.00224))) {
-      sum += tooth.secant * tooth.limit * tooth.limit - tooth.secant * last * last;
-      last = tooth.limit;
+    for (const Segment& segment :
+         segments_of(saw_tooth_of(SofteningCurve(shape, energy), 0.00224))) {
+      sum += segment.secant * segment.limit * segment.limit - segment.secant * last * last;
+      last = segment.limit;
     }
     EXPECT_NEAR((sum + 1.0) / energy, 1.0, 1e-5);
   }
@@ -245,19 +246,19 @@ TEST(SofteningCurves, OfConcreteArePlateaus) {
     }
     EXPECT_EQ(curve.force(1.001 * end), 0.0);
     EXPECT_NEAR(curve.area(2.0 * end), end - 0.5, 1e-14 * end);
-    for (const double ripple : ripples) {
-      const BondLaw law = saw_tooth_of(curve, ripple);
+    for (const double overshoot : overshoots) {
+      const BondLaw law = saw_tooth_of(curve, overshoot);
       double sum = 0.0;
-      for (int k = 0; law.tooth(k).secant > 0.0; ++k) {
-        sum += dissipated_by_tooth(law, k);
-        const Tooth now = law.tooth(k), next = law.tooth(k + 1);
+      for (int k = 0; law.segment(k).secant > 0.0; ++k) {
+        sum += dissipated_by_segment(law, k);
+        const Segment now = law.segment(k), next = law.segment(k + 1);
         EXPECT_LE(now.limit, end * (1.0 + 1e-12));
-        EXPECT_LT(now.secant * now.limit, 1.0 + ripple * (1.0 + 1e-6));
+        EXPECT_LT(now.secant * now.limit, 1.0 + overshoot * (1.0 + 1e-6));
         if (next.secant > 0.0) {
           EXPECT_NEAR(now.limit, std::sqrt(1.0 / (now.secant * next.secant)), 1e-12 * end);
         }
       }
-      EXPECT_NEAR(sum, end - 0.5, 1e-10 * end) << "end " << end << ", ripple " << ripple;
+      EXPECT_NEAR(sum, end - 0.5, 1e-10 * end) << "end " << end << ", ripple " << overshoot;
     }
   }
 }

@@ -34,17 +34,19 @@ SofteningMaterial softening(Softening kind, double strength, double error = 0.01
 /// Energy of all teeth of a bond per stiffness and length.
 double energy_of(const BondLaw& law, double critical_stretch) {
   double sum = 0.0;
-  for (int k = 0; law.tooth(k).secant > 0.0; ++k) {
-    const Tooth now = law.tooth(k);
-    sum += 0.5 * std::pow(now.limit * critical_stretch, 2) * (now.secant - law.tooth(k + 1).secant);
+  for (int k = 0; law.segment(k).secant > 0.0; ++k) {
+    const Segment now = law.segment(k);
+    sum +=
+        0.5 * std::pow(now.limit * critical_stretch, 2) * (now.secant - law.segment(k + 1).secant);
   }
   return sum;
 }
 
 bool alike(const BondLaw& a, const BondLaw& b) {
-  for (int k = 0; a.tooth(k).secant > 0.0 || b.tooth(k).secant > 0.0; ++k) {
-    const bool same = std::abs(a.tooth(k).secant - b.tooth(k).secant) < round_off &&
-                      std::abs(a.tooth(k).limit - b.tooth(k).limit) < round_off * a.tooth(k).limit;
+  for (int k = 0; a.segment(k).secant > 0.0 || b.segment(k).secant > 0.0; ++k) {
+    const bool same =
+        std::abs(a.segment(k).secant - b.segment(k).secant) < round_off &&
+        std::abs(a.segment(k).limit - b.segment(k).limit) < round_off * a.segment(k).limit;
     if (!same) return false;
   }
   return true;
@@ -52,7 +54,7 @@ bool alike(const BondLaw& a, const BondLaw& b) {
 
 /// Every bond that can break has the law, its stretch and the energy of the brittle bond.
 void expect_law(const Network& network, const Network& brittle, const MaterialStrength& strength) {
-  for (Index e = 0; e < network.first_tie; ++e) {
+  for (Index e = 0; e < network.first_slip_spring; ++e) {
     ASSERT_FALSE(network.law(e).is_brittle());
     EXPECT_EQ(network.critical_stretch[e], strength.first_stretch);
     EXPECT_NEAR(energy_of(network.law(e), network.critical_stretch[e]),
@@ -87,7 +89,7 @@ double strength_in_the_middle(const Network& network, double modulus) {
   }
   std::vector<Vector3> offsets;
   std::vector<double> axial, shear;
-  for (Index e = 0; e < network.first_tie; ++e) {
+  for (Index e = 0; e < network.first_slip_spring; ++e) {
     const bool first = network.bonds.first[e] == inner;
     if (!first && network.bonds.second[e] != inner) continue;
     Vector3 offset{};
@@ -129,7 +131,7 @@ TEST_P(SofteningLattice, HasTheStrengthAndTheEnergyAskedFor) {
   EXPECT_NEAR(strength.tensile_strength, 0.6, sought * 0.6);
   EXPECT_NEAR(strength.fracture_energy, 0.02, round_off);
   EXPECT_NEAR(strength.process_zone, 30.0 * 0.02 / 0.36, 1e-3 * 30.0 * 0.02 / 0.36);
-  EXPECT_GT(strength.teeth, 3);
+  EXPECT_GT(strength.segments, 3);
   EXPECT_GT(strength.last_stretch, strength.first_stretch);
   expect_law(network, brittle, strength);
   // Strengths are measured with teeth that add less than 0.3 %, these less than 0.1 %.
@@ -147,9 +149,9 @@ INSTANTIATE_TEST_SUITE_P(
         LatticeStrength{{"micropolar_cubic", Pattern::cubic, Surface::calibrated}, true}),
     [](const auto& test) { return test.param.lattice.name; });
 
-TEST(SofteningCloud, HasTheStrengthAndTheEnergyAskedFor) {
-  NetworkInput input = micropolar_cloud_input(14);
-  const Body body = make_cloud(1, 14);
+TEST(UnstructuredSoftening, HasTheStrengthAndTheEnergyAskedFor) {
+  NetworkInput input = unstructured_micropolar_input(14);
+  const Body body = make_unstructured(1, 14);
   const Network brittle = build_network(body, input);
   for (const Softening kind : {Softening::linear, Softening::exponential}) {
     input.materials[0].softening = softening(kind, 0.5);
@@ -231,25 +233,25 @@ TEST(SofteningPairs, StayUnbreakableBesideUnbreakableBonds) {
     EXPECT_EQ(network.has_limit(e), materials_of(network, e) == 0);
     EXPECT_NE(network.law(e).is_brittle(), materials_of(network, e) == 0);
   }
-  EXPECT_EQ(network.strengths.at(1).teeth, 0) << "nothing can break";
+  EXPECT_EQ(network.strengths.at(1).segments, 0) << "nothing can break";
 }
 
 TEST(SofteningBonds, TieBarsAsTheirSolidDoes) {
-  for (const bool ties_break : {true, false}) {
+  for (const bool slip_springs_break : {true, false}) {
     const LatticeInput body_of = body_input({"", Pattern::rectangular, Surface::ghost}, 8);
     NetworkInput input = network_input(body_of);
     input.materials[0].softening = softening(Softening::linear, 0.6);
     input.bars = {{{0.1, 0.75, 0.0}, {1.5, 0.85, 0.0}}};
-    input.bar_materials = {{200.0, 0.01, 5.0, ties_break}};
+    input.bar_materials = {{200.0, 0.01, 5.0, slip_springs_break}};
     const Network network = build_network(make_body(body_of), input);
-    ASSERT_LT(network.first_tie, network.first_segment);
-    for (Index e = network.first_tie; e < network.first_segment; ++e) {
-      EXPECT_EQ(network.can_break(e), ties_break);
-      if (!ties_break) continue;
+    ASSERT_LT(network.first_slip_spring, network.first_bar_element);
+    for (Index e = network.first_slip_spring; e < network.first_bar_element; ++e) {
+      EXPECT_EQ(network.can_break(e), slip_springs_break);
+      if (!slip_springs_break) continue;
       EXPECT_TRUE(alike(network.law(e), network.law(0)));
       EXPECT_EQ(network.critical_stretch[e], network.critical_stretch[0]);
     }
-    for (Index e = network.first_segment; e < network.num_elements(); ++e) {
+    for (Index e = network.first_bar_element; e < network.num_elements(); ++e) {
       EXPECT_TRUE(network.law(e).endless()) << "bars yield";
       EXPECT_NEAR(network.critical_stretch[e], 5.0 / 200.0, round_off);
     }
@@ -274,13 +276,13 @@ TEST(SofteningBonds, TieBarsInLayersAsTheInsideOfTheirLayer) {
   const Network network = build_network(make_body(lattice), input);
   ASSERT_FALSE(network.materials_of.empty()) << "not in layers";
   int ties[2] = {0, 0};
-  for (Index e = network.first_tie; e < network.first_segment; ++e) {
+  for (Index e = network.first_slip_spring; e < network.first_bar_element; ++e) {
     const Index own = network.particles.material[network.bonds.first[e]];
     ++ties[own];
-    int teeth = 0;
-    while (network.law(e).tooth(teeth).secant > 0.0) ++teeth;
-    EXPECT_EQ(teeth, network.strengths[own].teeth);
-    EXPECT_GT(teeth, 1);
+    int segments = 0;
+    while (network.law(e).segment(segments).secant > 0.0) ++segments;
+    EXPECT_EQ(segments, network.strengths[own].segments);
+    EXPECT_GT(segments, 1);
     EXPECT_EQ(network.critical_stretch[e], network.strengths[own].first_stretch);
   }
   EXPECT_GT(ties[0], 0);
@@ -333,11 +335,11 @@ TEST(BrittleBonds, TellTheirStrengthToADraft) {
   const LatticeInput body_of = body_input({"", Pattern::rectangular, Surface::none}, 8);
   const Body body = make_body(body_of);
   NetworkInput input = network_input(body_of);
-  EXPECT_EQ(build_network(body, input).strengths.at(0).teeth, 0) << "nobody asked";
+  EXPECT_EQ(build_network(body, input).strengths.at(0).segments, 0) << "nobody asked";
   input.draft = true;
   const Network network = build_network(body, input);
   const MaterialStrength& strength = network.strengths.at(0);
-  EXPECT_EQ(strength.teeth, 1);
+  EXPECT_EQ(strength.segments, 1);
   EXPECT_EQ(strength.first_stretch, network.critical_stretch[0]);
   EXPECT_NEAR(strength.fracture_energy, 0.02, round_off);
   const double bond = 30.0 * network.critical_stretch[0];

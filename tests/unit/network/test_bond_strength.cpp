@@ -60,8 +60,8 @@ Sums sums_of(const Network& network, Index a, Index b) {
 }
 
 TEST(BondStrength, OfACloudReleasesTheFractureEnergy) {
-  const NetworkInput input = micropolar_cloud_input(14);
-  const Network network = build_network(make_cloud(1, 14), input);
+  const NetworkInput input = unstructured_micropolar_input(14);
+  const Network network = build_network(make_unstructured(1, 14), input);
   ASSERT_LT(network.calibration->smallest_weight, 0.9);
   const Sums inner = sums_of(network, 0, 0);
   ASSERT_GT(inner.volume, 0.0);
@@ -75,8 +75,8 @@ TEST(BondStrength, OfACloudReleasesTheFractureEnergy) {
 
 /// Bending counts by the bond's length alone, and in the mean as much as the bonds hold.
 TEST(BondStrength, OfACloudDoesNotDependOnTheCalibratedStiffness) {
-  const NetworkInput input = micropolar_cloud_input(14);
-  const Network network = build_network(make_cloud(1, 14), input);
+  const NetworkInput input = unstructured_micropolar_input(14);
+  const Network network = build_network(make_unstructured(1, 14), input);
   const Sums inner = sums_of(network, 0, 0);
   EXPECT_NEAR(inner.bending, inner.axial, strength_round_off * inner.axial);
   const auto of_unit_length = [&](Index e) {
@@ -92,14 +92,14 @@ TEST(BondStrength, OfACloudDoesNotDependOnTheCalibratedStiffness) {
   EXPECT_LT(least, 0.5);
   EXPECT_GT(largest, 2.0);
   // Within the changes of the calibration that of the infinite body.
-  const MicropolarModuli moduli = moduli_of(make_cloud(1, 14), input, input.materials[0]);
+  const MicropolarModuli moduli = moduli_of(make_unstructured(1, 14), input, input.materials[0]);
   EXPECT_NEAR(of_unit_length(0) / (12.0 * moduli.bending_modulus / moduli.micromodulus), 1.0, 0.2);
 }
 
 TEST(BondStrength, OfPairsOfMaterialsIsThatOfBothTogether) {
-  NetworkInput input = micropolar_cloud_input(18);
+  NetworkInput input = unstructured_micropolar_input(18);
   input.materials = {{30.0, 0.02, 0.2}, {30.0, 0.05, 0.2}};
-  const Network network = build_network(make_cloud(2, 18), input);
+  const Network network = build_network(make_unstructured(2, 18), input);
   std::array<Sums, 3> sums;  // by the sum of the numbers of both materials
   for (const Index pair : {0, 1, 2}) sums[pair] = sums_of(network, pair / 2, (pair + 1) / 2);
   std::array<int, 3> found{};
@@ -117,8 +117,8 @@ TEST(BondStrength, OfPairsOfMaterialsIsThatOfBothTogether) {
 }
 
 TEST(BondStrength, WithoutAnInsideStaysThatOfTheInfiniteBody) {
-  const NetworkInput input = micropolar_cloud_input(4);
-  const Body body = make_cloud(1, 4);
+  const NetworkInput input = unstructured_micropolar_input(4);
+  const Body body = make_unstructured(1, 4);
   const Network network = build_network(body, input);
   ASSERT_TRUE(inner_particles(network).empty());
   const MicropolarModuli moduli = moduli_of(body, input, input.materials[0]);
@@ -141,11 +141,11 @@ TEST_P(StrengthOfLattice, IsThatOfTheInside) {
   const Body body = make_body(of_body);
   const NetworkInput input = micropolar_input(of_body);
   const Network network = build_network(body, input);
-  const LatticeFamilies families(body, input);
-  const FamilyStiffness& inside = families.stiffness(0);
+  const LatticeNeighbourhoods neighbourhoods(body, input);
+  const NeighbourhoodStiffness& inside = neighbourhoods.stiffness(0);
   Index changed = 0;
   for (Index e = 0; e < network.num_elements(); ++e) {
-    const Index k = families.find(network.bonds.direction(e), network.bonds.lengths[e]);
+    const Index k = neighbourhoods.find(network.bonds.direction(e), network.bonds.lengths[e]);
     if (k == no_index) continue;
     const double ratio = inside.bending[k] / inside.axial[k];
     EXPECT_NEAR(network.bending_ratio[e], ratio, strength_round_off * ratio);

@@ -1,4 +1,4 @@
-#include "network/carried_motion.hpp"
+#include "network/embedded_motion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -24,19 +24,19 @@ struct TwoElements {
         prescribed.insert(prescribed.end(), {x == 0 && y < held_rows ? driven : 0.0, 0.0});
       }
     }
-    body.carriers = carriers_on_grid(particles, {}, {{{0, 4, 8}, {0, 4}, {}}}, 1, 1e-6);
+    body.hosts = hosts_on_grid(particles, {}, {{{0, 4, 8}, {0, 4}, {}}}, 1, 1e-6);
     body.free = number_unknowns(2, held, prescribed);
-    body.whole = fit_supports(body.carriers, body.free);
+    body.whole = fit_supports(body.hosts, body.free);
   }
 
   Particles particles;
-  CarriedBody body;
+  EmbeddedBody body;
 };
 
-TEST(CarriedMotion, NodesMoveParticlesAndSupportsHoldNodes) {
+TEST(EmbeddedMotion, NodesMoveParticlesAndSupportsHoldNodes) {
   const TwoElements two;
   EXPECT_EQ(two.body.whole, (std::vector<std::uint8_t>{1, 1}));
-  const Unknowns motion = carried_motion(two.body.carriers, two.body.free, two.body.whole);
+  const Unknowns motion = embedded_motion(two.body.hosts, two.body.free, two.body.whole);
   EXPECT_EQ(motion.count, 2 * 6 - 2) << "two nodes are held along x";
   EXPECT_TRUE(motion.carries());
   EXPECT_EQ(motion.at(0, 0), no_index);
@@ -46,9 +46,9 @@ TEST(CarriedMotion, NodesMoveParticlesAndSupportsHoldNodes) {
 
   // u = (0.1 x, 0.2 x - 0.3 y): nodes of elements in their order, components that move.
   std::vector<double> q(static_cast<std::size_t>(motion.count));
-  for (Index node = 0; node < two.body.carriers.num_nodes(); ++node) {
-    const double x = two.body.carriers.nodes[static_cast<std::size_t>(node) * 2];
-    const double y = two.body.carriers.nodes[static_cast<std::size_t>(node) * 2 + 1];
+  for (Index node = 0; node < two.body.hosts.num_nodes(); ++node) {
+    const double x = two.body.hosts.nodes[static_cast<std::size_t>(node) * 2];
+    const double y = two.body.hosts.nodes[static_cast<std::size_t>(node) * 2 + 1];
     int component = x == 0.0 ? 1 : 0;
     for (std::size_t k = 0; k < q.size(); ++k) {
       if (owners[k] == two.particles.size() + node) {
@@ -64,24 +64,24 @@ TEST(CarriedMotion, NodesMoveParticlesAndSupportsHoldNodes) {
   }
 }
 
-TEST(CarriedMotion, ElementsThatAreHeldInPartDoNotCarry) {
+TEST(EmbeddedMotion, ElementsThatAreHeldInPartDoNotCarry) {
   EXPECT_EQ(TwoElements(3).body.whole, (std::vector<std::uint8_t>{0, 1}));
   EXPECT_EQ(TwoElements(5, 0.25).body.whole, (std::vector<std::uint8_t>{0, 1})) << "driven";
 }
 
 /// A quadratic element has a node in the middle of each edge, here between two of six particles.
-TEST(CarriedMotion, HeldEdgesHoldNodesBetweenParticles) {
+TEST(EmbeddedMotion, HeldEdgesHoldNodesBetweenParticles) {
   TwoElements two(6, 0.0, 6);
-  two.body.carriers = carriers_on_grid(two.particles, {}, {{{0, 4, 8}, {0, 5}, {}}}, 2, 1e-6);
-  two.body.whole = fit_supports(two.body.carriers, two.body.free);
+  two.body.hosts = hosts_on_grid(two.particles, {}, {{{0, 4, 8}, {0, 5}, {}}}, 2, 1e-6);
+  two.body.whole = fit_supports(two.body.hosts, two.body.free);
   EXPECT_EQ(two.body.whole, (std::vector<std::uint8_t>{1, 1}));
-  const Unknowns motion = carried_motion(two.body.carriers, two.body.free, two.body.whole);
+  const Unknowns motion = embedded_motion(two.body.hosts, two.body.free, two.body.whole);
   EXPECT_EQ(motion.count, 2 * 15 - 3) << "three nodes are held along x";
 }
 
 /// Two elements meet between the last of four held particles and the first free one: the node there
 /// would make the support longer. On the last held one it does not.
-TEST(CarriedMotion, SupportsDoNotGrowToTheEndsOfElements) {
+TEST(EmbeddedMotion, SupportsDoNotGrowToTheEndsOfElements) {
   for (const double end : {3.0, 3.4, 3.99}) {
     Particles particles;
     particles.dim = 2;
@@ -94,35 +94,35 @@ TEST(CarriedMotion, SupportsDoNotGrowToTheEndsOfElements) {
         held.insert(held.end(), {x == 0 && y < 4, 0});
       }
     }
-    const Carriers carriers = carriers_on_grid(particles, {}, {{{0, 4}, {0, end, 8}, {}}}, 1, 1e-6);
+    const Hosts hosts = hosts_on_grid(particles, {}, {{{0, 4}, {0, end, 8}, {}}}, 1, 1e-6);
     const Unknowns free = number_unknowns(2, held, std::vector<double>(held.size(), 0.0));
-    EXPECT_EQ(fit_supports(carriers, free)[0], end == 3.0 ? 1 : 0) << end;
+    EXPECT_EQ(fit_supports(hosts, free)[0], end == 3.0 ? 1 : 0) << end;
   }
 }
 
-TEST(CarriedMotion, ParticlesBetweenElementsGoWithTheWholeOne) {
+TEST(EmbeddedMotion, ParticlesBetweenElementsGoWithTheWholeOne) {
   const TwoElements two;
   const std::vector<std::uint8_t> second = {0, 1};
-  const std::vector<Index> carrier = carrier_of_particles(two.body.carriers, second, 45);
-  EXPECT_EQ(carrier[3], no_index);
-  EXPECT_EQ(carrier[4], 1);
-  const Unknowns motion = carried_motion(two.body.carriers, two.body.free, second);
+  const std::vector<Index> host = host_of_particles(two.body.hosts, second, 45);
+  EXPECT_EQ(host[3], no_index);
+  EXPECT_EQ(host[4], 1);
+  const Unknowns motion = embedded_motion(two.body.hosts, two.body.free, second);
   EXPECT_EQ(motion.count, 2 * 20 - 5 + 2 * 4);
   EXPECT_EQ(motion.at(1, 0), 1) << "free particles keep their order";
 }
 
 /// Any forces on all particles: their sum and moment stay, less what is out of balance at nodes
 /// that move, and free particles of elements keep their loads alone.
-TEST(CarriedMotion, ForcesOutOfBalancePassToHeldParticles) {
+TEST(EmbeddedMotion, ForcesOutOfBalancePassToHeldParticles) {
   TwoElements two(6, 0.0, 6);
   for (std::size_t slot = 0; slot < two.body.free.number.size(); slot += 18) {
     two.body.free.number[slot + 1] = no_index;  // the left column along y, too
   }
   for (const int order : {1, 2}) {
-    two.body.carriers = carriers_on_grid(two.particles, {}, {{{0, 4, 8}, {0, 5}, {}}}, order, 1e-6);
-    two.body.whole = fit_supports(two.body.carriers, two.body.free);
+    two.body.hosts = hosts_on_grid(two.particles, {}, {{{0, 4, 8}, {0, 5}, {}}}, order, 1e-6);
+    two.body.whole = fit_supports(two.body.hosts, two.body.free);
     ASSERT_EQ(two.body.whole, (std::vector<std::uint8_t>{1, 1}));
-    const Unknowns motion = carried_motion(two.body.carriers, two.body.free, two.body.whole);
+    const Unknowns motion = embedded_motion(two.body.hosts, two.body.free, two.body.whole);
     std::vector<double> loads(two.body.free.number.size()), forces = loads;
     for (std::size_t slot = 0; slot < loads.size(); ++slot) {
       loads[slot] = std::sin(2.0 * static_cast<double>(slot));
@@ -148,11 +148,11 @@ TEST(CarriedMotion, ForcesOutOfBalancePassToHeldParticles) {
       const std::size_t node = static_cast<std::size_t>(owners[k] - two.particles.size()) * 2;
       const bool along_y = k % 2 == 1;  // moving nodes move along both axes
       lost[along_y ? 1 : 0] += at_nodes[k];
-      lost[2] += along_y ? two.body.carriers.nodes[node] * at_nodes[k]
-                         : -two.body.carriers.nodes[node + 1] * at_nodes[k];
+      lost[2] += along_y ? two.body.hosts.nodes[node] * at_nodes[k]
+                         : -two.body.hosts.nodes[node + 1] * at_nodes[k];
     }
     const Vector3 before = resultant(forces);
-    pass_to_held(two.body.carriers, two.body.free, two.body.whole, loads, forces);
+    pass_to_held(two.body.hosts, two.body.free, two.body.whole, loads, forces);
     const Vector3 after = resultant(forces);
     for (int a = 0; a < 3; ++a) EXPECT_NEAR(after[a] + lost[a], before[a], 1e-11) << order;
     for (std::size_t slot = 0; slot < forces.size(); ++slot) {

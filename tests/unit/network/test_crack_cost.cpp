@@ -81,8 +81,8 @@ TEST(CrackCost, FollowsTheRatioOfLamesConstants) {
 }
 
 TEST(CrackCost, OfCloudsFollowsTheHorizonRatio) {
-  const Body body = make_cloud(1, 10);
-  NetworkInput input = micropolar_cloud_input(10);
+  const Body body = make_unstructured(1, 10);
+  NetworkInput input = unstructured_micropolar_input(10);
   input.model = BondModel::bond_based;
   double before = 2.0;
   for (const double ratio : {2.5, 3.0, 3.5, 4.0, 6.0}) {

@@ -1,4 +1,4 @@
-#include "network/lattice_families.hpp"
+#include "network/lattice_neighbourhoods.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,17 +13,17 @@ namespace {
 using namespace test;
 
 /// Half the energy of the bonds of a particle in a uniform strain, per volume: C of the material.
-void expect_isotropic(const LatticeFamilies& families, const LameConstants& constants,
+void expect_isotropic(const LatticeNeighbourhoods& neighbourhoods, const LameConstants& constants,
                       double volume) {
   const double strains[3][3] = {{1.0, 0.3, 0.0}, {0.2, -1.0, 0.5}, {0.0, 0.0, 1.0}};  // xx yy xy
   for (const auto& e : strains) {
     double energy = 0.0;
-    for (std::size_t k = 0; k < families.offsets().size(); ++k) {
-      const Vector3& x = families.offsets()[k];
+    for (std::size_t k = 0; k < neighbourhoods.offsets().size(); ++k) {
+      const Vector3& x = neighbourhoods.offsets()[k];
       const double xi2 = x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
       const double stretch =
           (x[0] * x[0] * e[0] + x[1] * x[1] * e[1] + 2.0 * x[0] * x[1] * e[2]) / xi2;
-      energy += 0.25 * families.stiffness(0).axial[k] * xi2 * stretch * stretch;
+      energy += 0.25 * neighbourhoods.stiffness(0).axial[k] * xi2 * stretch * stretch;
     }
     const double trace = e[0] + e[1];
     const double expected = 0.5 * constants.lambda * trace * trace +
@@ -32,33 +32,35 @@ void expect_isotropic(const LatticeFamilies& families, const LameConstants& cons
   }
 }
 
-TEST(LatticeFamilies, AreIsotropicInEveryLattice) {
+TEST(LatticeNeighbourhoods, AreIsotropicInEveryLattice) {
   for (const Pattern pattern :
        {Pattern::rectangular, Pattern::hexagonal, Pattern::cubic, Pattern::face_centred}) {
     const LatticeInput of_body = body_input({"", pattern, Surface::calibrated}, 8);
     const Body body = make_body(of_body);
     const NetworkInput input = network_input(of_body);
-    const LatticeFamilies families(body, input);
-    expect_isotropic(families, lame_constants(input, input.materials[0]), body.lattice.cell_volume);
+    const LatticeNeighbourhoods neighbourhoods(body, input);
+    expect_isotropic(neighbourhoods, lame_constants(input, input.materials[0]),
+                     body.lattice.cell_volume);
     double modulus = 0.0;
-    for (std::size_t k = 0; k < families.offsets().size(); ++k) {
-      const Vector3& x = families.offsets()[k];
-      modulus += 0.5 * families.stiffness(0).axial[k] * (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+    for (std::size_t k = 0; k < neighbourhoods.offsets().size(); ++k) {
+      const Vector3& x = neighbourhoods.offsets()[k];
+      modulus +=
+          0.5 * neighbourhoods.stiffness(0).axial[k] * (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
     }
-    EXPECT_NEAR(families.modulus(0), modulus, 1e-12 * modulus);
+    EXPECT_NEAR(neighbourhoods.modulus(0), modulus, 1e-12 * modulus);
   }
 }
 
-TEST(LatticeFamilies, FindBondsByTheirVectors) {
+TEST(LatticeNeighbourhoods, FindBondsByTheirVectors) {
   const LatticeInput of_body = body_input({"", Pattern::hexagonal, Surface::calibrated}, 8);
   const Body body = make_body(of_body);
-  const LatticeFamilies families(body, network_input(of_body));
-  for (Index k = 0; k < families.size(); ++k) {
-    const Vector3& x = families.offsets()[k];
+  const LatticeNeighbourhoods neighbourhoods(body, network_input(of_body));
+  for (Index k = 0; k < neighbourhoods.size(); ++k) {
+    const Vector3& x = neighbourhoods.offsets()[k];
     const double xi = std::hypot(x[0], x[1]);
     const double direction[2] = {x[0] / xi, x[1] / xi};
-    EXPECT_EQ(families.find(direction, xi), k);
-    EXPECT_EQ(families.find(direction, 0.35 * xi), no_index);
+    EXPECT_EQ(neighbourhoods.find(direction, xi), k);
+    EXPECT_EQ(neighbourhoods.find(direction, 0.35 * xi), no_index);
   }
 }
 

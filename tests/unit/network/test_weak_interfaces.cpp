@@ -102,7 +102,7 @@ TEST_P(FacesOfBodies, HaveTheirStrength) {
   const Network network = build_network(face.body, face.input);
   const MaterialStrength& own = network.interfaces[0].strength;
   EXPECT_NEAR(own.tensile_strength, strength, 1e-3 * strength);  // sought to 1e-4
-  EXPECT_GT(own.teeth, 5);
+  EXPECT_GT(own.segments, 5);
   EXPECT_LT(own.first_stretch, strength / youngs_modulus);
   // The force of all bonds at their largest is 3/2 in the plane and twice in space that of those
   // at the stretch of the first.

@@ -50,7 +50,7 @@ Run run_here(const std::string& text) {
   run.peak = std::abs(result.peak_load);
   run.smoothed_peak = std::abs(result.smoothed_peak_load.value_or(result.peak_load));
   run.dissipated = result.last.dissipated_energy;
-  run.freed = result.last.freed_energy;
+  run.freed = result.last.constraint_energy;
   run.crack /= run.events;
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

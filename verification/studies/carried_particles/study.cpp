@@ -15,7 +15,7 @@ namespace {
 struct Elements {
   double spacings = 0;  ///< along a side, of the smallest where graded; 0: none
   bool graded = false;
-  double alert = 0.5;  ///< the default
+  double release_threshold = 0.5;  ///< the default
 };
 
 struct Body {
@@ -27,7 +27,9 @@ struct Body {
 
 std::string label(const Elements& elements) {
   return fmt::format("{}{}{}", elements.graded ? "graded " : "", elements.spacings,
-                     elements.alert == 0.5 ? "" : fmt::format(" alert {}", elements.alert));
+                     elements.release_threshold == 0.5
+                         ? ""
+                         : fmt::format(" alert {}", elements.release_threshold));
 }
 
 /// The table [elements].
@@ -37,7 +39,7 @@ std::string table_of(const Body& body, const Elements& elements) {
       elements.graded ? fmt::format("mesh = \"{}/{}.geo\"\nmesh_size = {}", PERILINK_STUDY_DIR,
                                     body.name, elements.spacings * body.spacing)
                       : fmt::format("spacings = {}", elements.spacings);
-  return fmt::format("[elements]\n{}\nalert = {}\n", size, elements.alert);
+  return fmt::format("[elements]\n{}\nalert = {}\n", size, elements.release_threshold);
 }
 
 std::string row_of(const Body& body, const Elements& elements) {

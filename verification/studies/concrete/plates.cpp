@@ -99,7 +99,7 @@ PlateResult load_plate(const Plate& plate) {
   return {recorder.strength,     recorder.strain * strain_of_length,
           cell.tensile_strength, cell.compressive_strength,
           run.energy_error,      recorder.events,
-          run.broken_bonds,      to_string(run.ending),
+          run.broken_bonds,      to_string(run.termination),
           recorder.curve};
 }
 

@@ -27,7 +27,7 @@ struct PlateResult {
   double energy_error = 0.0;
   int events = 0;
   long broken = 0;
-  std::string ending;
+  std::string termination;
   std::vector<std::pair<double, double>> curve;  ///< strain and load factor, a point in every few
 };
 PlateResult load_plate(const Plate& plate);

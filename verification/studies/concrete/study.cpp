@@ -66,7 +66,7 @@ void run_plates() {
       const std::string row = fmt::format(
           "{},{},{},{:.4f},{:.4e},{:.4f},{:.4f},{:.1e},{},{},{}\n", body, ratio.x, ratio.y,
           result.strength, result.strain, result.cell_tension, result.cell_compression,
-          result.energy_error, result.events, result.broken, result.ending);
+          result.energy_error, result.events, result.broken, result.termination);
       fmt::print("{}", row);
       std::fflush(stdout);
       table += row;

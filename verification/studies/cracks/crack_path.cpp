@@ -112,11 +112,11 @@ double slope_factor(const std::vector<CrackedRow>& rows, std::size_t count) {
 }  // namespace
 
 double damage_beside_plane_crack(const Lattice& lattice, double horizon, int across) {
-  const BulkFamily family = bulk_family(lattice, horizon);
+  const InteriorNeighbourhood neighbourhood = interior_neighbourhood(lattice, horizon);
   const auto lost =
-      std::count_if(family.offsets.begin(), family.offsets.end(),
+      std::count_if(neighbourhood.offsets.begin(), neighbourhood.offsets.end(),
                     [&](const Vector3& xi) { return xi[across] > 1e-6 * lattice.spacing; });
-  return static_cast<double>(lost) / static_cast<double>(family.offsets.size());
+  return static_cast<double>(lost) / static_cast<double>(neighbourhood.offsets.size());
 }
 
 CrackPath find_crack(const Specimen& specimen, const Model& model,

@@ -78,7 +78,7 @@ double slope_of(const std::vector<GrowthPoint>& growth) {
 /// Bonds that a plane crack breaks per horizon.
 std::size_t bonds_per_horizon(const Lattice& lattice, double horizon, int across) {
   double rows = 0.0;
-  for (const Vector3& xi : bulk_family(lattice, horizon).offsets) {
+  for (const Vector3& xi : interior_neighbourhood(lattice, horizon).offsets) {
     rows += std::max(xi[across], 0.0) / lattice.spacing;
   }
   return static_cast<std::size_t>(std::lround(rows * horizon / lattice.spacing));

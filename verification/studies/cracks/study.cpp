@@ -34,7 +34,7 @@ std::string table_row(const CrackRun& run) {
       "{},{},{},{},{},{},{:.5g},{:.5g},{:.5g},{},{:.2f},{:.2f},{:.2f},{:.2f},{:.3f},{:.3f},{:.3f},"
       "{:.3f},{},{},{:.2f},{:.1e}\n",
       specimen.name, surface_word(specimen.surface), specimen.spacing, specimen.horizon_ratio,
-      last.broken_bonds, to_string(run.result.ending), run.first_load, run.result.peak_load,
+      last.broken_bonds, to_string(run.result.termination), run.first_load, run.result.peak_load,
       run.smooth_peak, run.reference_load ? fmt::format("{:.5g}", *run.reference_load) : "",
       run.path.rows.front().across, run.path.rows.back().across, run.path.extent, run.path.length,
       last.dissipated_energy / e, run.growth_ratio, last.released_energy / e, run.plane_ratio,

@@ -31,9 +31,9 @@ bool collapse_is_separation(const std::string& surface) {
   fmt::print(
       "collapse of the 5k block: ended {} after {} broken bonds; parts that bonds connect: {} "
       "before the last bond, {} after it\n",
-      to_string(run.result.ending), run.result.broken_bonds, before, after);
+      to_string(run.result.termination), run.result.broken_bonds, before, after);
   fmt::print("  {}\n", run.result.reason);
-  return run.result.ending == Ending::collapsed;
+  return run.result.termination == Termination::collapsed;
 }
 
 bool run_study(const std::string& surface) {

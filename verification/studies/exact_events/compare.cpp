@@ -17,7 +17,7 @@ Agreement compare_routes(const Model& model, FactorRoute other, Index events, In
   agreement.unknowns = model.unknowns.count;
   agreement.events = ours.result.broken_bonds;
   agreement.rows = static_cast<Index>(ours.rows.size());
-  agreement.ending = to_string(ours.result.ending);
+  agreement.termination = to_string(ours.result.termination);
   agreement.energy_error = ours.result.energy_error;
   agreement.largest_residual = ours.result.largest_residual;
   agreement.factorizations = ours.result.factor.factorizations;
@@ -33,8 +33,9 @@ Agreement compare_routes(const Model& model, FactorRoute other, Index events, In
                  std::abs(ours.rows[k].load_factor - expected) / std::abs(expected));
   }
   // A reference that ended earlier by itself (collapse) must end at the same event.
-  const Ending ending = reference.result.ending;
-  const bool by_itself = ending != Ending::completed && ending != Ending::interrupted;
+  const Termination termination = reference.result.termination;
+  const bool by_itself =
+      termination != Termination::completed && termination != Termination::interrupted;
   if (by_itself && ours.rows.size() != reference.rows.size()) {
     ++agreement.mismatches;
   }

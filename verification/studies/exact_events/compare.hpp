@@ -12,7 +12,7 @@ struct Agreement {
   Index unknowns = 0;
   Index events = 0;                     ///< broken bonds in the in-place run
   Index rows = 0;                       ///< its events, also those after which bonds went on
-  std::string ending;                   ///< how the in-place run ended
+  std::string termination;              ///< how the in-place run ended
   Index compared = 0;                   ///< events that the other route ran
   Index mismatches = 0;                 ///< other element at the same event
   double load_factor_difference = 0.0;  ///< largest relative one of the events compared

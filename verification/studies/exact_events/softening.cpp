@@ -55,12 +55,12 @@ bool run_softening(bool large) {
     constexpr Index bonds = std::numeric_limits<Index>::max();
     const Agreement a = compare_routes(model_of(body), FactorRoute::refactorize, bonds, bonds,
                                        body.events, body.compared);
-    const std::string row =
-        fmt::format("{},{},{},{},{},{},{},{},{:.2e},{:.2e},{:.2e},{},{:.3f}\n",
-                    body.micropolar ? "micropolar" : "bond_based",
-                    body.softens ? "bilinear" : "brittle", body.columns, a.unknowns, a.rows,
-                    a.ending, a.compared, a.mismatches, a.load_factor_difference, a.energy_error,
-                    a.largest_residual, a.factorizations, 1e3 * a.seconds_per_event);
+    const std::string row = fmt::format(
+        "{},{},{},{},{},{},{},{},{:.2e},{:.2e},{:.2e},{},{:.3f}\n",
+        body.micropolar ? "micropolar" : "bond_based", body.softens ? "bilinear" : "brittle",
+        body.columns, a.unknowns, a.rows, a.termination, a.compared, a.mismatches,
+        a.load_factor_difference, a.energy_error, a.largest_residual, a.factorizations,
+        1e3 * a.seconds_per_event);
     fmt::print("{}", row);
     std::fflush(stdout);
     table += row;

@@ -33,7 +33,7 @@ bool run_sizes(const std::string& surface, bool quick) {
                                        size.events, size.reference_events);
     const std::string row = fmt::format(
         "{},{},{},{},{},{},{:.2e},{:.2e},{:.2e},{},{:.2f},{:.2f}\n", size.columns, a.unknowns,
-        a.events, a.ending, a.compared, a.mismatches, a.load_factor_difference, a.energy_error,
+        a.events, a.termination, a.compared, a.mismatches, a.load_factor_difference, a.energy_error,
         a.largest_residual, a.factorizations, a.seconds, a.other_seconds);
     fmt::print("{}", row);
     std::fflush(stdout);

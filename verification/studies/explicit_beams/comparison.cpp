@@ -35,7 +35,7 @@ Solution relax(const Specimen& specimen, Strain strain, double tolerance, int th
   solution.seconds = timer.seconds();
   solution.deflection = deflection(specimen, result.displacement);
   solution.iterations = result.iterations;
-  solution.ending = result.ending;
+  solution.termination = result.termination;
   solution.displacement = std::move(result.displacement);
   return solution;
 }

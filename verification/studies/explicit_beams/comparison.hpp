@@ -14,7 +14,7 @@ struct Solution {
   std::vector<double> displacement;  ///< shape (particles, 3) [m]
   double seconds = 0.0;
   Index iterations = 0;
-  Ending ending = Ending::completed;
+  Termination termination = Termination::completed;
 };
 
 /// By a factor of the stiffness matrix.

@@ -89,7 +89,7 @@ class Study {
 
   static Solution relaxed(const Specimen& specimen, Strain strain) {
     Solution solution = relax(specimen, strain, tolerance, 1);
-    if (solution.ending == Ending::completed) return solution;
+    if (solution.termination == Termination::completed) return solution;
     throw std::runtime_error(specimen.joined + " do not come to rest");
   }
 

@@ -17,7 +17,7 @@ std::string row(const MovingBody& body, double factor, bool refuse) {
                   refuse ? "refuses" : "goes on");
   try {
     const ExplicitResult result = run_at(body, factor, refuse);
-    return fmt::format("{},{},{},{:.1e},{},{}\n", name, to_string(result.ending), result.steps,
+    return fmt::format("{},{},{},{:.1e},{},{}\n", name, to_string(result.termination), result.steps,
                        result.largest_surplus,
                        result.last.broken_bonds + result.last.cracked_particles,
                        is_finite(result.last) ? "finite" : "not finite");
@@ -31,7 +31,7 @@ double limit_of_growth(const MovingBody& body) {
   double stable = 1.0, grows = 2.0;
   while (grows - stable > 0.01) {
     const double factor = 0.5 * (stable + grows);
-    const bool failed = run_at(body, factor, false).ending == Ending::failed;
+    const bool failed = run_at(body, factor, false).termination == Termination::failed;
     (failed ? grows : stable) = factor;
   }
   return grows;

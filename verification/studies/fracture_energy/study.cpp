@@ -50,7 +50,7 @@ bool run_study(const std::string& surface) {
     }
     const std::string line = fmt::format(
         "{},{:.4g},{},{},{:.5g},{:.4f},{:.4f},{:.2f},{:.2f},{:.1e},{:.1e},{:.1e}\n", columns,
-        model.lattice.spacing, run.result.broken_bonds, to_string(run.result.ending),
+        model.lattice.spacing, run.result.broken_bonds, to_string(run.result.termination),
         run.result.peak_load, run.result.last.dissipated_energy / area_energy,
         run.result.last.released_energy / area_energy, mean,
         std::sqrt(std::max(square - mean * mean, 0.0)), early, run.result.energy_error,

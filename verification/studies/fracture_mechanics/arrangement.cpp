@@ -25,11 +25,11 @@ constexpr double beyond = 1.005;
 /// largest distance of two neighbours across it, or both would land on one point.
 constexpr double snap = 0.43;
 
-std::string temporary(const std::string& ending) {
+std::string temporary(const std::string& termination) {
   static int count = 0;
   const std::filesystem::path folder = temporary_folder();
   std::filesystem::create_directories(folder);
-  return (folder / fmt::format("{}.{}", count++, ending)).string();
+  return (folder / fmt::format("{}.{}", count++, termination)).string();
 }
 
 class TurnedLattice {
@@ -140,7 +140,7 @@ std::string temporary_folder() {
 }
 
 std::string name_of(const Arrangement& arrangement) {
-  if (arrangement.kind == Arrangement::Kind::cloud)
+  if (arrangement.kind == Arrangement::Kind::particle_set)
     return fmt::format("cloud {}", arrangement.algorithm);
   const std::string pattern = arrangement.hexagonal ? "hexagonal" : "rectangular";
   if (arrangement.kind == Arrangement::Kind::lattice) return pattern;
@@ -163,7 +163,7 @@ std::string body_keys(const Arrangement& arrangement, double spacing, double hor
       std::ofstream(name) << TurnedLattice(arrangement, spacing, width, height).text();
       return fmt::format("mesh = \"{}\"\n{}", name, horizon);
     }
-    case Arrangement::Kind::cloud: break;
+    case Arrangement::Kind::particle_set: break;
   }
   return fmt::format("mesh = \"{}\"\nmesh_size = {}\nhorizon_ratio = {}\n",
                      write_geometry(arrangement.algorithm, width, height), spacing, horizon_ratio);

@@ -10,9 +10,9 @@ namespace perilink::verification {
 /// How the particles of a specimen lie.
 struct Arrangement {
   enum class Kind {
-    lattice,  ///< a pattern of the case file, along the axes
-    turned,   ///< a mesh whose vertices are those of a turned lattice
-    cloud,    ///< a mesh of gmsh
+    lattice,       ///< a pattern of the case file, along the axes
+    turned,        ///< a mesh whose vertices are those of a turned lattice
+    particle_set,  ///< a mesh of gmsh
   };
   Kind kind = Kind::lattice;
   bool hexagonal = false;

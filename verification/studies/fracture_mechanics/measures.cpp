@@ -36,7 +36,7 @@ Crack run_specimen(const Specimen& specimen) {
   const Model model = build_model(input);
   Recorder recorder;
   const DamageResult result = run_damage_analysis(model, damage_options(input, 1), recorder);
-  if (result.ending == Ending::failed) throw SolverError(result.reason);
+  if (result.termination == Termination::failed) throw SolverError(result.reason);
   return {std::abs(result.peak_load),
           std::abs(result.smoothed_peak_load.value_or(0.0)),
           result.energy_error,

@@ -77,7 +77,7 @@ const std::vector<Arrangement> arrangements = {{Kind::lattice, false, 0.0},
                                                {Kind::lattice, true, 0.0},
                                                {Kind::turned, true, 15.0},
                                                {Kind::turned, true, 30.0},
-                                               {Kind::cloud}};
+                                               {Kind::particle_set}};
 
 void run_strips() {
   Table table(
@@ -145,7 +145,7 @@ std::string file_of(const std::string& part, double ratio) {
 
 /// With four spacings what misses the bar with three; with more, which take long, the farthest.
 bool is_worth(const Arrangement& arrangement, double ratio) {
-  if (arrangement.kind == Kind::cloud) return ratio <= 4.0;
+  if (arrangement.kind == Kind::particle_set) return ratio <= 4.0;
   return arrangement.degrees == 15.0 && (ratio <= 4.0 || !arrangement.hexagonal);
 }
 
@@ -153,10 +153,14 @@ void run_directions(double ratio) {
   const std::string file = file_of("directions", ratio);
   Table table(file + ".csv", "lattice,model,law,angle,spread_over_horizon,events,seconds");
   std::vector<CrackPicture> pictures;
-  const std::vector<Arrangement> all = {{Kind::lattice, false},       {Kind::turned, false, 15.0},
-                                        {Kind::lattice, true},        {Kind::turned, true, 15.0},
-                                        {Kind::turned, true, 30.0},   {Kind::cloud, false, 0.0, 1},
-                                        {Kind::cloud, false, 0.0, 5}, {Kind::cloud, false, 0.0, 6}};
+  const std::vector<Arrangement> all = {{Kind::lattice, false},
+                                        {Kind::turned, false, 15.0},
+                                        {Kind::lattice, true},
+                                        {Kind::turned, true, 15.0},
+                                        {Kind::turned, true, 30.0},
+                                        {Kind::particle_set, false, 0.0, 1},
+                                        {Kind::particle_set, false, 0.0, 5},
+                                        {Kind::particle_set, false, 0.0, 6}};
   for (const Arrangement& arrangement : all) {
     const bool is_usual = ratio == usual_ratio;
     if (!is_usual && !is_worth(arrangement, ratio)) continue;
@@ -203,7 +207,7 @@ void run_more_kinks(double ratio) {
               "lattice,model,law,sample,mixity,hoop_stress,angle,spread_over_horizon,seconds");
   for (const double degrees : {90.0, 60.0, 30.0, 45.0, 15.0}) {
     for (const int sample : {1, 2}) {
-      Make make_all{{Kind::cloud, false, 0.0, 5, sample}};
+      Make make_all{{Kind::particle_set, false, 0.0, 5, sample}};
       make_all.horizon_ratio = ratio;
       for_bonds(with_moments, table, make_all, [&](const Make& make) {
         const Specimen specimen = crack_tip_field(make, degrees * degree);
@@ -276,7 +280,7 @@ void run_more(double ratio) {
     for (const int sample : {1, 2}) {
       if (sample > 1 && ratio != usual_ratio) continue;
       all.push_back(
-          {{Kind::cloud, false, 0.0, algorithm, sample}, ratio == usual_ratio ? 10.0 : 8.0});
+          {{Kind::particle_set, false, 0.0, algorithm, sample}, ratio == usual_ratio ? 10.0 : 8.0});
     }
   }
   if (ratio == usual_ratio) {

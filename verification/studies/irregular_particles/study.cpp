@@ -11,19 +11,20 @@
 namespace perilink::verification {
 namespace {
 
-std::string row(const Cloud& cloud, bool torn) {
-  const ParticleNetwork built = build(cloud);
+std::string row(const UnstructuredParticles& particle_set, bool torn) {
+  const ParticleNetwork built = build(particle_set);
   const ParticleFitReport& fit = built.report;
-  const Stretching found = stretch(cloud, built);
-  const bool plane = cloud.problem != Problem::three_dimensional;
-  std::string text = fmt::format(
-      "{},{:.4g},{},{},{:.3f},{:.3f},{},{:.4f},{:.4f}",
-      plane ? (cloud.square ? "square" : "hexagonal") : "cubic", cloud.spacing / cloud.width,
-      cloud.scatter, built.network.particles.size(), fit.mean_residual, fit.largest_residual,
-      fit.many + fit.indefinite + fit.singular, found.modulus, found.displacement);
+  const Stretching found = stretch(particle_set, built);
+  const bool plane = particle_set.problem != Problem::three_dimensional;
+  std::string text =
+      fmt::format("{},{:.4g},{},{},{:.3f},{:.3f},{},{:.4f},{:.4f}",
+                  plane ? (particle_set.square ? "square" : "hexagonal") : "cubic",
+                  particle_set.spacing / particle_set.width, particle_set.scatter,
+                  built.network.particles.size(), fit.mean_residual, fit.largest_residual,
+                  fit.many + fit.indefinite + fit.singular, found.modulus, found.displacement);
   if (!torn) return text + ",,,,\n";
-  const ExplicitResult result = tear(cloud, built);
-  const double section = cloud.width * (plane ? cloud.thickness : cloud.width);
+  const ExplicitResult result = tear(particle_set, built);
+  const double section = particle_set.width * (plane ? particle_set.thickness : particle_set.width);
   return text + fmt::format(",{:.3f},{:.2f},{},{:.1e}\n",
                             std::abs(result.peak_load) / (strength * section),
                             result.last.energy.fractured / (fracture_energy * section),
@@ -37,8 +38,8 @@ bool run_program(const std::vector<std::string>& /*arguments*/) {
   std::string table =
       "body,spacing_over_width,scatter,particles,mean_residual,largest_residual,ill_posed,"
       "modulus,displacement_error,peak_over_strength,fractured_over_gf,cracked,energy_surplus\n";
-  const auto add = [&](const Cloud& cloud, bool torn) {
-    table += row(cloud, torn);
+  const auto add = [&](const UnstructuredParticles& particle_set, bool torn) {
+    table += row(particle_set, torn);
     fmt::print(stderr, ".");
   };
   for (const double columns : {15.0, 30.0, 60.0}) {

@@ -48,8 +48,8 @@ void print_diffuse(const std::string& case_file, const std::string& results) {
   };
   std::vector<std::array<double, 2>> crack;
   for (std::size_t e = 0; e < losses.events.size(); ++e) {
-    const int tooth = losses.events[e];
-    if (tooth > 0 && network.law(static_cast<Index>(e)).tooth(tooth).secant <= 0.1) {
+    const int segment = losses.events[e];
+    if (segment > 0 && network.law(static_cast<Index>(e)).segment(segment).secant <= 0.1) {
       crack.push_back(middle(e));
     }
   }

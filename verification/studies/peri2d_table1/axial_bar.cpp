@@ -204,8 +204,8 @@ double strain(const Cross& cross, const Lattice& lattice, std::span<const double
 }
 
 Index count_links(const Network& network, Index particle) {
-  const Csr families = bonds_of_particles(network.bonds, network.particles.size());
-  return static_cast<Index>(families.row(particle).size());
+  const Csr neighbourhoods = bonds_of_particles(network.bonds, network.particles.size());
+  return static_cast<Index>(neighbourhoods.row(particle).size());
 }
 
 }  // namespace

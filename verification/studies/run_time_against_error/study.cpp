@@ -122,7 +122,7 @@ void run_ghosts(const fs::path& work, Comparison& comparison) {
 
 /// \param boxes  instead of the triangles or tetrahedra of the linear elements
 StudyMember run_calculix_member(const fs::path& work, const StudyFile& study,
-                                const TomlValue& value, bool boxes) {
+                                const TomlValue& value, bool subdomains) {
   StudyMember member;
   member.refinement = value;
   member.method = "calculix";
@@ -130,7 +130,8 @@ StudyMember run_calculix_member(const fs::path& work, const StudyFile& study,
     const CaseFile input = read_case_file(
         study.case_path, {body_key("method", std::string("linear_elements")), value});
     const Model model = build_model(input);
-    const CalculixMesh mesh = boxes ? boxes_for_calculix(model) : simplices_for_calculix(model);
+    const CalculixMesh mesh =
+        subdomains ? boxes_for_calculix(model) : simplices_for_calculix(model);
     const MaterialSection& material = input.materials.front();
     for (int k = 0; k < study.repeats; ++k) {
       const CalculixRun run =
@@ -153,13 +154,14 @@ StudyMember run_calculix_member(const fs::path& work, const StudyFile& study,
 
 void run_calculix_series(const fs::path& work, Comparison& comparison, bool lattice) {
   const int dim = static_cast<int>(comparison.study.errors.front().displacement.size());
-  for (const bool boxes : {false, true}) {
-    if (boxes && !lattice) break;
-    const StudySeries series = {fmt::format("CalculiX, {}", dim == 2 ? (boxes ? "CPS4" : "CPS3")
-                                                                     : (boxes ? "C3D8" : "C3D4")),
-                                {}};
+  for (const bool subdomains : {false, true}) {
+    if (subdomains && !lattice) break;
+    const StudySeries series = {
+        fmt::format("CalculiX, {}",
+                    dim == 2 ? (subdomains ? "CPS4" : "CPS3") : (subdomains ? "C3D8" : "C3D4")),
+        {}};
     for (const TomlValue& value : comparison.study.vary.values) {
-      keep(comparison, series, run_calculix_member(work, comparison.study, value, boxes));
+      keep(comparison, series, run_calculix_member(work, comparison.study, value, subdomains));
     }
   }
 }

@@ -22,7 +22,7 @@ struct Panel {
 };
 
 /// Rows of one Poisson's ratio come together.
-void draw_panel(Svg& svg, const Panel& panel, const std::vector<FamilyRow>& rows) {
+void draw_panel(Svg& svg, const Panel& panel, const std::vector<NeighbourhoodRow>& rows) {
   draw_axes(svg, panel.x, panel.y, "a / horizon", panel.label, Grid::lines);
   std::size_t color = 0;
   for (std::size_t first = 0; first < rows.size(); ++color) {
@@ -45,7 +45,7 @@ void draw_panel(Svg& svg, const Panel& panel, const std::vector<FamilyRow>& rows
   }
 }
 
-void draw_key(Svg& svg, SvgPoint at, const std::vector<FamilyRow>& rows) {
+void draw_key(Svg& svg, SvgPoint at, const std::vector<NeighbourhoodRow>& rows) {
   std::size_t color = 0;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     if (k > 0 && rows[k].poissons_ratio == rows[k - 1].poissons_ratio) continue;
@@ -60,7 +60,7 @@ void draw_key(Svg& svg, SvgPoint at, const std::vector<FamilyRow>& rows) {
 
 }  // namespace
 
-Svg draw_families(const std::vector<FamilyRow>& rows) {
+Svg draw_neighbourhoods(const std::vector<NeighbourhoodRow>& rows) {
   Svg svg(1000, 790);
   const std::array<Panel, 4> panels = {{
       {"E₁ / E", &LayerModuli::e1, {0, 1.02, 90, 480}, {0.4, 1.05, 330, 30}},

@@ -8,7 +8,7 @@
 namespace perilink::verification {
 
 /// Figs. 3-6 of Gerstle, Sau & Aguilera (2007): the closed form as lines, bonds as circles.
-Svg draw_families(const std::vector<FamilyRow>& rows);
+Svg draw_neighbourhoods(const std::vector<NeighbourhoodRow>& rows);
 
 /// Apparent modulus of bars over their width: uncorrected and calibrated.
 Svg draw_bars(const std::vector<BarRow>& rows);

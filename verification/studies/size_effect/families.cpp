@@ -25,7 +25,7 @@ Network make_star(const Particles& all, std::span<const double> center, double v
   for (Index b = 0; b < static_cast<Index>(neighbors.size()); ++b) {
     star.bonds.append(particles, 0, b + 1);
   }
-  star.first_tie = star.first_segment = star.bonds.size();
+  star.first_slip_spring = star.first_bar_element = star.bonds.size();
   return star;
 }
 
@@ -100,7 +100,7 @@ std::vector<double> homogeneous_motion(const Network& network, const Vector3& st
   return motion;
 }
 
-std::vector<std::vector<LayerStiffness>> family_stiffness(const FamilyInput& input) {
+std::vector<std::vector<LayerStiffness>> neighbourhood_stiffness(const NeighbourhoodInput& input) {
   const Body body = half_space_body(input.problem, input.horizon_ratio);
   const Particles& particles = body.particles;
   const auto dim = static_cast<std::size_t>(particles.dim);
@@ -138,13 +138,13 @@ std::vector<std::vector<LayerStiffness>> family_stiffness(const FamilyInput& inp
   return result;
 }
 
-LayerStiffness plate_of_families(Problem problem, int horizon_ratio, int rows,
-                                 double poissons_ratio) {
-  FamilyInput input{problem, horizon_ratio, {}, {poissons_ratio}};
+LayerStiffness plate_of_neighbourhoods(Problem problem, int horizon_ratio, int rows,
+                                       double poissons_ratio) {
+  NeighbourhoodInput input{problem, horizon_ratio, {}, {poissons_ratio}};
   const int inside = horizon_ratio + 1;  // the first row whose bonds do not reach the surface
   for (int row = 0; row <= inside; ++row) input.rows.push_back(row);
-  const auto families = family_stiffness(input);
-  const auto at = [&](int row) { return families[std::min(row, inside)][0]; };
+  const auto neighbourhoods = neighbourhood_stiffness(input);
+  const auto at = [&](int row) { return neighbourhoods[std::min(row, inside)][0]; };
   LayerStiffness mean;
   for (int row = 0; row <= rows; ++row) {
     const double share = (row == 0 || row == rows ? 0.5 : 1.0) / rows;

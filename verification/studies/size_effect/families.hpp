@@ -12,7 +12,7 @@
 namespace perilink::verification {
 
 /// Which particles are looked at.
-struct FamilyInput {
+struct NeighbourhoodInput {
   Problem problem = Problem::three_dimensional;  ///< square lattice in plane stress, else cubic
   int horizon_ratio = 3;                         ///< horizon / spacing
   std::vector<int> rows;                         ///< depths [spacings]
@@ -34,13 +34,13 @@ std::vector<double> homogeneous_motion(const Network& network, const Vector3& st
 /// Stiffness in which the particles of the column y = z = 0 store the energy that they own, half of
 /// that of their bonds; by row and Poisson's ratio. Only bonds of these particles are made, so that
 /// horizons of dozens of spacings are possible.
-std::vector<std::vector<LayerStiffness>> family_stiffness(const FamilyInput& input);
+std::vector<std::vector<LayerStiffness>> neighbourhood_stiffness(const NeighbourhoodInput& input);
 
 /// Mean over a plate between two surfaces, of the particles' own stiffness: what each surface takes
 /// away adds up, since no bond is cut by both. A uniform strain along the plate stores this energy,
 /// so that no plate of these bonds can be stiffer.
 /// \param rows  width of the plate [spacings]
-LayerStiffness plate_of_families(Problem problem, int horizon_ratio, int rows,
-                                 double poissons_ratio);
+LayerStiffness plate_of_neighbourhoods(Problem problem, int horizon_ratio, int rows,
+                                       double poissons_ratio);
 
 }  // namespace perilink::verification

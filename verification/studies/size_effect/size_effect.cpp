@@ -7,14 +7,14 @@
 
 namespace perilink::verification {
 
-std::array<double, 4> differences(const FamilyRow& row) {
+std::array<double, 4> differences(const NeighbourhoodRow& row) {
   return {row.found.e1 - row.exact.e1, row.found.e2 - row.exact.e2, row.found.nu12 - row.exact.nu12,
           row.found.nu2 - row.exact.nu2};
 }
 
-std::array<double, 4> largest_differences(const std::vector<FamilyRow>& rows) {
+std::array<double, 4> largest_differences(const std::vector<NeighbourhoodRow>& rows) {
   std::array<double, 4> largest{};
-  for (const FamilyRow& row : rows) {
+  for (const NeighbourhoodRow& row : rows) {
     const auto own = differences(row);
     for (std::size_t k = 0; k < own.size(); ++k) {
       largest[k] = std::max(largest[k], std::abs(own[k]));
@@ -23,9 +23,9 @@ std::array<double, 4> largest_differences(const std::vector<FamilyRow>& rows) {
   return largest;
 }
 
-std::vector<FamilyRow> compare_families(const FamilyInput& input) {
-  const auto stiffness = family_stiffness(input);
-  std::vector<FamilyRow> rows;
+std::vector<NeighbourhoodRow> compare_neighbourhoods(const NeighbourhoodInput& input) {
+  const auto stiffness = neighbourhood_stiffness(input);
+  std::vector<NeighbourhoodRow> rows;
   for (std::size_t n = 0; n < input.poissons_ratios.size(); ++n) {
     const double ratio = input.poissons_ratios[n];
     const MicropolarModuli moduli = continuum_micropolar(input.problem, {1.0, ratio}, 1.0, 1.0);
@@ -44,9 +44,10 @@ BarRow compare_bar(int width, int horizon_ratio, double poissons_ratio, bool cal
   const MicropolarModuli moduli = continuum_micropolar(problem, {1.0, poissons_ratio}, 1.0, 1.0);
   BarRow row{width, horizon_ratio};
   row.uncorrected = apparent_modulus({width, horizon_ratio, poissons_ratio, Surface::none});
-  row.families = layer_moduli(problem, plate_of_families(problem, horizon_ratio,
-                                                         width * horizon_ratio, poissons_ratio))
-                     .e2;
+  row.neighbourhoods =
+      layer_moduli(problem, plate_of_neighbourhoods(problem, horizon_ratio, width * horizon_ratio,
+                                                    poissons_ratio))
+          .e2;
   row.exact = layer_moduli(problem, plate_stiffness(problem, moduli, 1.0, width)).e2;
   row.calibrated =
       calibrated ? apparent_modulus({width, horizon_ratio, poissons_ratio, Surface::calibrated})

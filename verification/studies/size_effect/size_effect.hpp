@@ -13,7 +13,7 @@ namespace perilink::verification {
 inline constexpr double acceptance = 1e-3;
 
 /// Moduli of one particle, from its bonds and from the closed form.
-struct FamilyRow {
+struct NeighbourhoodRow {
   double poissons_ratio = 0.0;
   double depth = 0.0;  ///< a / horizon
   LayerModuli found;
@@ -21,22 +21,22 @@ struct FamilyRow {
 };
 
 /// E1/E, E2/E, nu12, nu2: found - exact (Young's modulus is 1).
-std::array<double, 4> differences(const FamilyRow& row);
+std::array<double, 4> differences(const NeighbourhoodRow& row);
 
 /// Largest absolute difference of each.
-std::array<double, 4> largest_differences(const std::vector<FamilyRow>& rows);
+std::array<double, 4> largest_differences(const std::vector<NeighbourhoodRow>& rows);
 
 /// Particles of the given rows against the closed form, with the constants of the infinite body
 /// there.
-std::vector<FamilyRow> compare_families(const FamilyInput& input);
+std::vector<NeighbourhoodRow> compare_neighbourhoods(const NeighbourhoodInput& input);
 
 /// Apparent Young's modulus over the material's of a bar in plane stress.
 struct BarRow {
   int width = 0;  ///< [horizons]
   int horizon_ratio = 0;
-  double uncorrected = 0.0;  ///< from the program, surface = "none"
-  double families = 0.0;     ///< bound on it: the same bonds in a uniform strain
-  double exact = 0.0;        ///< mean of the closed form over the width
+  double uncorrected = 0.0;     ///< from the program, surface = "none"
+  double neighbourhoods = 0.0;  ///< bound on it: the same bonds in a uniform strain
+  double exact = 0.0;           ///< mean of the closed form over the width
   /// From the program, surface = "calibrated"; not a number: not asked for.
   double calibrated = 0.0;
 };

@@ -36,10 +36,10 @@ std::vector<int> rows_of(int horizon_ratio) {
 double dimension_as_number(Problem problem) { return problem == Problem::plane_stress ? 2.0 : 3.0; }
 
 /// \return the finest families; appends to the table of largest differences
-std::vector<FamilyRow> run_series(const Series& series, CsvWriter& table, bool& good) {
-  std::vector<FamilyRow> rows;
+std::vector<NeighbourhoodRow> run_series(const Series& series, CsvWriter& table, bool& good) {
+  std::vector<NeighbourhoodRow> rows;
   for (const int ratio : series.horizon_ratios) {
-    rows = compare_families({series.problem, ratio, rows_of(ratio), series.poissons_ratios});
+    rows = compare_neighbourhoods({series.problem, ratio, rows_of(ratio), series.poissons_ratios});
     const auto largest = largest_differences(rows);
     const double dimension = dimension_as_number(series.problem);
     table.write_row(
@@ -53,9 +53,10 @@ std::vector<FamilyRow> run_series(const Series& series, CsvWriter& table, bool& 
   return rows;
 }
 
-void write_families(const std::vector<FamilyRow>& rows, double dimension, CsvWriter& file) {
+void write_neighbourhoods(const std::vector<NeighbourhoodRow>& rows, double dimension,
+                          CsvWriter& file) {
   const auto round = [](double value) { return std::round(1e6 * value) / 1e6; };
-  for (const FamilyRow& row : rows) {
+  for (const NeighbourhoodRow& row : rows) {
     const LayerModuli &a = row.found, &b = row.exact;
     file.write_row({dimension, row.poissons_ratio, round(row.depth), round(a.e1), round(a.e2),
                     round(a.nu12), round(a.nu2), round(b.e1), round(b.e2), round(b.nu12),
@@ -63,21 +64,21 @@ void write_families(const std::vector<FamilyRow>& rows, double dimension, CsvWri
   }
 }
 
-bool run_families(const std::string& directory) {
+bool run_neighbourhoods(const std::string& directory) {
   bool good = true;
   CsvWriter table(directory + "/result.csv", {"dimension", "horizon_ratio", "e1_error", "e2_error",
                                               "nu12_error", "nu2_error"});
-  CsvWriter families(directory + "/families.csv",
-                     {"dimension", "poissons_ratio", "depth", "e1", "e2", "nu12", "nu2", "e1_exact",
-                      "e2_exact", "nu12_exact", "nu2_exact"});
+  CsvWriter neighbourhoods(directory + "/families.csv",
+                           {"dimension", "poissons_ratio", "depth", "e1", "e2", "nu12", "nu2",
+                            "e1_exact", "e2_exact", "nu12_exact", "nu2_exact"});
   const Series space{Problem::three_dimensional, {0.0, 0.1, 0.2, 0.22, 0.25}, {5, 10, 20, 40, 60}};
   const Series plane{
       Problem::plane_stress, {0.0, 0.1, 0.2, 0.22, 0.25, 0.3}, {5, 10, 20, 40, 80, 160, 320}};
   for (const Series& series : {space, plane}) {
     const auto rows = run_series(series, table, good);
-    write_families(rows, dimension_as_number(series.problem), families);
+    write_neighbourhoods(rows, dimension_as_number(series.problem), neighbourhoods);
     if (series.problem == Problem::three_dimensional) {
-      draw_families(rows).save(directory + "/families.svg");
+      draw_neighbourhoods(rows).save(directory + "/families.svg");
     }
   }
   return good;
@@ -95,11 +96,11 @@ bool run_bars(const std::string& directory) {
       fmt::print(
           "width {}, horizon {:2d} spacings: {:.4f}, bound {:.4f}, closed form {:.4f}, "
           "calibrated {:.10f}\n",
-          width, ratio, row.uncorrected, row.families, row.exact, row.calibrated);
+          width, ratio, row.uncorrected, row.neighbourhoods, row.exact, row.calibrated);
       std::fflush(stdout);
       table.write_row({static_cast<double>(width), static_cast<double>(ratio), row.uncorrected,
-                       row.families, row.exact, row.calibrated});
-      const double relaxed = 1.0 - row.uncorrected / row.families;
+                       row.neighbourhoods, row.exact, row.calibrated});
+      const double relaxed = 1.0 - row.uncorrected / row.neighbourhoods;
       good = good && relaxed > 0.0 && relaxed < largest_relaxation;
       if (ratio == 3) good = good && std::abs(row.calibrated - 1.0) < calibrated_acceptance;
       if (ratio == 12) good = good && std::abs(row.uncorrected - row.exact) < bar_acceptance;
@@ -115,7 +116,7 @@ bool run_bars(const std::string& directory) {
 
 bool perilink::verification::run_program(const std::vector<std::string>& arguments) {
   const std::string directory = arguments.empty() ? "." : arguments[0];
-  const bool families = run_families(directory);
+  const bool neighbourhoods = run_neighbourhoods(directory);
   const bool bars = run_bars(directory);
-  return families && bars;
+  return neighbourhoods && bars;
 }

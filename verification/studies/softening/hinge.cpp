@@ -51,9 +51,9 @@ struct Hinge {
     Resultant sum;
     for (int k = 0; k < fibres; ++k) {
       const double at = (k + 0.5) / fibres;
-      const double carried = stress(rotation * (neutral - at) * depth) / fibres;
-      sum.force += carried;
-      sum.moment += carried * (0.5 - at);
+      const double embedded = stress(rotation * (neutral - at) * depth) / fibres;
+      sum.force += embedded;
+      sum.moment += embedded * (0.5 - at);
     }
     return sum;
   }

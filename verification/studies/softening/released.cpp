@@ -17,9 +17,9 @@ double taken(const Network& network, Index bond, double secant) {
   if (std::isinf(limit)) return 0.0;
   const BondLaw& law = network.law(bond);
   double sum = 0.0;
-  for (int k = 0; law.tooth(k).secant > secant; ++k) {
-    const Tooth tooth = law.tooth(k);
-    sum += tooth.limit * tooth.limit * (tooth.secant - law.tooth(k + 1).secant);
+  for (int k = 0; law.segment(k).secant > secant; ++k) {
+    const Segment segment = law.segment(k);
+    sum += segment.limit * segment.limit * (segment.secant - law.segment(k + 1).secant);
   }
   const double extension = limit * network.bonds.lengths[bond];
   return 0.5 * network.stiffness[bond] * extension * extension * sum;

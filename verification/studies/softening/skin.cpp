@@ -8,8 +8,8 @@
 namespace perilink::verification {
 namespace {
 
-constexpr double ripple = 0.02;  // that teeth have, which adds less than 0.3 % to the strength
-constexpr int rounds = 8;        // each finds a digit of the strength factor
+constexpr double overshoot = 0.02;  // that teeth have, which adds less than 0.3 % to the strength
+constexpr int rounds = 8;           // each finds a digit of the strength factor
 
 /// Points that rise, stresses over E s_0 and strains over s_0.
 std::vector<SkinPoint> rising_path(const SkinBonds& bonds, double energy) {
@@ -17,7 +17,7 @@ std::vector<SkinPoint> rising_path(const SkinBonds& bonds, double energy) {
   const std::vector<CellBond> cell = isotropic_cell(Problem::plane_stress, 2.0 * nu / (1.0 - nu));
   const SofteningShape shape{Softening::bilinear, bonds.knee_stress_ratio,
                              bonds.knee_opening_ratio};
-  const BondLaw law = saw_tooth_of(SofteningCurve(shape, energy), ripple);
+  const BondLaw law = saw_tooth_of(SofteningCurve(shape, energy), overshoot);
   const double modulus = cell_modulus(cell, 2, {1.0, 0.0, 0.0});
   std::vector<SkinPoint> rising = {{0.0, 0.0}};
   for (const CellPoint& point : cell_path(cell, 2, {{1.0, 0.0, 0.0}}, law, 1.0)) {

@@ -125,7 +125,7 @@ Outcome run_text(const std::string& text, const Make* make) {
           result.last.dissipated_energy,
           result.energy_error,
           recorder.events,
-          to_string(result.ending),
+          to_string(result.termination),
           recorder.released};
 }
 

@@ -49,7 +49,7 @@ struct Outcome {
   double dissipated = 0.0;  ///< [N mm]
   double energy_error = 0.0;
   int events = 0;
-  std::string ending;
+  std::string termination;
   Released released;  ///< strips whose run did not fail; else not a number
 };
 /// \param make  a strip whose bonds tell where they took the energy; null: another body

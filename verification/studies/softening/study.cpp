@@ -40,7 +40,7 @@ void add_strip(const Make& make, Table& table) {
   table.add(fmt::format("strip,{},,,{:.4f},{:.4f},{:.1e},{},{}\n", made(make),
                         outcome.peak / (tensile_strength * section_of(make)),
                         outcome.dissipated / (fracture_energy * section_of(make)),
-                        outcome.energy_error, outcome.events, outcome.ending));
+                        outcome.energy_error, outcome.events, outcome.termination));
 }
 
 /// Nominal strength: the largest stress of a beam without a crack, 6 M / D^2 with M = P D.
@@ -52,7 +52,7 @@ void add_beam(const Make& make, const Beam& size, Table& table) {
   const Outcome outcome = run_text(beam(make, size));
   table.add(fmt::format("beam,{},{},{},{:.4f},,{:.1e},{},{}\n", made(make), size.depth, size.notch,
                         bending_strength(outcome, size), outcome.energy_error, outcome.events,
-                        outcome.ending));
+                        outcome.termination));
 }
 
 constexpr const char* head =
@@ -95,8 +95,8 @@ void run_lengths() {
       table.add(fmt::format("{},{:.4g},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{},{:.1f}\n", made(make),
                             soft_length_of(make), outcome.dissipated / unit, released.crack / unit,
                             released.beside / unit, released.cut / unit,
-                            outcome.peak / (tensile_strength * section_of(make)), outcome.ending,
-                            timer.seconds()));
+                            outcome.peak / (tensile_strength * section_of(make)),
+                            outcome.termination, timer.seconds()));
     }
     write_result(PERILINK_STUDY_DIR, table.text(), "lengths.csv");
   };
@@ -131,7 +131,7 @@ void add_unnotched(const Make& make, const Beam& size, Table& table) {
   const Outcome outcome = run_text(beam(make, size));
   table.add(fmt::format("{},{:.3g},{:.3g},{},{},{:.4f},{},{}\n", made(make), make.knee_stress_ratio,
                         make.knee_opening_ratio, size.patch, size.point_supports,
-                        bending_strength(outcome, size), outcome.events, outcome.ending));
+                        bending_strength(outcome, size), outcome.events, outcome.termination));
 }
 
 constexpr const char* unnotched_head =

@@ -9,7 +9,7 @@
 #include "bodies.hpp"
 #include "discretization/lattices/make_body.hpp"
 #include "material/critical_stretch.hpp"
-#include "network/lattice_families.hpp"
+#include "network/lattice_neighbourhoods.hpp"
 
 namespace perilink::verification {
 namespace {
@@ -23,7 +23,7 @@ struct Interior {
   Lattice lattice;
   double horizon = 0.0;
   std::vector<Vector3> offsets;
-  FamilyStiffness stiffness;
+  NeighbourhoodStiffness stiffness;
 };
 
 Interior interior_of(const Strip& strip) {
@@ -47,9 +47,9 @@ Interior interior_of(const Strip& strip) {
   const double r = strip.lame_ratio;
   input.materials = {{1.0, 1.0, space ? 0.5 * r / (1.0 + r) : r / (2.0 + r)}};
   if (r < 1.0) input.model = BondModel::micropolar;
-  const LatticeFamilies families(body, input);
-  Interior inside{input.problem, body.lattice, input.horizon, {}, families.stiffness(0)};
-  inside.offsets.assign(families.offsets().begin(), families.offsets().end());
+  const LatticeNeighbourhoods neighbourhoods(body, input);
+  Interior inside{input.problem, body.lattice, input.horizon, {}, neighbourhoods.stiffness(0)};
+  inside.offsets.assign(neighbourhoods.offsets().begin(), neighbourhoods.offsets().end());
   for (std::size_t k = 0; k < inside.offsets.size() && !strip.calibrated; ++k) {
     const Vector3& x = inside.offsets[k];
     inside.stiffness.axial[k] = 1.0 / std::hypot(x[0], x[1], x[2]);
@@ -86,7 +86,7 @@ class StripBuilder {
   LoadedNetwork cut(int periods) const {
     const double tip = (beside_ + periods) * period_ - 1e-6;
     Network network = whole_;
-    network.first_tie = network.first_segment = network.bonds.size();
+    network.first_slip_spring = network.first_bar_element = network.bonds.size();
     for (std::size_t b = 0; b < crossing_.size(); ++b) {
       if (!(crossing_[b] < tip)) continue;
       network.stiffness[b] = 0.0;
@@ -231,8 +231,8 @@ StripCost measure_crack_cost(const Strip& strip) {
   const PathEnergy energy =
       energy_between(*make_event_engine(whole, EquilibriumOptions{}), begin, end);
   // Critical stretches are one: a plane crack would hold half of the fracture sum per area.
-  const double sum = fracture_sum_of_family(inside.problem, inside.offsets, inside.stiffness.axial,
-                                            inside.lattice.cell_volume);
+  const double sum = fracture_sum_of_neighbourhood(
+      inside.problem, inside.offsets, inside.stiffness.axial, inside.lattice.cell_volume);
   const double unit = 0.5 * sum * strip.counted * builder.area_of_period();
   return {energy.dissipated / unit, energy.released / unit, energy.events, builder.unknowns.count};
 }

@@ -203,7 +203,7 @@ bool measure_cases() {
   return good;
 }
 
-bool measure_clouds() {
+bool measure_unstructured() {
   Table table("algorithm,seed,rule,dissipated_over_GF,released_over_GF,events\n");
   const auto geometry = std::filesystem::temp_directory_path() / "toughness_cloud.geo";
   double sum = 0.0;
@@ -228,7 +228,7 @@ bool measure_clouds() {
 
 bool perilink::verification::run_program(const std::vector<std::string>& arguments) {
   const std::string what = arguments.empty() ? "cases" : arguments[0];
-  if (what == "clouds") return measure_clouds();
+  if (what == "clouds") return measure_unstructured();
   if (what != "table") return measure_cases();
   measure_table();
   return true;

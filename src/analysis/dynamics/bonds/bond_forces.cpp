@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "analysis/dynamics/bonds/anchored_ties.hpp"
 #include "analysis/dynamics/bonds/element_halves.hpp"
+#include "analysis/dynamics/bonds/embedded_slip_springs.hpp"
 #include "analysis/dynamics/bonds/stencil_bonds.hpp"
 
 namespace perilink {
@@ -40,7 +40,7 @@ class Halves final : public ExplicitBonds {
   template <Limits Kind>
   BondLosses forces_of(Index begin, Index end, double time_step, const BondMotion& motion,
                        std::span<double> force);
-  double limit_of(Index element, int tooth) const;
+  double limit_of(Index element, int segment) const;
   bool may_close(std::size_t half) const;
   Half closed_part(std::size_t half) const;
   void give_way(std::size_t half, double demand, const double* own, const double* own_speed,
@@ -54,7 +54,7 @@ class Halves final : public ExplicitBonds {
   std::vector<Index> element_;
   std::vector<double> limit_;   ///< an intact bond fails where Half::demand() exceeds this
   std::vector<double> secant_;  ///< present, over the intact stiffness
-  std::vector<int> tooth_;
+  std::vector<int> segment_;
   std::vector<std::uint8_t> both_;  ///< Sense::both
 };
 
@@ -95,7 +95,7 @@ void Halves<Half>::add(const Network& network, Index element, bool first) {
   halves_.emplace_back(network, element, first);
   element_.push_back(element);
   secant_.push_back(1.0);
-  tooth_.push_back(0);
+  segment_.push_back(0);
   both_.push_back(network.law(element).sense() == Sense::both);
   limit_.push_back(limit_of(element, 0));
   const std::vector<Index>& cut = network.cut_elements;
@@ -106,9 +106,9 @@ void Halves<Half>::add(const Network& network, Index element, bool first) {
 
 /// That ends the tooth, in units of Half::demand().
 template <class Half>
-double Halves<Half>::limit_of(Index element, int tooth) const {
+double Halves<Half>::limit_of(Index element, int segment) const {
   return Half::limit_of_demand(
-      network_.critical_stretch_of(element) * network_.law(element).tooth(tooth).limit,
+      network_.critical_stretch_of(element) * network_.law(element).segment(segment).limit,
       network_.bonds.length(element));
 }
 
@@ -128,9 +128,9 @@ void Halves<Half>::give_way(std::size_t half, double demand, const double* own,
   const double* far = motion.displacement.data() + other;
   const Index element = element_[half];
   do {
-    limit_[half] = limit_of(element, ++tooth_[half]);
+    limit_[half] = limit_of(element, ++segment_[half]);
   } while (demand > limit_[half]);
-  const double next = network_.law(element).tooth(tooth_[half]).secant;
+  const double next = network_.law(element).segment(segment_[half]).secant;
   if (next == 0.0) losses.broken.push_back(element);
   double past_own[width], past_far[width];
   before(own, own_speed, time_step, past_own);
@@ -234,9 +234,9 @@ std::unique_ptr<ExplicitBonds> make_explicit_halves(const Network& network, Stra
   }
   std::vector<Index> all(static_cast<std::size_t>(network.num_elements()));
   std::iota(all.begin(), all.end(), 0);
-  std::erase_if(all, [&](Index e) { return network.is_anchored(e); });
+  std::erase_if(all, [&](Index e) { return network.is_embedded(e); });
   const auto complete = [&](std::unique_ptr<ExplicitBonds> halves) {
-    return with_anchored_ties(network, std::move(halves));
+    return with_embedded_slip_springs(network, std::move(halves));
   };
   if (network.carries_moments()) {
     if (strain == Strain::green) {
@@ -263,7 +263,7 @@ std::unique_ptr<ExplicitBonds> make_explicit_bonds(const Network& network, Strai
   std::unique_ptr<ExplicitBonds> rest;
   if (!stencil.rest.empty()) rest = make_halves<TrussHalf>(network, stencil.rest);
   rest = make_stencil_bonds(network, std::move(stencil), std::move(rest));
-  return with_anchored_ties(network, std::move(rest));
+  return with_embedded_slip_springs(network, std::move(rest));
 }
 
 }  // namespace perilink

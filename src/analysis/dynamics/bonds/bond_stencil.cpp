@@ -63,7 +63,7 @@ class Kinds {
     kind.modulus = network.stiffness[element] /
                    (volumes[bonds.first[element]] * volumes[bonds.second[element]]);
     kind.limit =
-        network.critical_stretch_of(element) * network.law(element).tooth(0).limit * kind.length;
+        network.critical_stretch_of(element) * network.law(element).segment(0).limit * kind.length;
     return kind;
   }
 
@@ -166,7 +166,7 @@ BondStencil find_stencil(const Network& network) {
   Kinds found;
   std::vector<int> kind(static_cast<std::size_t>(network.num_elements()), no_kind);
   for (Index e = 0; e < network.num_elements(); ++e) {
-    if (!network.law(e).is_brittle() || network.is_anchored(e)) continue;
+    if (!network.law(e).is_brittle() || network.is_embedded(e)) continue;
     const bool was_full = found.is_full();
     kind[e] = found.find(network, e);
     const bool fills_up = found.is_full() && !was_full;
@@ -190,7 +190,7 @@ BondStencil find_stencil(const Network& network) {
     stencil.groups.push_back({entry->second, first_slot});
   }
   for (Index e = 0; e < network.num_elements(); ++e) {
-    if (kind[e] == no_kind && !network.is_anchored(e)) stencil.rest.push_back(e);
+    if (kind[e] == no_kind && !network.is_embedded(e)) stencil.rest.push_back(e);
   }
   if (!stencil.element.empty()) stencil.kinds = std::move(found.kinds);
   return stencil;

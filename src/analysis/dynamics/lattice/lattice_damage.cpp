@@ -6,20 +6,20 @@
 #include "analysis/dynamics/lattice/rows/row_scan.hpp"
 
 namespace perilink {
-bool LatticeDamage::begins(ExplicitState& state, Index row, const Family& family,
+bool LatticeDamage::begins(ExplicitState& state, Index row, const Neighbourhood& neighbourhood,
                            Vector3& normal) const {
   const LatticeMaterial& material = model_.material;
   // A particle that lacks bonds has a stress of its own only together with its neighbours: along a
   // jagged face the outer ones pull where the inner ones push.
   const bool consistent = model_.rules == LatticeRules::consistent;
-  const bool averaged = consistent && particles_.is_near_face(family.slot);
+  const bool averaged = consistent && particles_.is_near_face(neighbourhood.slot);
   double volume = 0.0;
   int count = 0;
-  const SymmetricTensor stress = averaged
-                                     ? particles_.mean_stress(state, family, row, volume, count)
-                                     : particles_.stress(state, family);
+  const SymmetricTensor stress =
+      averaged ? particles_.mean_stress(state, neighbourhood, row, volume, count)
+               : particles_.stress(state, neighbourhood);
   const PrincipalValues principal = principal_values(stress, model_.lattice.dim);
-  const double scale = particles_.is_whole(family) ? 1.0 : material.boundary_factor;
+  const double scale = particles_.is_whole(neighbourhood) ? 1.0 : material.boundary_factor;
   const double least = std::min(principal.last, stress[2]);
   if (begins_crack(material.softening, scale * principal.first, scale * least)) {
     normal = principal_direction(stress, model_.lattice.dim);
@@ -27,19 +27,22 @@ bool LatticeDamage::begins(ExplicitState& state, Index row, const Family& family
   }
   if (averaged && !has_weakened_rows(model_, state, row)) {
     const double rest = (material.softening.strength / scale - principal.first) * volume;
-    state.quiet_until[family.slot] = state.path[row] + rest / (count * stress_stiffness(model_));
+    state.quiet_until[neighbourhood.slot] =
+        state.path[row] + rest / (count * stress_stiffness(model_));
   }
   return false;
 }
 
-double LatticeDamage::driving_strain(const ExplicitState& state, const Family& family) const {
+double LatticeDamage::driving_strain(const ExplicitState& state,
+                                     const Neighbourhood& neighbourhood) const {
   const LatticeMaterial& material = model_.material;
-  if (follows_stress(family)) {
+  if (follows_stress(neighbourhood)) {
     const PrincipalValues stress =
-        principal_values(particles_.stress(state, family), model_.lattice.dim);
-    return stress.first / ((1.0 - state.damage[family.slot]) * material.youngs_modulus);
+        principal_values(particles_.stress(state, neighbourhood), model_.lattice.dim);
+    return stress.first / ((1.0 - state.damage[neighbourhood.slot]) * material.youngs_modulus);
   }
-  const SymmetricTensor strain = particles_.fit(particles_.shared(state, family), family);
+  const SymmetricTensor strain =
+      particles_.fit(particles_.shared(state, neighbourhood), neighbourhood);
   const PrincipalValues values = principal_values(strain, model_.lattice.dim);
   const double e1 = values.first, e2 = values.last;
   switch (model_.rules) {
@@ -66,45 +69,45 @@ double LatticeDamage::damage_at(double strain, double band) const {
   return 0.0;
 }
 
-bool LatticeDamage::follows_stress(const Family& family) const {
-  return model_.rules == LatticeRules::consistent && particles_.is_whole(family);
+bool LatticeDamage::follows_stress(const Neighbourhood& neighbourhood) const {
+  return model_.rules == LatticeRules::consistent && particles_.is_whole(neighbourhood);
 }
 
-void LatticeDamage::watch(ExplicitState& state, const Family& family, double strain,
+void LatticeDamage::watch(ExplicitState& state, const Neighbourhood& neighbourhood, double strain,
                           double damage) const {
-  const Index slot = family.slot;
+  const Index slot = neighbourhood.slot;
   double& next =
       model_.rules == LatticeRules::consistent ? state.crack_at[slot] : state.grow_at[slot];
   if (damage >= 1.0) {
     next = never;
-  } else if (follows_stress(family)) {
+  } else if (follows_stress(neighbourhood)) {
     // Where a mean began it, the particle's own stress may still be below the strength.
     const double cohesive = (1.0 - damage) * model_.material.youngs_modulus * strain;
     next = damage > 0.0 ? cohesive : model_.material.softening.strength;
   } else {
     // Damage rises with the strain. Only particles with all bonds are looked at strain by strain.
-    const bool counted = model_.lattice.dim == 2 && particles_.is_whole(family);
+    const bool counted = model_.lattice.dim == 2 && particles_.is_whole(neighbourhood);
     next = counted ? strain : -never;
   }
 }
 
 bool LatticeDamage::grow(ExplicitState& state, Index row, Index slot) const {
   if (state.damage[slot] >= 1.0) return false;
-  const Family family = particles_.family(state, row, slot);
+  const Neighbourhood neighbourhood = particles_.neighbourhood(state, row, slot);
   const bool first = state.crack_band[slot] == 0.0;
   if (first) {
     Vector3 normal{};
-    if (!begins(state, row, family, normal)) return false;
+    if (!begins(state, row, neighbourhood, normal)) return false;
     state.crack_band[slot] = band_width(model_, normal);
     state.crack_at[slot] = never;
     state.quiet_until[slot] = -never;
     state.row_changes[row] |= RowChanges::cracked;
   }
-  const double strain = driving_strain(state, family);
+  const double strain = driving_strain(state, neighbourhood);
   const double damage = damage_at(strain, state.crack_band[slot]);
   const bool grows = damage > state.damage[slot];
   if (first || grows || model_.rules != LatticeRules::consistent) {
-    watch(state, family, strain, std::max(damage, state.damage[slot]));
+    watch(state, neighbourhood, strain, std::max(damage, state.damage[slot]));
   }
   if (grows && state.damage[slot] == 0.0) state.cracked_in[slot] = state.step;
   if (grows) state.next_damage[slot] = damage;

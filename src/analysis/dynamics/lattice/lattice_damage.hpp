@@ -22,19 +22,21 @@ class LatticeDamage {
   void update_factors(ExplicitState& state, Index row) const;
 
  private:
-  using Family = LatticeParticles::Family;
+  using Neighbourhood = LatticeParticles::Neighbourhood;
 
   /// Whether a crack begins; sets how long the particle can wait where it does not.
   /// \param normal  becomes the direction of the first principal stress
-  bool begins(ExplicitState& state, Index row, const Family& family, Vector3& normal) const;
+  bool begins(ExplicitState& state, Index row, const Neighbourhood& neighbourhood,
+              Vector3& normal) const;
   /// Strain that drives the damage. Consistent: the first principal stress over what damage leaves
   /// of Young's modulus; at faces that which the particle would carry undamaged, from the strain of
   /// its halves. 2017: the first principal strain; 2018: Eq. 38.
-  double driving_strain(const ExplicitState& state, const Family& family) const;
+  double driving_strain(const ExplicitState& state, const Neighbourhood& neighbourhood) const;
   /// Whether damage follows the particle's own stress: by the consistent rules away from faces.
-  bool follows_stress(const Family& family) const;
+  bool follows_stress(const Neighbourhood& neighbourhood) const;
   /// Sets the threshold at which a cracked particle has to be looked at again.
-  void watch(ExplicitState& state, const Family& family, double strain, double damage) const;
+  void watch(ExplicitState& state, const Neighbourhood& neighbourhood, double strain,
+             double damage) const;
   double damage_at(double strain, double band) const;
 
   const ExplicitModel& model_;

@@ -30,23 +30,25 @@ class LatticeYielding {
   double plastic_strain(const ExplicitState& state, Index row, Index slot) const;
 
  private:
-  using Family = LatticeParticles::Family;
+  using Neighbourhood = LatticeParticles::Neighbourhood;
   using Halves = LatticeParticles::Halves;
 
-  Change flow_consistently(ExplicitState& state, const Family& family) const;
-  Change flow_as_in_2017(ExplicitState& state, const Family& family) const;
-  Change flow_as_in_2018(ExplicitState& state, const Family& family) const;
+  Change flow_consistently(ExplicitState& state, const Neighbourhood& neighbourhood) const;
+  Change flow_as_in_2017(ExplicitState& state, const Neighbourhood& neighbourhood) const;
+  Change flow_as_in_2018(ExplicitState& state, const Neighbourhood& neighbourhood) const;
   /// Present yield stress by the rules of 2017, and whether the particle is beyond its ultimate
   /// strain.
-  double yield_of_2017(const ExplicitState& state, const Family& family, bool& beyond) const;
+  double yield_of_2017(const ExplicitState& state, const Neighbourhood& neighbourhood,
+                       bool& beyond) const;
   /// Yield stress of the next step by the rules of 2018, and when to look at the particle again.
-  void harden_as_in_2018(ExplicitState& state, const Family& family) const;
+  void harden_as_in_2018(ExplicitState& state, const Neighbourhood& neighbourhood) const;
   /// That of the plastic stretches that a particle has.
-  double present_plastic_strain(const ExplicitState& state, const Family& family) const;
+  double present_plastic_strain(const ExplicitState& state,
+                                const Neighbourhood& neighbourhood) const;
   /// Adds the deviator of forces to the plastic stretches, scaled to a length.
   /// \returns false for equal forces, by which the rules of the papers do not flow
   bool step_along(const Halves& force, double length, ExplicitState& state,
-                  const Family& family) const;
+                  const Neighbourhood& neighbourhood) const;
 
   const ExplicitModel& model_;
   const LatticeParticles& particles_;

@@ -26,7 +26,7 @@ constexpr double share_of_solution = 0.7;
 
 /// Unknowns of a body in space from which on conjugate gradients with boxes follow a batch faster
 /// than any way with a factor (docs/theory/large_bodies.md, section 5).
-constexpr Index fewest_for_boxes = 15000;
+constexpr Index fewest_for_subdomains = 15000;
 
 /// Steps of conjugate gradients that are expected before any have been made.
 constexpr int expected_steps = 12;
@@ -64,14 +64,15 @@ auto Equilibrium::batch_of(std::span<const Weakening> changes) const -> Batch {
   return batch;
 }
 
-bool is_followed_by_boxes(const LoadedNetwork& problem, const EquilibriumOptions& options) {
+bool is_followed_by_subdomains(const LoadedNetwork& problem, const EquilibriumOptions& options) {
   if (options.solver != LinearSolver::automatic) return options.solver == LinearSolver::iterative;
   const Network& network = problem.network;
   const bool is_solid = network.dim() == 3 && !network.shell && !network.is_beam();
-  const bool is_plain = !problem.carried && !problem.unknowns.carries() && problem.sets.empty() &&
-                        network.first_tie == network.num_elements() && !network.has_states();
+  const bool is_plain = !problem.embedded && !problem.unknowns.carries() && problem.sets.empty() &&
+                        network.first_slip_spring == network.num_elements() &&
+                        !network.has_states();
   if (!(options.event_tolerance > 0.0) || options.route != FactorRoute::in_place || !is_solid ||
-      !is_plain || problem.unknowns.count < fewest_for_boxes) {
+      !is_plain || problem.unknowns.count < fewest_for_subdomains) {
     return false;
   }
   for (Index e = 0; e < network.num_elements(); ++e) {
@@ -130,7 +131,7 @@ std::optional<EventOutcome> Equilibrium::weaken_together(std::span<const Weakeni
     own.released = 0.5 * energy;
     if (constant_) release_constant(batch.removals[k], changes[k].element, own);
     outcome.released += own.released;
-    outcome.released_beside += own.released_beside;
+    outcome.released_by_permanent += own.released_by_permanent;
     removed += energy;
   }
   for (std::size_t k = 0; k < changes.size(); ++k) {
@@ -148,9 +149,9 @@ std::optional<EventOutcome> Equilibrium::weaken_together(std::span<const Weakeni
     add_growth(batch.removals[k], changes[k].element, batch.before[k], batch.beside[k], outcome);
   }
   // Elements that are strained far more without their stiffness than before held the body.
-  const bool doubtful = !(outcome.compliance_growth * doubtful_pivot <= removed) ||
-                        !(outcome.pivot > doubtful_pivot) || !resists_without(batch);
-  if (!doubtful) {
+  const bool uncertain = !(outcome.compliance_growth * uncertain_pivot <= removed) ||
+                         !(outcome.pivot > uncertain_pivot) || !resists_without(batch);
+  if (!uncertain) {
     follow(outcome);
     try {
       if (!axial_.empty()) settle_closing(outcome);
@@ -159,7 +160,7 @@ std::optional<EventOutcome> Equilibrium::weaken_together(std::span<const Weakeni
     }
     if (outcome.mechanism) batch.keeps_factor = false;
   }
-  if (doubtful || outcome.mechanism) {
+  if (uncertain || outcome.mechanism) {
     take_back(changes, batch);
     return std::nullopt;
   }
@@ -174,8 +175,8 @@ void Equilibrium::add_growth(const Removal& removal, Index element, const Deform
   for (int m = 0; constant_ && m < removal.rank; ++m) {
     const double held = removal.constant[m];
     const double holds = held + along(removal.x[m], constant_->solution) - beside[m];
-    outcome.growth_beside.linear += before[m] * holds + held * after[m];
-    outcome.growth_beside.constant += held * holds;
+    outcome.permanent_growth.linear += before[m] * holds + held * after[m];
+    outcome.permanent_growth.constant += held * holds;
   }
 }
 
@@ -183,14 +184,14 @@ void Equilibrium::add_growth(const Removal& removal, Index element, const Deform
 /// \param pivot  the smallest of the batch, where the factor tells
 bool Equilibrium::follow_batch(Batch& batch, double& pivot) {
   must_rebuild_ = false;
-  const Way way = boxes_ != nullptr ? Way::gradients : cheapest_way(batch);
+  const Way way = subdomains_ != nullptr ? Way::gradients : cheapest_way(batch);
   batch.tells_pivots = way == Way::change;
   if (way == Way::change) return change_factor(batch, pivot);
-  must_rebuild_ = boxes_ == nullptr;  // work products are summed anew
+  must_rebuild_ = subdomains_ == nullptr;  // work products are summed anew
   try {
     batch.keeps_factor = way == Way::gradients;
     if (way == Way::gradients && search_equilibrium()) return true;
-    if (boxes_ != nullptr) return false;
+    if (subdomains_ != nullptr) return false;
     batch.keeps_factor = false;
     factorize();
     return true;
@@ -217,9 +218,9 @@ bool Equilibrium::resists_without(const Batch& batch) {
   const std::vector<double> forces = load;
   constexpr double rough = 1e-2;
   try {
-    if (boxes_ != nullptr) {
+    if (subdomains_ != nullptr) {
       // Errors count by this energy.
-      boxes_->correct(load, vectors * std::pow(rough / options_.boxes.tolerance, 2));
+      subdomains_->correct(load, vectors * std::pow(rough / options_.subdomains.tolerance, 2));
       motion = std::move(load);
     } else if (!lags_) {
       factor_->solve(load, motion);
@@ -230,7 +231,7 @@ bool Equilibrium::resists_without(const Batch& batch) {
     return false;
   }
   const double work = scalar_product(forces, motion);
-  return work >= 0.0 && work * doubtful_pivot < vectors;
+  return work >= 0.0 && work * uncertain_pivot < vectors;
 }
 
 void Equilibrium::bring_factor_up() {
@@ -248,7 +249,7 @@ bool Equilibrium::change_factor(const Batch& batch, double& pivot) {
     }
   }
   pivot = factor_->downdate_together(vectors);
-  if (!(pivot > doubtful_pivot)) return false;
+  if (!(pivot > uncertain_pivot)) return false;
   follow_forces(forces);
   stale_ = partial_;
   return true;
@@ -312,9 +313,9 @@ bool Equilibrium::search_equilibrium() {
   std::vector<double> residual;
   measure_residual(residual);
   const double energy = 2.0 * internal_.energy;
-  if (boxes_ != nullptr) {
+  if (subdomains_ != nullptr) {
     try {
-      boxes_->follow(residual, energy);
+      subdomains_->follow(residual, energy);
     } catch (const SolverError&) {
       return false;
     }

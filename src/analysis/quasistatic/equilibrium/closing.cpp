@@ -65,7 +65,7 @@ auto Equilibrium::extension_at(const BondEnds& bond) const -> Extension {
   add(displacement_, load_factor, result.growing);
   if (constant_) add(constant_->displacement, 1.0, result.constant);
   result.now = load_factor * result.growing + result.constant;
-  if (boxes_ != nullptr) {  // errors of parts that move far are everywhere
+  if (subdomains_ != nullptr) {  // errors of parts that move far are everywhere
     size += std::abs(load_factor) * largest_motion_ + (constant_ ? constant_->largest_motion : 0.0);
   }
   const double noise = closing_round_off * size + noise_of_sides_;
@@ -126,14 +126,14 @@ void Equilibrium::close(Index element) {
 bool Equilibrium::open(Index element) {
   const Removal axial = make_axial_removal(network_, *unknowns_, element, 1.0 - secants_[element]);
   double pivot = factor_->pivot(axial.x[0]);
-  const bool doubtful = !(pivot > doubtful_pivot);
-  if (doubtful) {
+  const bool uncertain = !(pivot > uncertain_pivot);
+  if (uncertain) {
     pivot = pivot_by_energy(axial.x[0], element, secants_[element]);
     axial_[element] = 1.0;  // which that has set to the secant of an open one
     if (pivot == 0.0) return false;
   }
   axial_[element] = secants_[element];
-  if (!doubtful) {
+  if (!uncertain) {
     factor_->downdate(axial.vectors(), axial.load_changes(), {&pivot, 1}, {});
     return true;
   }
@@ -150,7 +150,7 @@ bool Equilibrium::open(Index element) {
 /// Whether a new factor costs less than so many changes of the present one.
 bool Equilibrium::is_cheaper_anew(std::size_t changes) const {
   // One by one each asks for a block of columns; a window that begins anew lacks all of its blocks.
-  if (boxes_ != nullptr) return changes > boxes_->num_blocks() + 1;
+  if (subdomains_ != nullptr) return changes > subdomains_->num_blocks() + 1;
   const FactorStatistics factor = factor_->statistics();
   const double anew = factor.flops / flops_per_second +
                       seconds_per_element * static_cast<double>(network_.num_elements());
@@ -202,7 +202,7 @@ bool Equilibrium::holds_apart(const std::vector<Index>& opened) const {
 std::vector<Index> Equilibrium::change_sides(std::vector<Index> wrong) {
   // Broken bonds that open may free a part that the load does not move.
   const auto may_free = [&](Index e) { return is_closed(e) && secants_[e] == 0.0; };
-  found_sides_ = (lags_ || follows_boxes()) && std::ranges::none_of(wrong, may_free);
+  found_sides_ = (lags_ || follows_subdomains()) && std::ranges::none_of(wrong, may_free);
   if (found_sides_) {
     turn(wrong);
     if ((found_sides_ = search_equilibrium())) return wrong;
@@ -224,8 +224,8 @@ void Equilibrium::add_growth(Index element, const Extension& before, EventOutcom
   const double lost =
       network_.stiffness[element] * (1.0 - secants_[element]) * (is_closed(element) ? -1.0 : 1.0);
   outcome.compliance_growth += lost * before.growing * after.growing;
-  outcome.growth_beside.linear += 2.0 * lost * before.constant * after.growing;
-  outcome.growth_beside.constant += lost * before.constant * after.constant;
+  outcome.permanent_growth.linear += 2.0 * lost * before.constant * after.growing;
+  outcome.permanent_growth.constant += lost * before.constant * after.constant;
 }
 
 /// Changes the sides of bonds. \return false where all that ought to hold the body
@@ -236,7 +236,7 @@ bool Equilibrium::follow_sides(const std::vector<Index>& wrong, EventOutcome& ou
   const std::vector<Index> changed = change_sides(wrong);
   if (changed.empty()) return false;
   changed_sides_.insert(changed_sides_.end(), changed.begin(), changed.end());
-  if (!found_sides_ && (options_.event_tolerance == 0.0 || partial_ || boxes_ != nullptr ||
+  if (!found_sides_ && (options_.event_tolerance == 0.0 || partial_ || subdomains_ != nullptr ||
                         factor_->factorizations() != factors)) {
     refresh();
   } else if (!found_sides_) {

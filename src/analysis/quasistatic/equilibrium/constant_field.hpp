@@ -25,12 +25,12 @@ struct ConstantWork {
   double supports = 0.0;          ///< R_c'd_c
   double growing_forces = 0.0;    ///< f_p'u_c
   double growing_supports = 0.0;  ///< R_c'd_p
-  double forces_on_grips = 0.0;   ///< f_c'd_p: what of that f_c does, and no grip
+  double forces_on_clamps = 0.0;  ///< f_c'd_p: what of that f_c does, and no grip
 };
 
 /// Growth of f'u - R'd by constant loads beside that of the loads that grow. By Betti's theorem
 /// both products of the two fields are twice f_p'u_c - R_c'd_p.
-inline Beside growth_beside(const ConstantWork& before, const ConstantWork& after) {
+inline Beside permanent_growth(const ConstantWork& before, const ConstantWork& after) {
   const auto mixed = [](const ConstantWork& work) {
     return 2.0 * (work.growing_forces - work.growing_supports);
   };

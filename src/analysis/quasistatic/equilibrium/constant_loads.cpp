@@ -93,10 +93,10 @@ void Equilibrium::refresh_constant() {
 void Equilibrium::scatter_constant() {
   ConstantField& field = *constant_;
   field.displacement = field.unknowns.expand(field.solution);
-  if (boxes_ != nullptr) field.largest_motion = largest_of(field.displacement);
+  if (subdomains_ != nullptr) field.largest_motion = largest_of(field.displacement);
 }
 
-void Equilibrium::polish_constant() {
+void Equilibrium::refine_permanent() {
   ConstantField& field = *constant_;
   if (field.load_norm == 0.0) return;
   std::vector<double> load = field.unknowns.restrict(field.loads.forces);
@@ -126,7 +126,7 @@ ConstantWork Equilibrium::constant_work() {
     }
     work.supports += force * field.unknowns.prescribed[slot];
     work.growing_supports += force * unknowns_->prescribed[slot];
-    work.forces_on_grips += field.loads.forces[slot] * unknowns_->prescribed[slot];
+    work.forces_on_clamps += field.loads.forces[slot] * unknowns_->prescribed[slot];
   }
   return work;
 }
@@ -147,14 +147,14 @@ void Equilibrium::check_constant(Balance& balance) {
     return field.load_norm > 0.0 ? norm(residual) / field.load_norm : 0.0;
   };
   double residual = measure();
-  if (!(residual <= (boxes_ == nullptr ? options_.residual_tolerance : fine_residual))) {
-    polish_constant();
+  if (!(residual <= (subdomains_ == nullptr ? options_.residual_tolerance : fine_residual))) {
+    refine_permanent();
     residual = measure();
   }
   balance.residual = std::max(balance.residual, residual);
-  balance.stored_beside.constant = internal_.energy;
+  balance.stored_by_permanent.constant = internal_.energy;
   for (std::size_t slot = 0; slot < displacement_.size(); ++slot) {
-    balance.stored_beside.linear += internal_.forces[slot] * displacement_[slot];
+    balance.stored_by_permanent.linear += internal_.forces[slot] * displacement_[slot];
   }
 }
 
@@ -193,11 +193,11 @@ double Equilibrium::release_constant(const Removal& removal, Index element,
                                      EventOutcome& outcome) const {
   const Deformations growing = deformations(removal, element);
   for (int m = 0; m < removal.rank; ++m) {
-    outcome.released_beside.linear += growing[m] * removal.constant[m];
-    outcome.released_beside.constant += 0.5 * removal.constant[m] * removal.constant[m];
+    outcome.released_by_permanent.linear += growing[m] * removal.constant[m];
+    outcome.released_by_permanent.constant += 0.5 * removal.constant[m] * removal.constant[m];
   }
   const double now = constant_->load_factor;
-  return 2.0 * (now * now * outcome.released + outcome.released_beside.at(now));
+  return 2.0 * (now * now * outcome.released + outcome.released_by_permanent.at(now));
 }
 
 /// One backward pass for both fields: K^-1 x / pivot is what a solution that is zero goes over to.

@@ -26,7 +26,7 @@ void Equilibrium::choose_current_unknowns() {
   for (std::size_t slot = 0; unknowns_->carries() && slot < displacement_.size(); ++slot) {
     if (unknowns_->number[slot] != no_index) moving_slots_.push_back(slot);
   }
-  if (!driven_elements_.empty() || constant_ || boxes_ != nullptr) return;
+  if (!driven_elements_.empty() || constant_ || subdomains_ != nullptr) return;
   const Bonds& bonds = network_.bonds;
   std::vector<std::uint8_t> current(static_cast<std::size_t>(network_.particles.size()), 0);
   for (Index e = 0; e < network_.num_elements(); ++e) {
@@ -43,14 +43,14 @@ void Equilibrium::choose_current_unknowns() {
   partial_ = std::any_of(wanted.begin(), wanted.end(), [](std::uint8_t flag) { return flag == 0; });
   if (!partial_) return;
   factor_->keep_current(wanted);
-  choose_glanced(current);
+  choose_checked(current);
 }
 
 /// \param current  per particle: its displacements are kept current
-void Equilibrium::choose_glanced(const std::vector<std::uint8_t>& current) {
+void Equilibrium::choose_checked(const std::vector<std::uint8_t>& current) {
   const Bonds& bonds = network_.bonds;
-  glanced_elements_.clear();
-  glanced_.assign(solution_.size(), 0);
+  checked_elements_.clear();
+  checked_.assign(solution_.size(), 0);
   if (unknowns_->carries() || network_.has_states()) return;  // rows reach further than a bond
   std::vector<std::uint8_t> inside = current;
   for (Index e = 0; e < network_.num_elements(); ++e) {
@@ -61,13 +61,13 @@ void Equilibrium::choose_glanced(const std::vector<std::uint8_t>& current) {
     for (const Index i : network_.cells->cells.cell(k)) inside[i] = 0;
   }
   for (Index e = 0; e < network_.num_elements(); ++e) {
-    if (inside[bonds.first[e]] + inside[bonds.second[e]] > 0) glanced_elements_.push_back(e);
+    if (inside[bonds.first[e]] + inside[bonds.second[e]] > 0) checked_elements_.push_back(e);
   }
   for (std::size_t k = 0; k < slot_of_.size(); ++k) {
-    glanced_[k] = inside[slot_of_[k] / static_cast<std::size_t>(network_.width())];
+    checked_[k] = inside[slot_of_[k] / static_cast<std::size_t>(network_.width())];
   }
-  const bool none = std::count(glanced_.begin(), glanced_.end(), 1) == 0;
-  if (none) glanced_elements_.clear();
+  const bool none = std::count(checked_.begin(), checked_.end(), 1) == 0;
+  if (none) checked_elements_.clear();
 }
 
 /// The displacements that events keep current, by the unknowns as they are.
@@ -95,10 +95,10 @@ std::span<const double> Equilibrium::displacement() {
 }
 
 double Equilibrium::residual_of_current() {
-  internal_force(network_, secants(), displacement_, glanced_elements_, internal_);
+  internal_force(network_, secants(), displacement_, checked_elements_, internal_);
   double square = 0.0;
   for (std::size_t k = 0; k < solution_.size(); ++k) {
-    if (glanced_[k] == 0) continue;
+    if (checked_[k] == 0) continue;
     const std::size_t slot = slot_of_[k];
     double missing = loads_->forces[slot] - internal_.forces[slot];
     if (!network_.support_stiffness.empty()) {
@@ -129,7 +129,7 @@ double Equilibrium::largest_of(std::span<const double> displacement) const {
 }
 
 void Equilibrium::find_largest_motion() {
-  if (boxes_ == nullptr && !network_.carries_moments()) return;
+  if (subdomains_ == nullptr && !network_.carries_moments()) return;
   largest_motion_ = largest_of(displacement_);
 }
 
@@ -139,7 +139,7 @@ void Equilibrium::judge_columns(std::span<const double> missing,
                                 std::span<const double> correction) {
   const double error = std::inner_product(missing.begin(), missing.end(), correction.begin(), 0.0);
   // Written so that an energy that is not a number is too much.
-  if (!(error <= most_drift * most_drift * 2.0 * internal_.energy)) boxes_->forget();
+  if (!(error <= most_drift * most_drift * 2.0 * internal_.energy)) subdomains_->forget();
 }
 
 /// Takes away what errors of columns have left in the displacements.
@@ -156,10 +156,10 @@ double Equilibrium::refine_followed(double size, std::vector<double>& residual) 
 }
 
 bool Equilibrium::is_prepared(Index element) const {
-  if (boxes_ == nullptr) return true;
+  if (subdomains_ == nullptr) return true;
   const ElementVectors parts = element_vectors(network_, *unknowns_, element, 1.0);
   return std::all_of(parts.x.begin(), parts.x.begin() + parts.count,
-                     [&](const SparseVector& x) { return boxes_->holds(x); });
+                     [&](const SparseVector& x) { return subdomains_->holds(x); });
 }
 
 void Equilibrium::prepare(Index element, std::span<const Index> expected) {
@@ -170,11 +170,11 @@ void Equilibrium::prepare(Index element, std::span<const Index> expected) {
   std::vector<SparseVector> own, next;
   vectors_of(element, own);
   for (const Index other : expected) vectors_of(other, next);
-  boxes_->expect(std::move(next));
+  subdomains_->expect(std::move(next));
   std::vector<double> residual;
   measure_residual(residual);
   const std::vector<double> missing = residual;
-  if (!boxes_->hold_and_correct(own, residual, 2.0 * internal_.energy)) return;
+  if (!subdomains_->hold_and_correct(own, residual, 2.0 * internal_.energy)) return;
   for (std::size_t k = 0; k < residual.size(); ++k) solution_[k] += residual[k];
   scatter_solution();
   force_work_ = work_of_forces();

@@ -40,11 +40,11 @@ Equilibrium::Equilibrium(const LoadedNetwork& problem, const EquilibriumOptions&
       options_(options),
       secants_(static_cast<std::size_t>(network_.num_elements()), 1.0),
       has_kept_(network_.has_kept_shear()) {
-  if (is_followed_by_boxes(problem, options)) {
-    if (problem.carried) throw std::invalid_argument("boxes do not follow what is carried");
-    auto boxes = std::make_unique<BoxFactor>(network_, options.boxes);
-    boxes_ = boxes.get();
-    factor_ = std::move(boxes);
+  if (is_followed_by_subdomains(problem, options)) {
+    if (problem.embedded) throw std::invalid_argument("boxes do not follow what is carried");
+    auto subdomains = std::make_unique<SubdomainFactor>(network_, options.subdomains);
+    subdomains_ = subdomains.get();
+    factor_ = std::move(subdomains);
   } else {
     factor_ = make_factor(options.route, options.threads);
   }
@@ -98,7 +98,7 @@ void Equilibrium::factorize_anew() {
   missed_savings_ = 0.0;
   slot_of_ = unknowns_->slots();
   solution_.assign(static_cast<std::size_t>(unknowns_->count), 0.0);
-  if (boxes_ != nullptr) return boxes_->begin(*unknowns_, secants(), ground_stiffness_);
+  if (subdomains_ != nullptr) return subdomains_->begin(*unknowns_, secants(), ground_stiffness_);
   const auto forces_of = [&](std::span<const double> u) {
     return internal_force(network_, secants(), u);
   };
@@ -152,7 +152,7 @@ Freedom Equilibrium::change_motion(const Unknowns& unknowns) {
       throw SolverError("the unknowns change while the body does not resist what drives it");
     }
     Freedom freedom{after.compliance() - before.compliance()};
-    if (constant_) freedom.beside = growth_beside(beside, constant_work());
+    if (constant_) freedom.beside = permanent_growth(beside, constant_work());
     return freedom;
   } catch (const std::exception&) {
     use_motion(*old);
@@ -187,8 +187,8 @@ void Equilibrium::refresh() {
 
 /// One step of iterative refinement; `residual`, just measured, goes over to the correction.
 void Equilibrium::refine(std::vector<double>& residual) {
-  if (boxes_ != nullptr) {
-    boxes_->correct(residual, 2.0 * internal_.energy);
+  if (subdomains_ != nullptr) {
+    subdomains_->correct(residual, 2.0 * internal_.energy);
   } else {
     factor_->solve(residual, residual);
   }
@@ -282,8 +282,8 @@ double Equilibrium::measure_residual(std::vector<double>& residual) {
   return std::sqrt(square) / load_norm_;
 }
 
-Balance Equilibrium::glance() {
-  if (!stale_ || glanced_elements_.empty()) return check();
+Balance Equilibrium::check_cheaply() {
+  if (!stale_ || checked_elements_.empty()) return check();
   const double residual = residual_of_current();
   if (residual <= std::max(options_.residual_tolerance, residual_floor_)) {
     return {residual, std::numeric_limits<double>::quiet_NaN()};
@@ -295,7 +295,7 @@ Balance Equilibrium::check() {
   if (stale_) refresh();
   std::vector<double> residual;
   double size = measure_residual(residual);
-  if (boxes_ != nullptr) size = refine_followed(size, residual);
+  if (subdomains_ != nullptr) size = refine_followed(size, residual);
   // Written so that a residual that is not a number is not within any tolerance.
   if (size <= options_.residual_tolerance) residual_floor_ = 0.0;
   if (size <= std::max(options_.residual_tolerance, residual_floor_)) {
@@ -318,14 +318,14 @@ Balance Equilibrium::check() {
 /// Refines the displacement, with a fresh factor where the present one is not enough.
 Balance Equilibrium::restore() {
   const double tolerance = std::max(options_.residual_tolerance, residual_floor_);
-  Balance balance = polish();
+  Balance balance = refine_in_extended_precision();
   // Refined displacements do not help the next event, which the factor alone makes.
   const double usable = std::max(options_.residual_tolerance, factor_floor_);
   if (!(balance.residual <= tolerance) || !(factor_error_ <= usable)) {
     factorize();
     std::vector<double> residual;
     fresh_residual_ = measure_residual(residual);
-    balance = polish();
+    balance = refine_in_extended_precision();
     // A body on the verge of separation moves so far that even a fresh factor leaves more than the
     // tolerance; factorising again for less than twice that would be work for nothing.
     residual_floor_ = 2.0 * balance.residual;
@@ -342,7 +342,7 @@ Balance Equilibrium::restore() {
 }
 
 void Equilibrium::factorize() {
-  if (boxes_ != nullptr) {
+  if (subdomains_ != nullptr) {
     factorize_anew();
     return refresh();
   }

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/quasistatic/boxes/box_factor.hpp"
 #include "analysis/quasistatic/equilibrium/constant_field.hpp"
 #include "analysis/quasistatic/equilibrium/event_batch.hpp"
 #include "analysis/quasistatic/equilibrium/event_outcome.hpp"
 #include "analysis/quasistatic/equilibrium/removal.hpp"
+#include "analysis/quasistatic/subdomains/subdomain_factor.hpp"
 #include "assembly/internal_force.hpp"
 #include "base/error.hpp"
 #include "network/loaded_network.hpp"
@@ -32,7 +32,7 @@ struct EquilibriumOptions {
   double residual_tolerance = 1e-10;
   int threads = 1;
   LinearSolver solver = LinearSolver::automatic;
-  BoxSolverOptions boxes = {};  ///< where conjugate gradients take the factor's place
+  SubdomainSolverOptions subdomains = {};  ///< where conjugate gradients take the factor's place
   /// Elements whose laws have segments fail together where their load factors differ by this part
   /// of the smallest; 0: one by one.
   double event_tolerance = 0.0;
@@ -40,11 +40,11 @@ struct EquilibriumOptions {
 
 /// Whether conjugate gradients take the place of a factor that follows every event: where they are
 /// asked for, and for batches in large bodies in space (docs/theory/large_bodies.md, section 5).
-bool is_followed_by_boxes(const LoadedNetwork& problem, const EquilibriumOptions& options);
+bool is_followed_by_subdomains(const LoadedNetwork& problem, const EquilibriumOptions& options);
 
 /// Pivots below this are computed again from energies: a body that is slender or about to separate
 /// has a condition number that takes most digits of what the factor says.
-inline constexpr double doubtful_pivot = 1e-2;
+inline constexpr double uncertain_pivot = 1e-2;
 
 /// Equilibrium of a network at load factor 1 while its elements lose stiffness: the factor of K and
 /// the displacements that follow, with the looks that tell how far both can be trusted. All engines
@@ -79,7 +79,7 @@ class Equilibrium {
   std::optional<EventOutcome> weaken_together(std::span<const Weakening> changes);
 
   /// Whether weaken() of an element alone costs no new factor and no columns.
-  bool follows_single_events() const { return !lags_ && boxes_ == nullptr; }
+  bool follows_single_events() const { return !lags_ && subdomains_ == nullptr; }
   /// Twice the energy of what an element loses, at load factor 1 or at the present one of a stage.
   double energy_lost(const Weakening& change) const;
 
@@ -110,7 +110,7 @@ class Equilibrium {
 
   /// The residual where elements can fail alone, without a solve; above the tolerance check().
   /// \return without the stored energy (not a number) where some displacements are not current
-  Balance glance();
+  Balance check_cheaply();
 
   /// Particles move by other unknowns from now on; loads, secants and prescribed motions stay.
   /// \param unknowns  must outlive this
@@ -128,7 +128,7 @@ class Equilibrium {
 
   /// noise() after events by columns, whose errors the next check() takes away [length].
   double noise_of_events() const {
-    return boxes_ == nullptr ? noise() : options_.boxes.tolerance * largest_motion_;
+    return subdomains_ == nullptr ? noise() : options_.subdomains.tolerance * largest_motion_;
   }
 
   /// Whether an event of the element costs no solution by conjugate gradients.
@@ -169,7 +169,7 @@ class Equilibrium {
   static constexpr double fine_residual = 1e-13;
   static double norm(std::span<const double> values);
   void refresh_constant();
-  void polish_constant();
+  void refine_permanent();
   void scatter_constant();
   void find_driven_slots();
   Removal removal_of(Index element, double secant) const;
@@ -185,7 +185,7 @@ class Equilibrium {
   void find_driven_elements();
   void find_loaded_slots();
   void choose_current_unknowns();
-  void choose_glanced(const std::vector<std::uint8_t>& current);
+  void choose_checked(const std::vector<std::uint8_t>& current);
   void factorize();
   void refresh();
   void refine(std::vector<double>& residual);
@@ -236,7 +236,9 @@ class Equilibrium {
   void multiply(std::span<const double> q, std::span<double> result);
   void take_back(std::span<const Weakening> changes, const Batch& batch);
   /// Whether solutions by conjugate gradients with boxes follow batches.
-  bool follows_boxes() const { return boxes_ != nullptr && options_.event_tolerance > 0.0; }
+  bool follows_subdomains() const {
+    return subdomains_ != nullptr && options_.event_tolerance > 0.0;
+  }
   /// The factor is made anew where it lags behind the secants.
   void bring_factor_up();
 
@@ -294,7 +296,7 @@ class Equilibrium {
   double pivot_by_energy(const SparseVector& x, Index element, double kept);
   bool hangs_on_weak_supports(double compliance_growth) const;
   bool rebuild_without(Index element, double kept);
-  Balance polish();
+  Balance refine_in_extended_precision();
   LoadWork work_by_energy();
 
   const Network& network_;
@@ -302,7 +304,7 @@ class Equilibrium {
   const Loads* loads_;
   EquilibriumOptions options_;
   std::unique_ptr<Factor> factor_;
-  BoxFactor* boxes_ = nullptr;  // the factor, where it is one
+  SubdomainFactor* subdomains_ = nullptr;  // the factor, where it is one
 
   /// Whether its shear and bending stay as they are until it breaks.
   bool keeps_shear(Index element) const { return has_kept_ && network_.law(element).keeps_shear(); }
@@ -328,8 +330,8 @@ class Equilibrium {
   mutable std::vector<BondEnds> damaged_ends_;  ///< their ends, as far as they have been asked for
   std::vector<Index> driven_elements_;          ///< elements that end at a driven particle
   std::vector<std::size_t> loaded_slots_;
-  std::vector<Index> glanced_elements_;  ///< all elements of the unknowns glanced at
-  std::vector<std::uint8_t> glanced_;    ///< per unknown, while partial_
+  std::vector<Index> checked_elements_;  ///< all elements of the unknowns glanced at
+  std::vector<std::uint8_t> checked_;    ///< per unknown, while partial_
   bool partial_ = false;     ///< events keep only the displacements current that a search looks at
   bool stale_ = false;       ///< the other displacements are those of an earlier event
   double force_work_ = 0.0;  ///< f'u, followed through the events while partial_

@@ -27,7 +27,7 @@ struct EventOutcome {
   Index broken = 0, yielded = 0;
   Index exhausted = no_index;   ///< set by the engine: an element that no longer limits anything
   Index separating = no_index;  ///< set by the engine: the element of the mechanism
-  Beside growth_beside = {}, released_beside = {};  ///< what constant loads add to both
+  Beside permanent_growth = {}, released_by_permanent = {};  ///< what constant loads add to both
 
   /// What became of another element after this one.
   void add(const EventOutcome& next) {
@@ -44,8 +44,8 @@ struct EventOutcome {
     if (mechanism) return;
     compliance_growth += next.compliance_growth;
     released += next.released;
-    growth_beside += next.growth_beside;
-    released_beside += next.released_beside;
+    permanent_growth += next.permanent_growth;
+    released_by_permanent += next.released_by_permanent;
   }
 };
 
@@ -74,7 +74,7 @@ struct Freedom {
 struct Balance {
   double residual = 0.0;       ///< |f - K u| / |f|
   double stored_energy = 0.0;  ///< sum over elements of k e^2 / 2 at load factor 1 [force length]
-  Beside stored_beside = {};   ///< what constant loads add
+  Beside stored_by_permanent = {};  ///< what constant loads add
 };
 
 }  // namespace perilink

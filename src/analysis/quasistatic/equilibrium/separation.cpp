@@ -146,7 +146,7 @@ bool Equilibrium::rebuild_without(Index element, double kept) {
   set_secant(element, kept);
   try {
     factorize();
-    polish();
+    refine_in_extended_precision();
     return true;
   } catch (const NotPositiveDefinite&) {
     set_secant(element, before);
@@ -157,7 +157,7 @@ bool Equilibrium::rebuild_without(Index element, double kept) {
 
 /// Refines the displacements in extended precision; they are kept rounded. Where that is needed the
 /// factor's pivots may be noise too.
-Balance Equilibrium::polish() {
+Balance Equilibrium::refine_in_extended_precision() {
   look_closer_ = true;
   if (stale_) refresh();
   std::vector<double> load = unknowns_->restrict(loads_->forces);
@@ -184,7 +184,7 @@ Balance Equilibrium::polish() {
   result.stored_energy = static_cast<double>(fine_.energy);
   resists_ = 2.0 * result.stored_energy > clearly_there * refined.error;
   supports_alone_ = fine_.support_energy > 0.5L * fine_.energy;
-  if (constant_) polish_constant();
+  if (constant_) refine_permanent();
   return result;
 }
 
@@ -192,7 +192,7 @@ Balance Equilibrium::polish() {
 /// is a sum of squares.
 LoadWork Equilibrium::work_by_energy() {
   const double before = last_work_;
-  const double work = 2.0 * polish().stored_energy;
+  const double work = 2.0 * refine_in_extended_precision().stored_energy;
   if (!resists_) return {0.0, 0.0, true};
   const bool loose = supports_alone_ && before > 0.0 && work < least_support * before;
   const double forces = work_of_forces();

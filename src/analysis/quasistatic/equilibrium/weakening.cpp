@@ -82,7 +82,7 @@ void Equilibrium::look_closely(Removal& removal, Index element, double kept) {
   if (removal.rank > 1) decouple(removal, refined_compliance(removal));
   supports_alone_ = false;
   for (int m = removal.rank - 1; m >= 0; --m) {
-    if (removal.rank > 1 && removal.pivot[m] > doubtful_pivot) continue;
+    if (removal.rank > 1 && removal.pivot[m] > uncertain_pivot) continue;
     removal.pivot[m] = pivot_by_energy(removal.x[m], element, kept);
   }
   // Energies may put two of them in another order by their last digits.
@@ -101,11 +101,11 @@ void Equilibrium::measure_pivots(Removal& removal, Index element, double kept) {
   }
   const Removal modes = removal;
   double prepared = prepare(removal);
-  if (prepared > doubtful_pivot && !look_closer_) return;
+  if (prepared > uncertain_pivot && !look_closer_) return;
   removal = modes;
   look_closely(removal, element, kept);
   look_closer_ = std::abs(prepared - removal.pivot[0]) > noisy_pivot;
-  if (removal.pivot[0] > doubtful_pivot) return;
+  if (removal.pivot[0] > uncertain_pivot) return;
   const auto agree = [&](double tolerance) {
     return std::abs(prepared - removal.pivot[0]) < tolerance * removal.pivot[0];
   };
@@ -149,14 +149,14 @@ void Equilibrium::follow(const EventOutcome& outcome) {
   if (!must_rebuild_) force_work_ += outcome.compliance_growth;
   followed_compliance_ += outcome.compliance_growth;
   // Small events leave the displacements as exact as they were.
-  const bool sure = outcome.pivot > doubtful_pivot && !look_closer_ &&
+  const bool sure = outcome.pivot > uncertain_pivot && !look_closer_ &&
                     outcome.compliance_growth < 0.01 * last_work_;
   events_to_follow_ = sure ? events_to_follow_ - 1 : 0;
 }
 
 void Equilibrium::commit(const Removal& removal, Index element, double secant) {
   // A factor that was made anew on the way has no columns yet: those of the body as it was.
-  if (boxes_ != nullptr && !must_rebuild_) boxes_->hold(removal.vectors());
+  if (subdomains_ != nullptr && !must_rebuild_) subdomains_->hold(removal.vectors());
   const bool is_first = secants_[element] == 1.0;
   if (!axial_.empty() && is_first && network_.law(element).closes()) damaged_.push_back(element);
   set_secant(element, secant);
@@ -168,11 +168,11 @@ void Equilibrium::commit(const Removal& removal, Index element, double secant) {
     if (constant_) move_constant(removal);
     factor_->downdate(removal.vectors(), removal.load_changes(), removal.pivots(), solution_);
   }
-  if (boxes_ != nullptr && secant == 0.0) boxes_->let_go(removal.vectors());
+  if (subdomains_ != nullptr && secant == 0.0) subdomains_->let_go(removal.vectors());
   scatter_current();
   if (constant_) scatter_constant();
   stale_ = partial_;
-  if (look_closer_) polish();
+  if (look_closer_) refine_in_extended_precision();
 }
 
 EventOutcome Equilibrium::weaken(Index element, double secant) {
@@ -199,8 +199,8 @@ EventOutcome Equilibrium::weaken(Index element, double secant) {
     outcome.compliance_growth += deformation[m] * deformation[m] / removal.pivot[m];
     if (!constant_) continue;
     const double held = removal.constant[m];
-    outcome.growth_beside.linear += 2.0 * deformation[m] * held / removal.pivot[m];
-    outcome.growth_beside.constant += held * held / removal.pivot[m];
+    outcome.permanent_growth.linear += 2.0 * deformation[m] * held / removal.pivot[m];
+    outcome.permanent_growth.constant += held * held / removal.pivot[m];
   }
   outcome.mechanism = hangs_on_weak_supports(outcome.compliance_growth) ||
                       (must_rebuild_ && !rebuild_without(element, secant));
@@ -246,10 +246,10 @@ double Equilibrium::ground_stiffness_of(Index unknown) const {
   const auto component = static_cast<int>(slot_of_[unknown] % network_.width());
   if (component < network_.dim()) {
     return *std::max_element(network_.stiffness.begin(),
-                             network_.stiffness.begin() + network_.first_tie);
+                             network_.stiffness.begin() + network_.first_slip_spring);
   }
   double largest = 0.0;
-  for (Index e = 0; e < network_.first_tie; ++e) {
+  for (Index e = 0; e < network_.first_slip_spring; ++e) {
     largest = std::max(largest, network_.bending[e] * std::pow(network_.bonds.length(e), 2));
   }
   return largest;

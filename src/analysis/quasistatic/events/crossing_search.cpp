@@ -88,7 +88,8 @@ CrossingSearch::CrossingSearch(const Network& network)
           network.is_hinged(e) ? 0.0 : element.shear_share * length / std::sqrt(12.0);
     }
     element.length = length;
-    element.inverse = 1.0 / (length * network.critical_stretch[e] * network.law(e).tooth(0).limit);
+    element.inverse =
+        1.0 / (length * network.critical_stretch[e] * network.law(e).segment(0).limit);
     element.both = network.law(e).sense() == Sense::both;
     elements_.push_back(element);
   }

@@ -18,7 +18,7 @@ class CrushingBonds {
   /// \param stretched  a bond that had its first event in tension
   /// \return bonds that wake by it, in the order of the particles; may hold one twice
   std::vector<Index> wake(Index stretched);
-  bool is_awake(Index bond) const {
+  bool is_active(Index bond) const {
     return awake_[network_.bonds.first[bond]] != 0 || awake_[network_.bonds.second[bond]] != 0;
   }
 

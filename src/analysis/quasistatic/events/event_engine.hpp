@@ -12,10 +12,10 @@ namespace perilink {
 
 /// The next thing that happens under a growing load.
 struct Event {
-  Index element = no_index;   ///< it breaks or yields; no_index: nothing can break any more
-  double load_factor = 0.0;   ///< when it happens
-  bool avalanche = false;     ///< the element is beyond its limit, at a load that does not move
-  bool changes_side = false;  ///< a damaged bond closes or opens, and nothing fails
+  Index element = no_index;       ///< it breaks or yields; no_index: nothing can break any more
+  double load_factor = 0.0;       ///< when it happens
+  bool at_constant_load = false;  ///< the element is beyond its limit, at a load that does not move
+  bool changes_side = false;      ///< a damaged bond closes or opens, and nothing fails
   std::vector<Index> others = {};  ///< elements that fail with it, within the tolerance of events
 };
 
@@ -50,13 +50,13 @@ class EventEngine {
 
   /// Equilibrium::check() and Equilibrium::glance().
   virtual Balance check_equilibrium() = 0;
-  virtual Balance glance_at_equilibrium() = 0;
+  virtual Balance check_cheaply() = 0;
 
   /// Equilibrium::change_motion().
   virtual Freedom change_motion(const Unknowns& unknowns) = 0;
 
   /// From now on the elements have their next event at this fraction of its limit.
-  virtual void set_alert(std::span<const Index> elements, double fraction) = 0;
+  virtual void set_release_threshold(std::span<const Index> elements, double fraction) = 0;
 
   /// Elements that are within this fraction of their next event as the element of an event is at
   /// its load factor, ascending.

@@ -38,7 +38,7 @@ FrameLimitSearch::FrameLimitSearch(const Network& network)
               (1.0 - network.inflection_of(e)) * length,
               share,
               network.is_hinged(e) ? 0.0 : share * length * length / 12.0,
-              inverse_of(e, network.critical_stretch[e] * network.law(e).tooth(0).limit),
+              inverse_of(e, network.critical_stretch[e] * network.law(e).segment(0).limit),
               0.0};
     if (sense == Sense::both) bond.compressed = bond.inverse;
     for (int a = 0; a < dim_; ++a) bond.n[a] = network.bonds.direction(e)[a];
@@ -81,7 +81,7 @@ double FrameLimitSearch::squared_ratio(const Bond& bond, const double* u, bool e
 template <int Dim>
 double FrameLimitSearch::section_ratio(Index k, const double* u) const {
   const Bond& bond = bonds_[k];
-  if constexpr (Dim == 3) return ribbon_ratio(elements_[k], bond, u);
+  if constexpr (Dim == 3) return shell_bond_ratio(elements_[k], bond, u);
   const FrameDeformation<2> d(bond.n, bond.first_arm, bond.second_arm, u + bond.first,
                               u + bond.second);
   const double square = d.extension * d.extension + bond.bending_share * d.shear[0] * d.shear[0] +
@@ -94,7 +94,7 @@ double FrameLimitSearch::section_ratio(Index k, const double* u) const {
   return square * (stretched ? bond.inverse : bond.compressed);
 }
 
-double FrameLimitSearch::ribbon_ratio(Index element, const Bond& bond, const double* u) const {
+double FrameLimitSearch::shell_bond_ratio(Index element, const Bond& bond, const double* u) const {
   const FrameModes<3> modes = frame_modes<3>(network_, element);
   const double ratio = network_.ratio_of_bending(element) * network_.stiffness[element];
   const double calibrated = network_.bending[element];

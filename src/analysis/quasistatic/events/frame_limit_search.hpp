@@ -44,7 +44,7 @@ class FrameLimitSearch final : public BreakSearch {
   };
   template <int Dim>
   double section_ratio(Index k, const double* u) const;
-  double ribbon_ratio(Index element, const Bond& bond, const double* u) const;
+  double shell_bond_ratio(Index element, const Bond& bond, const double* u) const;
   /// \param either_way  as if it were in tension and in compression
   template <int Dim>
   double squared_ratio(const Bond& bond, const double* u, bool either_way = false) const;

@@ -34,7 +34,7 @@ void LimitSearch::add(Index element, Group& group) {
   group.second.push_back(network_.bonds.second[element] * dim_);
   for (int a = 0; a < dim_; ++a) group.gradient[a].push_back(0.0);
   set_gradient(group, group.elements.size() - 1,
-               network_.critical_stretch[element] * network_.law(element).tooth(0).limit);
+               network_.critical_stretch[element] * network_.law(element).segment(0).limit);
 }
 
 /// Zero without a limit.

@@ -18,7 +18,7 @@ SingleEventEngine::SingleEventEngine(const LoadedNetwork& problem,
       equilibrium_(problem, options),
       search_(make_break_search(network_)),
       closes_(network_.has_closing()),
-      teeth_(static_cast<std::size_t>(network_.num_elements()), 0) {
+      segments_(static_cast<std::size_t>(network_.num_elements()), 0) {
   if (network_.has_crushing()) crushing_.emplace(network_);
 }
 
@@ -89,7 +89,8 @@ void SingleEventEngine::limit_batch(const Event& event, double energy,
   for (; count < hits.size() && static_cast<double>(count) < most_at_once_; ++count) {
     const Index element = hits[count].element;
     if (!fails_with_others(element)) continue;
-    left -= equilibrium_.energy_lost({element, law_of(element).tooth(next_tooth(element)).secant});
+    left -=
+        equilibrium_.energy_lost({element, law_of(element).segment(next_segment(element)).secant});
     if (left < 0.0) break;
   }
   // Round-off may have left out the element of the event itself: then there are none.
@@ -165,9 +166,9 @@ EventOutcome SingleEventEngine::apply(const Event& event) {
 
 EventOutcome SingleEventEngine::apply_one(const Event& event) {
   prepare(event);
-  const int next = next_tooth(event.element);
+  const int next = next_segment(event.element);
   EventOutcome outcome =
-      equilibrium_.weaken(event.element, law_of(event.element).tooth(next).secant);
+      equilibrium_.weaken(event.element, law_of(event.element).segment(next).secant);
   if (outcome.mechanism) {
     outcome.broken = outcome.broke() ? 1 : 0;
     outcome.separating = event.element;
@@ -180,14 +181,15 @@ EventOutcome SingleEventEngine::apply_one(const Event& event) {
 /// Where a batch may separate the body its elements fail one by one; without a factor, which would
 /// make that cheap, half of them first.
 EventOutcome SingleEventEngine::apply_all(std::span<const Index> elements, double load_factor) {
-  std::vector<int> teeth;
+  std::vector<int> segments;
   std::vector<Weakening> changes;
   for (const Index element : elements) {
-    teeth.push_back(next_tooth(element));
-    changes.push_back({element, law_of(element).tooth(teeth.back()).secant});
+    segments.push_back(next_segment(element));
+    changes.push_back({element, law_of(element).segment(segments.back()).secant});
   }
   if (auto outcome = equilibrium_.weaken_together(changes)) {
-    for (std::size_t k = 0; k < elements.size(); ++k) pass_limit(elements[k], teeth[k], *outcome);
+    for (std::size_t k = 0; k < elements.size(); ++k)
+      pass_limit(elements[k], segments[k], *outcome);
     return *outcome;
   }
   if (elements.size() == 1) return apply_one({elements[0], load_factor});
@@ -200,15 +202,15 @@ EventOutcome SingleEventEngine::apply_all(std::span<const Index> elements, doubl
   return outcome;
 }
 
-int SingleEventEngine::next_tooth(Index element) const {
+int SingleEventEngine::next_segment(Index element) const {
   const bool compressed = law_of(element).crushes() &&
                           is_shorter(network_, element, equilibrium_.where_elements_fail());
-  return BondLaw::after(teeth_[element], compressed);
+  return BondLaw::after(segments_[element], compressed);
 }
 
-void SingleEventEngine::pass_limit(Index element, int tooth, EventOutcome& outcome) {
-  const double secant = law_of(element).tooth(tooth).secant;
-  teeth_[element] = tooth;
+void SingleEventEngine::pass_limit(Index element, int segment, EventOutcome& outcome) {
+  const double secant = law_of(element).segment(segment).secant;
+  segments_[element] = segment;
   set_limits(element);
   ++(secant == 0.0 ? outcome.broken : outcome.yielded);
   if (network_.law(element).is_exhausted(secant)) outcome.exhausted = element;
@@ -217,24 +219,24 @@ void SingleEventEngine::pass_limit(Index element, int tooth, EventOutcome& outco
 void SingleEventEngine::set_limits(Index element) {
   const double limit = limit_of(element);
   if (!network_.law(element).crushes()) return search_->set_limit(element, limit);
-  const int tooth = teeth_[element];
+  const int segment = segments_[element];
   constexpr double none = std::numeric_limits<double>::infinity();
-  double tension = tooth >= 0 ? limit : none, compression = tooth >= 0 ? none : limit;
-  if (tooth == 0 && secants()[element] > 0.0 && crushing_->is_awake(element)) {
-    compression = alert_of(element) * network_.critical_stretch[element] *
+  double tension = segment >= 0 ? limit : none, compression = segment >= 0 ? none : limit;
+  if (segment == 0 && secants()[element] > 0.0 && crushing_->is_active(element)) {
+    compression = release_threshold_of(element) * network_.critical_stretch[element] *
                   network_.law(element).first_in_compression().limit;
   }
   search_->set_limits(element, tension, compression);
-  if (tooth != 1) return;
+  if (segment != 1) return;
   for (const Index woken : crushing_->wake(element)) {
-    if (teeth_[woken] == 0 && secants()[woken] > 0.0) set_limits(woken);
+    if (segments_[woken] == 0 && secants()[woken] > 0.0) set_limits(woken);
   }
 }
 
 double SingleEventEngine::limit_of(Index element) const {
-  const Tooth tooth = law_of(element).tooth(teeth_[element]);
-  if (tooth.secant == 0.0) return std::numeric_limits<double>::infinity();
-  return alert_of(element) * stretch_of(element) * tooth.limit;
+  const Segment segment = law_of(element).segment(segments_[element]);
+  if (segment.secant == 0.0) return std::numeric_limits<double>::infinity();
+  return release_threshold_of(element) * stretch_of(element) * segment.limit;
 }
 
 const BondLaw& SingleEventEngine::law_of(Index element) const {
@@ -247,11 +249,11 @@ double SingleEventEngine::stretch_of(Index element) const {
   return own == own_laws_.end() ? network_.critical_stretch[element] : own->second.stretch;
 }
 
-void SingleEventEngine::set_alert(std::span<const Index> elements, double fraction) {
-  alert_.resize(teeth_.size(), 1.0);
+void SingleEventEngine::set_release_threshold(std::span<const Index> elements, double fraction) {
+  release_threshold_.resize(segments_.size(), 1.0);
   for (const Index element : elements) {
     if (!network_.has_limit(element) || secants()[element] == 0.0) continue;
-    alert_[element] = fraction;
+    release_threshold_[element] = fraction;
     set_limits(element);
   }
 }

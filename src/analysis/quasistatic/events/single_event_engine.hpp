@@ -26,11 +26,11 @@ class SingleEventEngine : public EventEngine {
   LoadWork load_work() override { return equilibrium_.work(); }
   Secants secants() const override { return equilibrium_.secants(); }
   Balance check_equilibrium() override { return equilibrium_.check(); }
-  Balance glance_at_equilibrium() override { return equilibrium_.glance(); }
+  Balance check_cheaply() override { return equilibrium_.check_cheaply(); }
   Freedom change_motion(const Unknowns& unknowns) override {
     return equilibrium_.change_motion(unknowns);
   }
-  void set_alert(std::span<const Index> elements, double fraction) override;
+  void set_release_threshold(std::span<const Index> elements, double fraction) override;
   std::vector<Index> near_events(const Event& event, double fraction) override;
   int factorizations() const override { return equilibrium_.factor().factorizations(); }
   FactorStatistics factor_statistics() const override { return equilibrium_.factor_statistics(); }
@@ -48,8 +48,8 @@ class SingleEventEngine : public EventEngine {
   void limit_batch(const Event& event, double energy, std::vector<BreakSearch::Hit>& hits);
   EventOutcome apply_one(const Event& event);
   EventOutcome apply_all(std::span<const Index> elements, double load_factor);
-  int next_tooth(Index element) const;
-  void pass_limit(Index element, int tooth, EventOutcome& outcome);
+  int next_segment(Index element) const;
+  void pass_limit(Index element, int segment, EventOutcome& outcome);
 
   /// Elements whose ratio at the load factor of the event is at least this, in the order of their
   /// numbers.
@@ -62,7 +62,9 @@ class SingleEventEngine : public EventEngine {
   const BondLaw& law_of(Index element) const;
   double stretch_of(Index element) const;
 
-  double alert_of(Index element) const { return alert_.empty() ? 1.0 : alert_[element]; }
+  double release_threshold_of(Index element) const {
+    return release_threshold_.empty() ? 1.0 : release_threshold_[element];
+  }
 
   /// Tells the search the next limits of an element after its event.
   void set_limits(Index element);
@@ -84,14 +86,15 @@ class SingleEventEngine : public EventEngine {
   std::unique_ptr<BreakSearch> search_;
   bool closes_;                            ///< Network::has_closing()
   std::optional<CrushingBonds> crushing_;  ///< where there are some
-  std::vector<int> teeth_;                 ///< present tooth of each element
+  std::vector<int> segments_;              ///< present tooth of each element
   /// Where bars have flowed.
   struct OwnLaw {
     BondLaw law;
     double stretch;
   };
   std::map<Index, OwnLaw> own_laws_;
-  std::vector<double> alert_;  ///< per element: fraction of its limit that counts; empty: all of it
+  std::vector<double>
+      release_threshold_;  ///< per element: fraction of its limit that counts; empty: all of it
 };
 
 }  // namespace perilink

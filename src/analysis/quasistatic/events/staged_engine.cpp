@@ -26,7 +26,7 @@ StagedEngine::StagedEngine(const LoadedNetwork& problem, const EquilibriumOption
 }
 
 /// Slots that a set is the first to drive stay where they are, beside what it adds.
-void StagedEngine::grip(std::size_t set, const Unknowns& held) {
+void StagedEngine::clamped(std::size_t set, const Unknowns& held) {
   const std::span<const double> motion = displacement();
   for (std::size_t slot = 0; slot < motion.size(); ++slot) {
     const bool is_new = held.number[slot] == no_index && unknowns_->number[slot] != no_index;
@@ -41,9 +41,9 @@ bool StagedEngine::leave_flow() {
   const Network& network = problem_.network;
   const std::span<const double> motion = displacement();
   std::vector<Index> flown;
-  for (Index e = network.first_segment; e < network.num_elements(); ++e) {
+  for (Index e = network.first_bar_element; e < network.num_elements(); ++e) {
     const double secant = secants()[e];
-    if (!network.is_anchored(e) || teeth_[e] == 0 || secant == 0.0) continue;
+    if (!network.is_embedded(e) || segments_[e] == 0 || secant == 0.0) continue;
     const auto n = network.bonds.direction(e);
     const auto width = static_cast<std::size_t>(network.width());
     const std::size_t i = network.bonds.first[e] * width, j = network.bonds.second[e] * width;
@@ -53,7 +53,7 @@ bool StagedEngine::leave_flow() {
     flowed_.resize(motion.size(), 0.0);
     for (std::size_t a = 0; a < n.size(); ++a) flowed_[j + a] -= plastic * n[a];
     flow_[e] += std::abs(plastic) / network.bonds.length(e);
-    teeth_[e] = 0;
+    segments_[e] = 0;
     harden(e);
     flown.push_back(e);
   }
@@ -68,7 +68,7 @@ bool StagedEngine::leave_flow() {
 /// What is left of the curve of a bar that has flowed.
 void StagedEngine::harden(Index segment) {
   const Network& network = problem_.network;
-  const Index bar = network.bars.bar[segment - network.first_segment];
+  const Index bar = network.bars.bar[segment - network.first_bar_element];
   const ForceCurve& curve = network.bars.curves[bar];
   if (curve.points.empty()) return;  // a plateau
   const double yield = network.critical_stretch[segment];
@@ -78,7 +78,7 @@ void StagedEngine::harden(Index segment) {
 }
 
 void StagedEngine::begin_stage(std::size_t set, const Unknowns& held) {
-  if (is_new(set)) grip(set, held);
+  if (is_new(set)) clamped(set, held);
   load_factors_[set_] = load_factor_;
   set_ = set;
   load_factor_ = load_factors_[set];
@@ -95,7 +95,7 @@ void StagedEngine::begin_stage(std::size_t set, const Unknowns& held) {
   for (std::size_t other = 0; other < problem_.sets.size(); ++other) {
     const double factor = load_factors_[other];
     if (other == set || factor == 0.0) continue;
-    const LoadSet& loads = problem_.sets[other];
+    const LoadCase& loads = problem_.sets[other];
     for (std::size_t slot = 0; slot < gripped_at_.size(); ++slot) {
       constant.loads.forces[slot] += factor * loads.loads.forces[slot];
       constant.unknowns.prescribed[slot] += factor * loads.unknowns.prescribed[slot];
@@ -138,7 +138,7 @@ Event StagedEngine::next_event_below(double /*most*/) {
   });
   if (last.element == no_index && !(last.distance > 0.0)) {
     for (const Index bond : last.conflict) {
-      if (alert_of(bond) < 1.0) return {bond, load_factor_, true};
+      if (release_threshold_of(bond) < 1.0) return {bond, load_factor_, true};
     }
     return with_others({worst().element, load_factor_, true});
   }
@@ -157,8 +157,8 @@ Event StagedEngine::next_event_below(double /*most*/) {
 Event StagedEngine::with_others(Event event) {
   if (!fails_with_others(event.element)) return event;
   std::vector<BreakSearch::Hit> hits =
-      near_hits(event, event.avalanche ? 1.0 : 1.0 - 0.5 * tolerance_);
-  if (event.avalanche) {
+      near_hits(event, event.at_constant_load ? 1.0 : 1.0 - 0.5 * tolerance_);
+  if (event.at_constant_load) {
     double worst = 0.0;
     for (const BreakSearch::Hit& hit : hits) worst = std::max(worst, hit.ratio);
     std::erase_if(
@@ -262,8 +262,8 @@ Freedom StagedEngine::change_motion(const Unknowns& unknowns) {
   return freedom;
 }
 
-void StagedEngine::set_alert(std::span<const Index> elements, double fraction) {
-  SingleEventEngine::set_alert(elements, fraction);
+void StagedEngine::set_release_threshold(std::span<const Index> elements, double fraction) {
+  SingleEventEngine::set_release_threshold(elements, fraction);
   for (const Index element : elements) crossings_.set_limit(element, limit_of_crossings(element));
 }
 

@@ -49,9 +49,9 @@ class StagedEngine final : public SingleEventEngine {
   std::span<const double> displacement() override;
   LoadWork load_work() override;
   Balance check_equilibrium() override;
-  Balance glance_at_equilibrium() override { return check_equilibrium(); }
+  Balance check_cheaply() override { return check_equilibrium(); }
   Freedom change_motion(const Unknowns& unknowns) override;
-  void set_alert(std::span<const Index> elements, double fraction) override;
+  void set_release_threshold(std::span<const Index> elements, double fraction) override;
   /// Constant loads change all displacements.
 
  private:
@@ -71,7 +71,7 @@ class StagedEngine final : public SingleEventEngine {
   const LoadedNetwork& problem_;
   CrossingSearch crossings_;
   ThreadChoice last_crossing_threads_, next_crossing_threads_;
-  void grip(std::size_t set, const Unknowns& held);
+  void clamped(std::size_t set, const Unknowns& held);
   void harden(Index segment);
 
   std::unique_ptr<Unknowns> unknowns_;  ///< with the motions of the set that grows

@@ -24,7 +24,7 @@ void for_each_member(Part& part, Visit visit) {
   visit(part.ghosts.owners);
   visit(part.ghosts.numbers);
   visit(part.blocks);
-  visit(part.boxes);
+  visit(part.subdomains);
   visit(part.rows);
   visit(part.motions);
   visit(part.changes);
@@ -190,7 +190,7 @@ Partition share_out(const Network& network, const Unknowns& unknowns, int ranks)
 }
 
 BodyPart cut_part(const Network& network, Secants secants, const Unknowns& unknowns,
-                  const BoxMotions& motions, const BoxStiffness& stiffness,
+                  const SubdomainMotions& motions, const SubdomainStiffness& stiffness,
                   const Partition& partition, int rank) {
   const std::vector<int> owners = owners_of(partition, network.particles.size());
   const std::vector<GlobalIndex>& owned = partition.particles[rank];
@@ -216,7 +216,7 @@ BodyPart cut_part(const Network& network, Secants secants, const Unknowns& unkno
     const Index p = static_cast<Index>(number);
     const double* own = &entry(stiffness.blocks, number, block);
     part.blocks.insert(part.blocks.end(), own, own + block);
-    part.boxes.push_back(motions.box_of(p));
+    part.subdomains.push_back(motions.box_of(p));
     for (int a = 0; a < unknowns.width; ++a) part.rows.push_back(motions.row(p, a));
   }
   return part;

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "assembly/boxes/box_stiffness.hpp"
+#include "assembly/subdomains/subdomain_stiffness.hpp"
 #include "base/parcel.hpp"
 #include "network/network.hpp"
 #include "network/unknowns.hpp"
@@ -33,12 +33,12 @@ struct BodyPart {
   /// Inverse stiffness of each owned particle alone, shape (owned, width, width).
   std::vector<double> blocks;
   SparseMatrix coarse;                      ///< P'K P of the whole body, lower triangle
-  std::vector<Index> boxes;                 ///< per owned particle
+  std::vector<Index> subdomains;            ///< per owned particle
   std::vector<std::array<double, 6>> rows;  ///< rows of P, shape (owned, width)
   int motions = 3;                          ///< that a box has
   bool changes = false;                     ///< whether elements do, and blocks are solved for
 
-  Index owned() const { return static_cast<Index>(boxes.size()); }
+  Index owned() const { return static_cast<Index>(subdomains.size()); }
   Secants secants() const { return axial.empty() ? Secants(other) : Secants(other, axial); }
 
   Parcel pack() const;
@@ -64,7 +64,7 @@ Partition share_out(const Network& network, const Unknowns& unknowns, int ranks)
 
 /// \param stiffness  boxes and particles of the whole body, its blocks inverted
 BodyPart cut_part(const Network& network, Secants secants, const Unknowns& unknowns,
-                  const BoxMotions& motions, const BoxStiffness& stiffness,
+                  const SubdomainMotions& motions, const SubdomainStiffness& stiffness,
                   const Partition& partition, int rank);
 
 }  // namespace perilink

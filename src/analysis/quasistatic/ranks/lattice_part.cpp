@@ -69,7 +69,8 @@ class PartMaker {
         if (!(sample.*member).empty()) (network.*member).push_back((sample.*member)[element]);
       }
     });
-    network.first_tie = network.first_anchored_tie = network.first_segment = network.num_elements();
+    network.first_slip_spring = network.first_embedded_slip_spring = network.first_bar_element =
+        network.num_elements();
     part_.other.assign(count, 1.0);
   }
 
@@ -156,20 +157,22 @@ SparseMatrix sum_of(Ranks& ranks, SparseMatrix own) {
 
 /// Boxes of the own particles and their stiffness, and that of the particles.
 /// \param unknowns  those of all particles of the part, ghosts too
-void add_boxes(Ranks& ranks, Index particles_of_box, Index owned, const Unknowns& unknowns,
-               BodyPart& part) {
+void add_subdomains(Ranks& ranks, Index particles_of_box, Index owned, const Unknowns& unknowns,
+                    BodyPart& part) {
   const Particles& particles = part.network.particles;
   const int width = unknowns.width;
   const std::size_t positions = static_cast<std::size_t>(owned) * particles.dim;
-  std::vector<std::vector<Index>> own = split_by_cracks(
-      split_into_boxes({particles.positions.data(), positions}, particles.dim, particles_of_box),
-      part.network, part.secants());
+  std::vector<std::vector<Index>> own =
+      split_by_cracks(split_into_subdomains({particles.positions.data(), positions}, particles.dim,
+                                            particles_of_box),
+                      part.network, part.secants());
   const auto [before, all] = before_and_in_all(ranks, static_cast<Index>(own.size()));
-  const BoxMotions motions(particles, unknowns, std::move(own), before, all,
-                           [&](std::span<double> known, int numbers) {
-                             GhostLayer(ranks, part.ghosts).update(numbers, {known});
-                           });
-  BoxStiffness stiffness = assemble_box_stiffness(part.network, part.secants(), unknowns, motions);
+  const SubdomainMotions motions(particles, unknowns, std::move(own), before, all,
+                                 [&](std::span<double> known, int numbers) {
+                                   GhostLayer(ranks, part.ghosts).update(numbers, {known});
+                                 });
+  SubdomainStiffness stiffness =
+      assemble_subdomain_stiffness(part.network, part.secants(), unknowns, motions);
   stiffness.blocks.resize(static_cast<std::size_t>(owned) * width * width);
   double faults = stiffness.invert_blocks(width) ? 0.0 : 1.0;
   ranks.sum({&faults, 1});
@@ -179,7 +182,7 @@ void add_boxes(Ranks& ranks, Index particles_of_box, Index owned, const Unknowns
   part.blocks = std::move(stiffness.blocks);
   part.motions = motions.num_motions();
   for (Index p = 0; p < owned; ++p) {
-    part.boxes.push_back(motions.box_of(p));
+    part.subdomains.push_back(motions.box_of(p));
     for (int a = 0; a < width; ++a) part.rows.push_back(motions.row(p, a));
   }
   part.coarse = sum_of(ranks, std::move(stiffness.coarse));
@@ -252,8 +255,8 @@ BodyPart make_part(Ranks& ranks, const PatternShare& share) {
   const Index owned = share.pattern.grid.size(share.windows[ranks.own()]);
   std::vector<std::uint8_t> held = maker.held();
   const std::vector<double> at_rest(slots, 0.0);
-  add_boxes(ranks, share.particles_of_box, owned, number_unknowns(share.width, held, at_rest),
-            part);
+  add_subdomains(ranks, share.particles_of_box, owned, number_unknowns(share.width, held, at_rest),
+                 part);
   std::fill(held.begin() + static_cast<std::ptrdiff_t>(owned) * share.width, held.end(), 1);
   part.unknowns = number_unknowns(share.width, held, at_rest);
   return part;

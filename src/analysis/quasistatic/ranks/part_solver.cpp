@@ -134,7 +134,7 @@ void PartSolver::precondition(std::span<const double> residual, std::span<double
   std::fill(coarse_.begin(), coarse_.end(), 0.0);
   const auto for_each_own = [&](auto visit) {
     for (Index p = 0; p < part_.owned(); ++p) {
-      double* const box = coarse_.data() + static_cast<std::size_t>(part_.boxes[p]) * motions;
+      double* const box = coarse_.data() + static_cast<std::size_t>(part_.subdomains[p]) * motions;
       for (int a = 0; a < width; ++a) {
         if (unknowns.at(p, a) >= 0) visit(p, a, unknowns.at(p, a), box);
       }
@@ -174,7 +174,8 @@ void PartSolver::solve_coarse_block() {
 void PartSolver::precondition_block(std::span<const double> residuals, std::span<double> results) {
   const std::size_t width = part_.unknowns.width, slots = part_.rows.size();
   const auto for_each_motion = [&](std::size_t slot, auto visit) {
-    const std::size_t box = static_cast<std::size_t>(part_.boxes[slot / width]) * part_.motions;
+    const std::size_t box =
+        static_cast<std::size_t>(part_.subdomains[slot / width]) * part_.motions;
     for (int m = 0; m < part_.motions; ++m) {
       const double share = part_.rows[slot][m];
       if (share != 0.0) visit(share, coarse_sums_.data() + (box + m) * block_width);

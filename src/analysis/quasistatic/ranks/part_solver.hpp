@@ -52,7 +52,7 @@ class PartSolver {
 
   std::size_t size() const { return static_cast<std::size_t>(part_.unknowns.count); }
   FactorStatistics coarse() const { return factor_->statistics(); }
-  Index num_boxes() const { return static_cast<Index>(coarse_.size()) / part_.motions; }
+  Index num_subdomains() const { return static_cast<Index>(coarse_.size()) / part_.motions; }
 
  private:
   void multiply(std::span<const double> q, std::span<double> result);

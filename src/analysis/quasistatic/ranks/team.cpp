@@ -69,7 +69,7 @@ void search_along(Ranks& ranks, Parcel& parcel, Search search) {
 }  // namespace
 
 Team::Team(Ranks& ranks, const Network& network, const Unknowns& unknowns, Secants secants,
-           const BoxMotions& motions, const BoxStiffness& stiffness,
+           const SubdomainMotions& motions, const SubdomainStiffness& stiffness,
            const std::vector<double>* ground)
     : ranks_(ranks),
       partition_(share_out(network, unknowns, ranks.count())),

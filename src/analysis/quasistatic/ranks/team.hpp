@@ -25,7 +25,7 @@ class Team {
   ///                   never again; null: neither these nor the secants change. Both are kept by
   ///                   reference, and every search is that of what they are by then
   Team(Ranks& ranks, const Network& network, const Unknowns& unknowns, Secants secants,
-       const BoxMotions& motions, const BoxStiffness& stiffness,
+       const SubdomainMotions& motions, const SubdomainStiffness& stiffness,
        const std::vector<double>* ground = nullptr);
 
   /// Lets every rank make its own part of a box of a lattice, which has as many planes at least.
@@ -53,7 +53,7 @@ class Team {
                     std::span<double> all) const;
 
   FactorStatistics coarse() const { return own_->coarse(); }
-  Index num_boxes() const { return own_->num_boxes(); }
+  Index num_subdomains() const { return own_->num_subdomains(); }
   Ranks& ranks() const { return ranks_; }
   const PartSolver& own() const { return *own_; }
 

@@ -201,7 +201,7 @@ BarBond bond_of(const RebarSection& section) {
 /// \param staged  loads may fall
 BarMaterial material_of(const RebarSection& section, bool damage, bool staged) {
   BarMaterial material{section.youngs_modulus, section.area};
-  material.ties_break = section.ties_break;
+  material.slip_springs_break = section.slip_springs_break;
   material.bond = bond_of(section);
   if (!damage) material.bond.elastic = true;
   material.bends = section.bends;
@@ -291,7 +291,7 @@ LaidBars lay_bars(const CaseFile& input, const Body& body) {
         material_of(section, input.analysis.type != AnalysisType::elastic, !input.stages.empty());
     for (const Points& points : bars) {
       RebarLine line{points.front(), points.back(), {points.begin() + 1, points.end() - 1}};
-      line.anchored = section.bond != RebarBond::concrete;
+      line.embedded = section.bond != RebarBond::concrete;
       laid.lines.push_back(std::move(line));
       laid.materials.push_back(material);
       laid.sections.push_back(k);

@@ -13,7 +13,7 @@ Network edge_network(const Body& body) {
   network.particles = body.particles;
   network.bonds = edges_of(body.cells, body.particles);
   network.stiffness.assign(static_cast<std::size_t>(network.bonds.size()), 1.0);
-  network.first_tie = network.first_segment = network.bonds.size();
+  network.first_slip_spring = network.first_bar_element = network.bonds.size();
   return network;
 }
 

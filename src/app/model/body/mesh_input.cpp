@@ -165,11 +165,11 @@ namespace {
 
 /// Per cell of the mesh, nonzero where it is an ordinary finite element; empty: nowhere.
 std::vector<std::uint8_t> ordinary_elements(const CaseFile& input, const MeshInput& read) {
-  std::vector<std::uint8_t> glued;
-  if (!input.elements || input.elements->glued.empty()) return glued;
+  std::vector<std::uint8_t> tied;
+  if (!input.elements || input.elements->tied.empty()) return tied;
   const std::string key = "elements.glued";
   std::vector<Region> regions;
-  for (const std::string& name : input.elements->glued) {
+  for (const std::string& name : input.elements->tied) {
     regions.push_back(*std::find_if(input.regions.begin(), input.regions.end(),
                                     [&](const Region& region) { return region.name == name; }));
     if (!regions.back().group.empty()) {
@@ -180,10 +180,10 @@ std::vector<std::uint8_t> ordinary_elements(const CaseFile& input, const MeshInp
       materials_of_cells(read.mesh, regions, std::vector<Index>(regions.size(), 0));
   Index bonded = 0;
   for (std::size_t cell = 0; cell < inside.size(); ++cell) {
-    glued.push_back(inside[cell] == no_index ? 0 : 1);
+    tied.push_back(inside[cell] == no_index ? 0 : 1);
     bonded += inside[cell] == no_index && read.material[cell] != no_index;
   }
-  if (std::count(glued.begin(), glued.end(), 1) == 0) {
+  if (std::count(tied.begin(), tied.end(), 1) == 0) {
     throw InputError(input.where(key), "holds no cell of the mesh",
                      "name regions that hold the centres of cells");
   }
@@ -192,7 +192,7 @@ std::vector<std::uint8_t> ordinary_elements(const CaseFile& input, const MeshInp
                      "leave a region where bonds can break, or set method = "
                      "\"linear_elements\" in [body] and delete the table");
   }
-  return glued;
+  return tied;
 }
 
 /// Lines beside the mesh hold no facet, and few particles if any.

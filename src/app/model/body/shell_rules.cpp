@@ -25,7 +25,7 @@ void refuse_turning_particles(const CaseFile& input, const Body& body, const Net
                    "give a smaller one; shells have ratios above -1 and below 1/3");
 }
 
-void refuse_overlapping_sheet(const CaseFile& input, const Body& body) {
+void refuse_overlapping_mid_surface(const CaseFile& input, const Body& body) {
   if (!input.body.radius) return;
   double lower = INFINITY, upper = -INFINITY;
   for (Index i = 0; i < body.particles.size(); ++i) {
@@ -59,7 +59,7 @@ void refuse_impossible_shell(const CaseFile& input, const Body& body, const Netw
   for (std::size_t m = 0; m < input.materials.size(); ++m) {
     refuse_turning_particles(input, body, network, m);
   }
-  refuse_overlapping_sheet(input, body);
+  refuse_overlapping_mid_surface(input, body);
   refuse_slanting_symmetry(input);
 }
 

@@ -35,7 +35,7 @@ constexpr double least_bar_modulus = 0.3, largest_bar_modulus = 5e3;
 constexpr double least_yield_strain = 2e-4, largest_yield_strain = 2e-2;
 
 std::optional<std::string> note_of_strength(const MaterialStrength& strength, double modulus) {
-  const bool brittle = strength.teeth == 1;
+  const bool brittle = strength.segments == 1;
   const double part = strength.tensile_strength / modulus;
   const double most = brittle ? largest_brittle_strength : largest_strength;
   if (part <= most && part >= least_strength) return std::nullopt;
@@ -106,7 +106,7 @@ std::optional<std::string> lattice_note(const CaseFile& input, const Model& mode
   const Network& network = model.network;
   if (model.lattice.pattern == Pattern::irregular || network.is_beam()) return std::nullopt;
   bool breaks = false;
-  for (Index b = 0; b < network.first_tie && !breaks; ++b) breaks = network.can_break(b);
+  for (Index b = 0; b < network.first_slip_spring && !breaks; ++b) breaks = network.can_break(b);
   if (!breaks || !input.interfaces.empty()) return std::nullopt;
   return "cracks on a lattice tend to follow its rows, and loads change with their paths: where "
          "the "
@@ -134,11 +134,11 @@ std::vector<std::string> bar_notes(const CaseFile& input) {
 std::vector<std::string> strength_notes(const MaterialStrength& strength, double youngs_modulus,
                                         double horizon, double body) {
   std::vector<std::string> notes;
-  if (strength.teeth == 0) return notes;
+  if (strength.segments == 0) return notes;
   const double zone = strength.process_zone;
   for (const auto& note : {note_of_strength(strength, youngs_modulus),
-                           strength.teeth == 1 ? note_of_brittle_zone(zone, horizon, body)
-                                               : note_of_zone(zone, horizon, body)}) {
+                           strength.segments == 1 ? note_of_brittle_zone(zone, horizon, body)
+                                                  : note_of_zone(zone, horizon, body)}) {
     if (note) notes.push_back(*note);
   }
   return notes;

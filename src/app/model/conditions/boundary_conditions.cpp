@@ -229,9 +229,9 @@ void choose_axes(const CaseFile& input, Model& model, AppliedLoads& applied,
         fmt::format("write a formula that is {:.0e} or more somewhere", smallest_load));
   }
   if (model.reference.driven) {
-    model.driven_places = std::move(prescription.driven);
+    model.prescribed_regions = std::move(prescription.driven);
   } else {
-    model.loaded_places = std::move(applied.places);
+    model.load_regions = std::move(applied.places);
   }
 }
 
@@ -256,8 +256,8 @@ void refuse_idle_loads(const CaseFile& input, const Model& model, const std::str
 }
 
 /// Forces along what is driven move nothing: whatever drives it bears them.
-void note_borne_loads(const Network& network, const Loads& loads, const Prescription& prescription,
-                      std::vector<std::string>& notes) {
+void note_residual_strength(const Network& network, const Loads& loads,
+                            const Prescription& prescription, std::vector<std::string>& notes) {
   const auto width = static_cast<std::size_t>(network.width());
   const auto dim = static_cast<std::size_t>(network.dim());
   double borne = 0.0, all = 0.0;
@@ -302,9 +302,9 @@ void refuse_mere_shift(const CaseFile& input, const Model& model, const Prescrip
 /// Explicit runs carry nothing: they find the forces of anchors by themselves.
 Unknowns unknowns_of(const CaseFile& input, const Network& network, Prescription& prescription) {
   hold_idle_rotations(network, prescription.held);
-  hold_anchors(network, prescription.held);
+  hold_embedded_points(network, prescription.held);
   Unknowns unknowns = number_unknowns(network.width(), prescription.held, prescription.value);
-  if (is_quasistatic(input.analysis.type)) carry_anchors(network, unknowns);
+  if (is_quasistatic(input.analysis.type)) carry_embedded_points(network, unknowns);
   return unknowns;
 }
 
@@ -322,7 +322,7 @@ void collect_sets(const CaseFile& input, Model& model) {
     of_stage.network.support_stiffness = collect_springs(input, model);
     of_stage.loads = std::move(applied.loads);
     choose_axes(input, of_stage, applied, prescription, stage);
-    note_borne_loads(model.network, of_stage.loads, prescription, model.notes);
+    note_residual_strength(model.network, of_stage.loads, prescription, model.notes);
     refuse_mere_shift(input, of_stage, prescription, stage);
     of_stage.unknowns = unknowns_of(input, model.network, prescription);
     refuse_nothing_to_solve(input, of_stage);
@@ -344,7 +344,7 @@ void apply_boundary_conditions(const CaseFile& input, Model& model) {
   model.notes.insert(model.notes.end(), applied.notes.begin(), applied.notes.end());
   model.network.support_stiffness = collect_springs(input, model);
   choose_axes(input, model, applied, prescription, first);
-  note_borne_loads(model.network, model.loads, prescription, model.notes);
+  note_residual_strength(model.network, model.loads, prescription, model.notes);
   refuse_mere_shift(input, model, prescription, first);
   model.resultant = load_resultant(model.network, model.loads);
   const CutOffParts off = find_cut_off_parts(input, model, prescription);

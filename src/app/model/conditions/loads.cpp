@@ -35,7 +35,7 @@ std::vector<Index> solid_particles_of(const CaseFile& input, const Model& model,
 
 /// Shares a total force over the solid particles of a region, or integrates a uniform body force.
 void add_uniform_load(const LoadSection& section, const Model& model, std::span<const Index> region,
-                      Loads& loads, LoadedPlace& place) {
+                      Loads& loads, LoadRegion& place) {
   const Particles& particles = model.network.places();
   const std::size_t width = loads.forces.size() / static_cast<std::size_t>(particles.size());
   const Simplices& cells = model.elements ? model.elements->cells : model.cells;
@@ -53,7 +53,7 @@ void add_uniform_load(const LoadSection& section, const Model& model, std::span<
 }
 
 /// Adds the forces of an entry to all loads and to its place. \return the sum of their sizes
-double add_entry(const Particles& particles, const Loads& entry, Loads& loads, LoadedPlace& place) {
+double add_entry(const Particles& particles, const Loads& entry, Loads& loads, LoadRegion& place) {
   const std::size_t width = entry.forces.size() / static_cast<std::size_t>(particles.size());
   double sizes = 0.0;
   for (Index i = 0; i < particles.size(); ++i) {
@@ -146,7 +146,7 @@ void add_point_load(const CaseFile& input, const Model& model, std::size_t k, Ap
   double* force = all.loads.forces.data() + nearest.particle * width;
   for (int a = 0; a < dim; ++a) force[a] += section.force[a];
   for (std::size_t a = dim; a < width; ++a) force[a] += section.moment[dim == 2 ? 2 : a - dim];
-  LoadedPlace& place = place_named(
+  LoadRegion& place = place_named(
       all.places, fmt::format("particle at ({})", joined(particles.position(nearest.particle))));
   for (int a = 0; a < 3; ++a) {
     place.force[a] += section.force[a];
@@ -168,7 +168,7 @@ AppliedLoads collect_loads(const CaseFile& input, const Model& model, int width,
     if (!belongs(section)) continue;
     const std::vector<Index> region =
         solid_particles_of(input, model, section.region, item_key("loads", k, "region"));
-    LoadedPlace& place = place_named(all.places, section.region);
+    LoadRegion& place = place_named(all.places, section.region);
     if (section.force || section.body_force->is_constant()) {
       add_uniform_load(section, model, region, all.loads, place);
       continue;
@@ -180,7 +180,7 @@ AppliedLoads collect_loads(const CaseFile& input, const Model& model, int width,
   for (std::size_t k = 0; k < input.tractions.size(); ++k) {
     if (!belongs(input.tractions[k])) continue;
     Loads entry{std::vector<double>(all.loads.forces.size(), 0.0)};
-    LoadedPlace& place = place_named(all.places, input.tractions[k].region);
+    LoadRegion& place = place_named(all.places, input.tractions[k].region);
     place.sizes += add_traction(input, model, k, entry);
     add_entry(particles, entry, all.loads, place);
   }

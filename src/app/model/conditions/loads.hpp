@@ -7,7 +7,7 @@ namespace perilink {
 /// All loads of a case on the particles of its model.
 struct AppliedLoads {
   Loads loads;
-  std::vector<LoadedPlace> places;
+  std::vector<LoadRegion> places;
   std::vector<std::string> notes;  ///< point loads that had to move
 };
 

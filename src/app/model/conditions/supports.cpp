@@ -78,8 +78,8 @@ void refuse_idle_rotation(const CaseFile& input, const Model& model,
                    "drive their displacements by formulas that turn the region");
 }
 
-void grip(const Network& network, Prescription& prescription, std::span<const Index> particles,
-          int component) {
+void clamped(const Network& network, Prescription& prescription, std::span<const Index> particles,
+             int component) {
   if (component >= network.dim()) return;  // a rotation
   for (const Index i : particles) prescription.gripped[i] = 1;
 }
@@ -128,7 +128,7 @@ void hold_in_plane(const CaseFile& input, const Model& model, std::size_t k,
 /// Notes that a place drives a component of particles, whose values are prescribed already.
 void note_driven(const Network& network, Prescription& prescription,
                  std::span<const Index> particles, int component, const std::string& region) {
-  DrivenPlace& place = place_named(prescription.driven, region);
+  PrescribedRegion& place = place_named(prescription.driven, region);
   for (const Index i : particles) {
     const std::size_t slot = static_cast<std::size_t>(i) * network.width() + component;
     const double value = prescription.value[slot];
@@ -175,7 +175,7 @@ void drive(const CaseFile& input, const Model& model, Prescription& prescription
       } else {
         note_driven(model.network, prescription, particles, component, sections[k].region);
       }
-      grip(model.network, prescription, particles, component);
+      clamped(model.network, prescription, particles, component);
     }
   }
 }
@@ -188,7 +188,7 @@ void stretch_bars(const CaseFile& input, const Model& model, const std::string& 
   for (std::size_t s = 0; s < network.bars.bar.size(); ++s) {
     const RebarSection& bar = input.rebar[model.entry_of_bar[network.bars.bar[s]]];
     if (bar.prestrain == 0.0 || (!stage.empty() && bar.stage != stage)) continue;
-    const Index e = network.first_segment + static_cast<Index>(s);
+    const Index e = network.first_bar_element + static_cast<Index>(s);
     const double extension = bar.prestrain * network.bonds.length(e);
     const std::size_t slot = static_cast<std::size_t>(network.bonds.second[e]) * network.width();
     for (int a = 0; a < network.dim(); ++a) {
@@ -218,7 +218,7 @@ Prescription collect_prescriptions(const CaseFile& input, const Model& model,
       const int component = component_of(model.network, entry);
       prescribe(input, model, prescription, particles, item_key("supports", k), component, values);
       prescription.kept[component] = true;
-      grip(model.network, prescription, particles, component);
+      clamped(model.network, prescription, particles, component);
     }
   }
   for (std::size_t k = 0; k < input.symmetry.size(); ++k) {
@@ -323,8 +323,8 @@ std::vector<std::size_t> cracks_beside(const CaseFile& input, const Model& model
 void add_springs(const Model& model, const Fragment& part, const std::vector<std::uint8_t>& held,
                  std::vector<double>& springs) {
   const Network& network = model.network;
-  const double stiffest =
-      *std::max_element(network.stiffness.begin(), network.stiffness.begin() + network.first_tie);
+  const double stiffest = *std::max_element(network.stiffness.begin(),
+                                            network.stiffness.begin() + network.first_slip_spring);
   std::vector<std::uint8_t> pinned = held;
   pin_rigid_modes(network, part, pinned);
   const std::size_t width = network.width(), dim = network.dim();

@@ -15,7 +15,7 @@ struct Prescription {
   std::vector<double> value;          ///< at load factor 1 [length], of rotations [-];
                                       ///< of velocities at the end of the duration
   std::vector<std::uint8_t> gripped;  ///< see Model::gripped
-  std::vector<DrivenPlace> driven;
+  std::vector<PrescribedRegion> driven;
   double stretched = 0.0;      ///< by which the bar stretches most that gets a prestrain [length]
   std::array<bool, 6> kept{};  ///< components that supports or planes of symmetry hold at zero
 };

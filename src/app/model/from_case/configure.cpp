@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/model/body/carrier_model.hpp"
 #include "app/model/body/element_model.hpp"
 #include "app/model/body/horizon_limits.hpp"
+#include "app/model/body/host_model.hpp"
 #include "app/model/body/lattice_model.hpp"
 #include "app/model/body/mesh_input.hpp"
 #include "app/model/body/particle_model.hpp"

@@ -59,11 +59,11 @@ void TiedNormalEquations::apply_transpose(const Vector& y, std::vector<double>& 
 void TiedNormalEquations::measure(const std::vector<double>& unknowns, const Vector& y,
                                   Vector& residual) const {
   const PointEquations& equations = tied_.equations;
-  Column carried;
-  multiply(tied_.matrix, map(unknowns), carried);
+  Column embedded;
+  multiply(tied_.matrix, map(unknowns), embedded);
   residual.resize(equations.right.size());
   for (std::size_t k = 0; k < residual.size(); ++k) {
-    residual[k] = equations.right[k] * equations.scale[k] - carried[static_cast<Eigen::Index>(k)] -
+    residual[k] = equations.right[k] * equations.scale[k] - embedded[static_cast<Eigen::Index>(k)] -
                   equations.ridge_of(k % static_cast<std::size_t>(equations.rows)) * y[k];
   }
 }

@@ -15,27 +15,27 @@ std::optional<ElementsSection> read_elements(const CaseTable& table) {
   elements.spacings = table.integer("spacings", 2, most_spacings);
   elements.size = table.positive("size");
   read_mesh_file(table, elements.mesh, elements.mesh_size);
-  assign(elements.glued, table.texts("glued"));
-  if (elements.glued.empty() || elements.mesh || elements.mesh_size) {
+  assign(elements.tied, table.texts("glued"));
+  if (elements.tied.empty() || elements.mesh || elements.mesh_size) {
     table.need_one_of({"spacings", "size", "mesh"});
   }
   assign(elements.order, table.integer("order", 1, 2));
   assign(elements.regions, table.texts("regions"));
   assign(elements.particles, table.texts("particles"));
-  assign(elements.alert, table.fraction("alert"));
-  elements.alert_strain = table.positive("alert_strain");
-  if (elements.alert_strain && table.has("alert")) {
+  assign(elements.release_threshold, table.fraction("alert"));
+  elements.release_strain = table.positive("alert_strain");
+  if (elements.release_strain && table.has("alert")) {
     table.refuse("alert_strain", "is given beside `alert`", "delete one of the two");
   }
-  elements.halo = table.positive("halo");
+  elements.buffer_zone = table.positive("halo");
   return elements;
 }
 
 namespace {
 
 /// What ordinary elements cannot do.
-void check_glued(const CaseFile& input) {
-  if (input.elements->glued.empty()) return;
+void check_tied(const CaseFile& input) {
+  if (input.elements->tied.empty()) return;
   const auto refuse = [&](const char* why, const char* hint) {
     throw InputError(input.where("elements.glued"), why, hint);
   };
@@ -57,7 +57,7 @@ void check_glued(const CaseFile& input) {
 
 void check_elements(const CaseFile& input) {
   if (!input.elements) return;
-  check_glued(input);
+  check_tied(input);
   const ElementsSection& section = *input.elements;
   if (input.analysis.solver == LinearSolver::iterative &&
       (section.spacings || section.size || section.mesh)) {
@@ -75,7 +75,7 @@ void check_elements(const CaseFile& input) {
                     quoted(std::string(word_of(input.body.surface)))),
         "delete the line, or the table [elements]");
   }
-  if (input.elements->alert_strain && !input.stages.empty()) {
+  if (input.elements->release_strain && !input.stages.empty()) {
     throw InputError(input.where("elements.alert_strain"),
                      "is given, but the case has [[stages]], under which strains do not grow in "
                      "proportion",
@@ -92,10 +92,10 @@ void write_elements(TomlWriter& out, const ElementsSection& elements) {
   out.write("order", elements.order);
   if (!elements.regions.empty()) out.write("regions", elements.regions);
   if (!elements.particles.empty()) out.write("particles", elements.particles);
-  if (!elements.glued.empty()) out.write("glued", elements.glued);
-  if (!elements.alert_strain) out.write("alert", elements.alert);
-  out.write("alert_strain", elements.alert_strain);
-  out.write("halo", elements.halo);
+  if (!elements.tied.empty()) out.write("glued", elements.tied);
+  if (!elements.release_strain) out.write("alert", elements.release_threshold);
+  out.write("alert_strain", elements.release_strain);
+  out.write("halo", elements.buffer_zone);
 }
 
 }  // namespace perilink

@@ -203,7 +203,7 @@ void refuse_keys_of_others(const CaseTable& table, RebarBond bond) {
 void read_bond(const CaseTable& table, RebarSection& bar) {
   assign(bar.bond, table.choice<RebarBond>("bond"));
   refuse_keys_of_others(table, bar.bond);
-  assign(bar.ties_break, table.boolean("ties_break"));
+  assign(bar.slip_springs_break, table.boolean("ties_break"));
   bar.perimeter = table.positive("perimeter");
   assign(bar.hooks, table.choice<Hooks>("hooks"));
   assign(bar.bends, table.boolean("bends"));
@@ -331,7 +331,7 @@ void write_rebar(TomlWriter& out, const RebarSection& bar, int dim) {
   if (bar.hardening_modulus != 0.0) out.write("hardening_modulus", bar.hardening_modulus);
   out.write("rupture_strain", bar.rupture_strain);
   out.write("bond", word_of(bar.bond));
-  if (bar.bond == RebarBond::concrete) return out.write("ties_break", bar.ties_break);
+  if (bar.bond == RebarBond::concrete) return out.write("ties_break", bar.slip_springs_break);
   out.write("bond_stiffness", bar.bond_stiffness);
   out.write("bond_strength", bar.bond_strength);
   write_curve(out, "bond_curve", bar.bond_curve);

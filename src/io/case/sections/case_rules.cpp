@@ -361,7 +361,7 @@ void check_rules(const CaseFile& input) {
     for (const std::string& region : input.elements->particles) {
       check_reference(input, names, "elements.particles", region, Reserved::allowed);
     }
-    for (const std::string& region : input.elements->glued) {
+    for (const std::string& region : input.elements->tied) {
       check_reference(input, names, "elements.glued", region, Reserved::refused);
     }
     check_elements(input);

@@ -1,4 +1,4 @@
-#include "analysis/dynamics/box_preconditioner.hpp"
+#include "analysis/dynamics/subdomain_preconditioner.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ using namespace test;
 
 /// The preconditioner as a dense matrix of the unknown components.
 Eigen::MatrixXd dense_preconditioner(const AnalysisBody& body) {
-  const BoxPreconditioner inverse(body.network, body.unknowns);
+  const SubdomainPreconditioner inverse(body.network, body.unknowns);
   const std::vector<Index>& number = body.unknowns.number;
   const auto slots = static_cast<Eigen::Index>(number.size());
   Eigen::MatrixXd matrix(body.unknowns.count, body.unknowns.count);
@@ -39,7 +39,7 @@ double condition(const AnalysisBody& body) {
   return solver.eigenvalues().tail(1)[0] / solver.eigenvalues()[0];
 }
 
-TEST(BoxPreconditioner, IsSymmetric) {
+TEST(SubdomainPreconditioner, IsSymmetric) {
   for (const bool micropolar : {false, true}) {
     const AnalysisBody body = make_block(
         {{"plane", Pattern::rectangular, Surface::none}, true, false, 14, 0.1, micropolar});
@@ -50,7 +50,7 @@ TEST(BoxPreconditioner, IsSymmetric) {
 
 /// With a box for every particle the boxes alone are the inverse; the blocks add no more than a few
 /// times as much.
-TEST(BoxPreconditioner, OfASmallBodyIsTheInverseAndTheBlocks) {
+TEST(SubdomainPreconditioner, OfASmallBodyIsTheInverseAndTheBlocks) {
   const AnalysisBody body = make_block({{"plane", Pattern::rectangular, Surface::none}});
   EXPECT_EQ(body.network.particles.size(), 49);
   const Eigen::MatrixXd stiffness = dense_stiffness_of_unknowns(body);
@@ -66,7 +66,7 @@ TEST(BoxPreconditioner, OfASmallBodyIsTheInverseAndTheBlocks) {
 }
 
 /// What boxes of rigid motions are for: the stiffness itself has a condition of 1e7 and 2e8.
-TEST(BoxPreconditioner, DoesNotMindHowSlenderABodyIs) {
+TEST(SubdomainPreconditioner, DoesNotMindHowSlenderABodyIs) {
   const double shorter = condition(cantilever(100, 2)), longer = condition(cantilever(200, 2));
   EXPECT_LT(shorter, 100.0);
   EXPECT_LT(longer, 100.0);

@@ -62,7 +62,7 @@ TEST(ExplicitLoop, TellsWhyAMotionMayHaveGrown) {
     energy.external_work = 1.0;
     return energy;
   });
-  EXPECT_EQ(result.ending, Ending::failed);
+  EXPECT_EQ(result.termination, Termination::failed);
   EXPECT_NE(result.reason.find("the time step 1 is below the critical one of the intact body, 2"),
             std::string::npos)
       << result.reason;
@@ -74,7 +74,7 @@ TEST(ExplicitLoop, RowsAreEvenAndTheLastStepIsOne) {
   EXPECT_EQ(watcher.rows,
             (std::vector<Index>{0, 100, 200, 300, 400, 500, 600, 700, 800, 900, 1000}));
   EXPECT_EQ(watcher.ends, 1);
-  EXPECT_EQ(result.ending, Ending::completed);
+  EXPECT_EQ(result.termination, Termination::completed);
   EXPECT_EQ(result.steps, 1000);
   EXPECT_EQ(result.last.load_factor, 1.0);
   EXPECT_EQ(result.peak_load, 300.0);
@@ -103,7 +103,7 @@ TEST(ExplicitLoop, EnergyOutOfNothingEndsTheRun) {
           return energy;
         },
         1);
-    EXPECT_EQ(result.ending, Ending::failed);
+    EXPECT_EQ(result.termination, Termination::failed);
     EXPECT_NE(result.reason.find("grew out of nothing at step 400"), std::string::npos)
         << "looked at every 200 steps: " << result.reason;
     EXPECT_EQ(result.steps, 400);
@@ -119,7 +119,7 @@ TEST(ExplicitLoop, StopsBetweenRowsWhenAsked) {
   LoopWatcher watcher;
   watcher.stop_at = 150;
   const ExplicitResult result = run_rows(watcher, balanced, 1);
-  EXPECT_EQ(result.ending, Ending::interrupted);
+  EXPECT_EQ(result.termination, Termination::interrupted);
   EXPECT_EQ(watcher.rows, (std::vector<Index>{0, 200}));
   EXPECT_EQ(watcher.ends, 1);
 }
@@ -128,7 +128,7 @@ TEST(ExplicitLoop, WhatObserversThrowEndsTheRunWithWhatWasFound) {
   LoopWatcher watcher;
   watcher.throws_at = 200;
   const ExplicitResult result = run_rows(watcher, balanced);
-  EXPECT_EQ(result.ending, Ending::failed);
+  EXPECT_EQ(result.termination, Termination::failed);
   EXPECT_EQ(result.reason, "a full disk");
   EXPECT_EQ(watcher.rows, (std::vector<Index>{0, 100}));
   EXPECT_EQ(result.steps, 200);

@@ -29,31 +29,31 @@ DamageResult run_strip(const std::string& elements, Rows& rows) {
 
 /// Elements with bonds that can fail are converted before the first of these does, all of them
 /// where hardly any strain is enough: then events are those of free particles.
-TEST(ConvertingRun, StrainsConvertElementsBeforeTheBondsInThemFail) {
-  Rows free, carried;
+TEST(ReleasingRun, StrainsConvertElementsBeforeTheBondsInThemFail) {
+  Rows free, embedded;
   run_strip("", free);
   const DamageResult result =
-      run_strip("[elements]\nspacings = 4\norder = 1\nalert_strain = 1e-9\n", carried);
+      run_strip("[elements]\nspacings = 4\norder = 1\nalert_strain = 1e-9\n", embedded);
   EXPECT_GE(result.conversions, 1);
-  EXPECT_EQ(result.late_conversions, 0);
-  ASSERT_EQ(carried.rows.size(), free.rows.size());
+  EXPECT_EQ(result.missed_releases, 0);
+  ASSERT_EQ(embedded.rows.size(), free.rows.size());
   for (std::size_t k = 0; k < free.rows.size(); ++k) {
-    EXPECT_EQ(carried.rows[k].element, free.rows[k].element);
-    EXPECT_NEAR(carried.rows[k].load, free.rows[k].load, 0.02 * free.rows[k].load);
+    EXPECT_EQ(embedded.rows[k].element, free.rows[k].element);
+    EXPECT_NEAR(embedded.rows[k].load, free.rows[k].load, 0.02 * free.rows[k].load);
   }
 }
 
 /// Where no strain comes to the alert the bonds do, at their limits.
-TEST(ConvertingRun, BondsAtTheirLimitsConvertElementsThatNoStrainHas) {
-  Rows free, carried;
+TEST(ReleasingRun, BondsAtTheirLimitsConvertElementsThatNoStrainHas) {
+  Rows free, embedded;
   run_strip("", free);
-  run_strip("[elements]\nspacings = 4\norder = 1\nalert_strain = 1e9\n", carried);
-  ASSERT_EQ(carried.rows.size(), free.rows.size());
-  EXPECT_NEAR(carried.rows.back().load, free.rows.back().load, 0.1 * free.rows.back().load);
+  run_strip("[elements]\nspacings = 4\norder = 1\nalert_strain = 1e9\n", embedded);
+  ASSERT_EQ(embedded.rows.size(), free.rows.size());
+  EXPECT_NEAR(embedded.rows.back().load, free.rows.back().load, 0.1 * free.rows.back().load);
 }
 
 /// Under compression alone nothing fails and no strain is large: the run ends.
-TEST(ConvertingRun, EndsWhereNothingCanFailAndNoElementIsStrained) {
+TEST(ReleasingRun, EndsWhereNothingCanFailAndNoElementIsStrained) {
   CaseFile input = parse_case(R"([body]
 spacing = 1
 horizon_ratio = 3
@@ -90,7 +90,7 @@ alert_strain = 1e-3
   const Model model = build_model(input);
   Rows rows;
   const DamageResult result = run_damage_analysis(model, damage_options(input, 1), rows);
-  EXPECT_EQ(result.ending, Ending::nothing_breaks);
+  EXPECT_EQ(result.termination, Termination::nothing_breaks);
   EXPECT_EQ(result.conversions, 0);
 }
 

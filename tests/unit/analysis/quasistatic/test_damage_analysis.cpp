@@ -37,7 +37,7 @@ TEST(DamageAnalysis, CollapsesExactlyWhenTheLastLoadPathGoes) {
   const AnalysisBody body = make_square();
   Recorder recorder;
   const DamageResult result = run(body, {}, recorder);
-  EXPECT_EQ(result.ending, Ending::collapsed);
+  EXPECT_EQ(result.termination, Termination::collapsed);
   EXPECT_THAT(result.reason, HasSubstr("separated"));
   EXPECT_EQ(result.broken_bonds, 2);
   EXPECT_NEAR(result.initial_stiffness, 2.0 * 2.0 / (4.0 / 3.0), 1e-14);
@@ -91,7 +91,7 @@ TEST(DamageAnalysis, FailsWhereAMeasureIsNotANumber) {
   body.network.critical_stretch[1] = NAN;
   Recorder recorder;
   const DamageResult result = run(body, {}, recorder);
-  EXPECT_EQ(result.ending, Ending::failed);
+  EXPECT_EQ(result.termination, Termination::failed);
   EXPECT_THAT(result.reason, HasSubstr("element 1 "));
   EXPECT_THAT(result.reason, HasSubstr("not a finite number"));
 }
@@ -101,7 +101,7 @@ TEST(DamageAnalysis, EndsWhenNothingBreaks) {
   for (double& force : body.loads.forces) force = -force;
   Recorder recorder;
   const DamageResult result = run(body, {}, recorder);
-  EXPECT_EQ(result.ending, Ending::nothing_breaks);
+  EXPECT_EQ(result.termination, Termination::nothing_breaks);
   EXPECT_EQ(result.broken_bonds, 0);
   EXPECT_TRUE(recorder.rows.empty());
   EXPECT_EQ(recorder.ends, 1);
@@ -119,7 +119,7 @@ TEST(DamageAnalysis, StopsAtANumberOfBrokenBonds) {
   options.stop.broken_bonds = 3;
   Recorder recorder;
   const DamageResult result = run(make_driven_chains(), options, recorder);
-  EXPECT_EQ(result.ending, Ending::completed);
+  EXPECT_EQ(result.termination, Termination::completed);
   EXPECT_THAT(result.reason, HasSubstr("3 bonds"));
   EXPECT_EQ(result.broken_bonds, 3);
   EXPECT_EQ(recorder.rows.back().broken_bonds, 3);
@@ -128,14 +128,14 @@ TEST(DamageAnalysis, StopsAtANumberOfBrokenBonds) {
 
 /// The load factor of make_square() falls from 0.015 to 0.01.
 TEST(DamageAnalysis, StopsAtAFractionOfThePeak) {
-  for (const auto& [fraction, ending] :
-       {std::pair{0.66, Ending::collapsed}, std::pair{0.67, Ending::completed}}) {
+  for (const auto& [fraction, termination] :
+       {std::pair{0.66, Termination::collapsed}, std::pair{0.67, Termination::completed}}) {
     DamageOptions options;
     options.stop.load_fraction = fraction;
     options.stop.load_fraction_rows = 1;
     Recorder recorder;
     const DamageResult result = run(make_square(), options, recorder);
-    EXPECT_EQ(result.ending, ending) << fraction;
+    EXPECT_EQ(result.termination, termination) << fraction;
     EXPECT_EQ(recorder.rows.size(), 2u);
   }
 }
@@ -145,7 +145,7 @@ TEST(DamageAnalysis, StopsAtADisplacement) {
   options.stop.displacement = 0.059;  // rows at 0.02, 0.04, 0.06
   Recorder recorder;
   const DamageResult result = run(make_driven_chains(), options, recorder);
-  EXPECT_EQ(result.ending, Ending::completed);
+  EXPECT_EQ(result.termination, Termination::completed);
   EXPECT_THAT(result.reason, HasSubstr("displacement"));
   EXPECT_EQ(recorder.rows.size(), 3u);
 }
@@ -153,7 +153,7 @@ TEST(DamageAnalysis, StopsAtADisplacement) {
 TEST(DamageAnalysis, StopsWhenTheObserverAsks) {
   Recorder recorder({}, 2);
   const DamageResult result = run(make_driven_chains(), {}, recorder);
-  EXPECT_EQ(result.ending, Ending::interrupted);
+  EXPECT_EQ(result.termination, Termination::interrupted);
   EXPECT_EQ(recorder.rows.size(), 2u);
   EXPECT_EQ(recorder.broken_at_end, recorder.row_at_end.broken_bonds);
 }
@@ -169,7 +169,7 @@ TEST(DamageAnalysis, AnObserverThatFailsLeavesWhatWasFound) {
   } observer;
   const AnalysisBody body = make_driven_chains();
   const DamageResult result = run_damage_analysis(body, {}, observer);
-  EXPECT_EQ(result.ending, Ending::failed);
+  EXPECT_EQ(result.termination, Termination::failed);
   EXPECT_EQ(result.reason, "no room");
   EXPECT_EQ(result.last.step, 2);
   EXPECT_GT(result.peak_load, 0.0);
@@ -185,7 +185,7 @@ TEST(DamageAnalysis, StopsWithinAStep) {
   } observer;
   const AnalysisBody body = make_driven_chains();
   const DamageResult result = run_damage_analysis(body, by_steps({0.09}), observer);
-  EXPECT_EQ(result.ending, Ending::interrupted);
+  EXPECT_EQ(result.termination, Termination::interrupted);
   ASSERT_EQ(observer.rows.size(), 1u);
   EXPECT_EQ(observer.rows[0].broken_bonds, 1);
   EXPECT_NEAR(observer.rows[0].load_factor, 0.04, 1e-15);
@@ -197,7 +197,7 @@ TEST(DamageAnalysis, DrivenBodyEndsWhenItsResistanceVanishes) {
   Recorder recorder;
   const AnalysisBody body = make_driven_chains();
   const DamageResult result = run(body, {}, recorder);
-  EXPECT_EQ(result.ending, Ending::collapsed);
+  EXPECT_EQ(result.termination, Termination::collapsed);
   EXPECT_THAT(result.reason, HasSubstr("no longer resists"));
   EXPECT_EQ(result.broken_bonds, 5);
   EXPECT_NEAR(result.initial_stiffness, 5 * 0.5, 1e-14);
@@ -239,7 +239,7 @@ TEST(DamageAnalysis, StepsBreakWhatEventsBreak) {
     broken.push_back(Recorder::broken_bonds(state));
   });
   const DamageResult result = run(body, by_steps({0.01, 0.03, 0.03, 0.05, 0.09}), steps);
-  EXPECT_EQ(result.ending, Ending::completed);
+  EXPECT_EQ(result.termination, Termination::completed);
   EXPECT_EQ(broken, (std::vector<Index>{0, 1, 1, 2, 4}));
   EXPECT_LT(result.energy_error, 1e-14);
   // Unloading breaks nothing.
@@ -253,7 +253,7 @@ TEST(DamageAnalysis, StepsBreakWhatEventsBreak) {
 TEST(DamageAnalysis, StepsCollapseWithinAStep) {
   Recorder recorder;
   const DamageResult result = run(make_square(), by_steps({0.012, 0.016, 0.02}), recorder);
-  EXPECT_EQ(result.ending, Ending::collapsed);
+  EXPECT_EQ(result.termination, Termination::collapsed);
   EXPECT_EQ(result.broken_bonds, 2);
   ASSERT_EQ(recorder.rows.size(), 2u);
   EXPECT_EQ(recorder.rows[1].broken_bonds, 1);
@@ -304,9 +304,10 @@ TEST_P(DamagedBlock, EndsInTwoUnlessSomethingUnbreakableHoldsIt) {
   Recorder recorder({}, most_rows);
   const DamageResult result = run(make_block(GetParam()), {}, recorder);
   // In the small cube the unbreakable bonds of the two faces reach each other.
-  EXPECT_EQ(result.ending, GetParam().bar                                 ? Ending::interrupted
-                           : GetParam().lattice.pattern == Pattern::cubic ? Ending::nothing_breaks
-                                                                          : Ending::collapsed)
+  EXPECT_EQ(result.termination, GetParam().bar ? Termination::interrupted
+                                : GetParam().lattice.pattern == Pattern::cubic
+                                    ? Termination::nothing_breaks
+                                    : Termination::collapsed)
       << result.reason;
 }
 
@@ -320,7 +321,7 @@ TEST_P(DamagedBlock, AllRoutesFindTheSameEvents) {
     options.engine.route = route;
     Recorder recorder({}, most_rows);
     const DamageResult result = run(body, options, recorder);
-    EXPECT_EQ(result.ending, expected.ending) << result.reason;
+    EXPECT_EQ(result.termination, expected.termination) << result.reason;
     ASSERT_EQ(recorder.rows.size(), reference.rows.size()) << word_of(route);
     for (std::size_t k = 0; k < recorder.rows.size(); ++k) {
       ASSERT_EQ(recorder.rows[k].element, reference.rows[k].element) << "row " << k;

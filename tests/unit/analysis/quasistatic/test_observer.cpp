@@ -6,12 +6,12 @@ namespace perilink {
 namespace {
 
 /// The words of summary.json; scripts of users rely on them.
-TEST(Ending, HasAWordForEveryKind) {
-  EXPECT_EQ(to_string(Ending::completed), "completed");
-  EXPECT_EQ(to_string(Ending::collapsed), "collapsed");
-  EXPECT_EQ(to_string(Ending::nothing_breaks), "nothing_breaks");
-  EXPECT_EQ(to_string(Ending::interrupted), "interrupted");
-  EXPECT_EQ(to_string(Ending::failed), "failed");
+TEST(Termination, HasAWordForEveryKind) {
+  EXPECT_EQ(to_string(Termination::completed), "completed");
+  EXPECT_EQ(to_string(Termination::collapsed), "collapsed");
+  EXPECT_EQ(to_string(Termination::nothing_breaks), "nothing_breaks");
+  EXPECT_EQ(to_string(Termination::interrupted), "interrupted");
+  EXPECT_EQ(to_string(Termination::failed), "failed");
 }
 
 /// An observer that only wants the rows needs no more than on_step.

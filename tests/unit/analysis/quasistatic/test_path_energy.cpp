@@ -98,8 +98,8 @@ TEST(PathEnergy, AnEventBesideAConstantForce) {
   EXPECT_DOUBLE_EQ(energy.stored(), 9.0);
   EXPECT_DOUBLE_EQ(energy.external_work(), 2.0 * 3.0 + 0.5 * 4.0 * 3.0);
   EventOutcome outcome = event(0.5, 0.5 * 0.25);  // f'u is 1/2, then 1
-  outcome.growth_beside = {2.0 * 1.0, 2.0};       // twice f_c'u_p, and f_c'u_c
-  outcome.released_beside = {0.5, 0.5};           // e = 1 + lambda / 2
+  outcome.permanent_growth = {2.0 * 1.0, 2.0};    // twice f_c'u_p, and f_c'u_c
+  outcome.released_by_permanent = {0.5, 0.5};     // e = 1 + lambda / 2
   energy.add_event(outcome);
   EXPECT_DOUBLE_EQ(energy.released(), 0.5 * 3.0 * 3.0);
   const double before = energy.external_work();
@@ -118,7 +118,7 @@ TEST(PathEnergy, FreedomBesideAConstantForce) {
   energy.begin_stage(0.0, {0.0, 0.0, false, {}});
   energy.advance(3.0, {0.5, 0.0, false, held});
   const double left = energy.external_work() - energy.stored();
-  energy.add_freedom({0.5, growth_beside(held, freed)});
+  energy.add_freedom({0.5, permanent_growth(held, freed)});
   energy.advance(3.0, {1.0, 0.0, false, freed});
   EXPECT_DOUBLE_EQ(energy.dissipated(), 0.0);
   EXPECT_DOUBLE_EQ(energy.freed(), energy.external_work() - energy.stored() - left);

@@ -17,7 +17,7 @@ using testing::HasSubstr;
 /// each: the first bonds carry 5 w + P.
 TEST(StagedRun, PullsABarUnderItsWeight) {
   AnalysisBody body = make_chains(5, 2, false, 2.0, 0.01);
-  LoadSet weight = set_of(body), pull = set_of(body);
+  LoadCase weight = set_of(body), pull = set_of(body);
   for (Index i = 0; i < body.network.particles.size(); ++i) {
     weight.loads.forces[slot(body, i, 0)] = 1.0;
   }
@@ -26,7 +26,7 @@ TEST(StagedRun, PullsABarUnderItsWeight) {
   const double w = 0.001;
   Recorder recorder;
   const DamageResult result = run(body, in_stages({{0, w, {}}, {1, {}, {}}}), recorder);
-  EXPECT_EQ(result.ending, Ending::collapsed);
+  EXPECT_EQ(result.termination, Termination::collapsed);
   ASSERT_EQ(recorder.rows.size(), 2u);
   const StepRecord &heavy = recorder.rows[0], &pulled = recorder.rows[1];
   EXPECT_EQ(heavy.stage, 1);
@@ -45,7 +45,7 @@ TEST(StagedRun, PullsABarUnderItsWeight) {
   EXPECT_LT(result.energy_error, 1e-12);
   ASSERT_EQ(result.stages.size(), 2u);
   EXPECT_THAT(result.stages[0].reason, HasSubstr("0.001"));
-  EXPECT_EQ(result.stages[1].ending, Ending::collapsed);
+  EXPECT_EQ(result.stages[1].termination, Termination::collapsed);
 }
 
 /// Chains of two bonds of stiffness 2 and limit 0.01, stretched by 0.01, whose middles a force F
@@ -53,7 +53,7 @@ TEST(StagedRun, PullsABarUnderItsWeight) {
 /// slack.
 TEST(StagedRun, LoadsAPrestressedTruss) {
   AnalysisBody body = make_chains(2, 2, true, 2.0, 0.01);
-  LoadSet stretched = set_of(body), pushed = set_of(body);
+  LoadCase stretched = set_of(body), pushed = set_of(body);
   std::fill(pushed.unknowns.prescribed.begin(), pushed.unknowns.prescribed.end(), 0.0);
   for (Index i = 0; i < body.network.particles.size(); ++i) {
     if (std::abs(body.network.particles.position(i)[0] - 1.0) > 0.1) continue;
@@ -63,7 +63,7 @@ TEST(StagedRun, LoadsAPrestressedTruss) {
   body.sets = {stretched, pushed};
   Recorder recorder;
   const DamageResult result = run(body, in_stages({{0, 0.01, {}}, {1, {}, {}}}), recorder);
-  EXPECT_EQ(result.ending, Ending::nothing_breaks);
+  EXPECT_EQ(result.termination, Termination::nothing_breaks);
   ASSERT_EQ(recorder.rows.size(), 3u);
   EXPECT_NEAR(recorder.rows[0].load, 2.0 * 0.01, 1e-15) << "the reaction of two rows";
   EXPECT_NEAR(recorder.rows[0].displacement, 0.01, 1e-17);
@@ -83,7 +83,7 @@ TEST(StagedRun, LoadsAPrestressedTruss) {
 /// that moves them, and driven: bonds are at their limits after another 0.01.
 TEST(StagedRun, GripsABodyWhereItIs) {
   AnalysisBody body = make_chains(2, 2, false, 2.0, 0.01);
-  const LoadSet dead = set_of(body);
+  const LoadCase dead = set_of(body);
   body.sets = {dead, set_of(make_chains(2, 2, true, 2.0, 0.01))};
   Recorder recorder;
   const DamageResult result = run(body, in_stages({{0, 0.01, {}}, {1, {}, {}}}), recorder);
@@ -97,7 +97,7 @@ TEST(StagedRun, GripsABodyWhereItIs) {
   // The other row reaches its limit at the same displacement, and then nothing resists.
   EXPECT_NEAR(recorder.rows[2].displacement, 0.01, 1e-15);
   EXPECT_NEAR(recorder.rows[2].load, 2.0 * 0.01 - 2.0 * 0.01, 1e-15);
-  EXPECT_EQ(result.ending, Ending::collapsed);
+  EXPECT_EQ(result.termination, Termination::collapsed);
   EXPECT_LT(result.energy_error, 1e-12);
 }
 
@@ -108,10 +108,10 @@ TEST(StagedRun, AConstantLoadThatIsTooBigMakesAnAvalanche) {
   body.sets = {set_of(body)};
   Recorder recorder;
   const DamageResult result = run(body, in_stages({{0, 0.03, {}}}), recorder);
-  EXPECT_EQ(result.ending, Ending::collapsed);
+  EXPECT_EQ(result.termination, Termination::collapsed);
   ASSERT_EQ(recorder.rows.size(), 2u);
-  EXPECT_EQ(recorder.rows[0].avalanche, 0);
-  EXPECT_EQ(recorder.rows[1].avalanche, 1);
+  EXPECT_EQ(recorder.rows[0].at_constant_load, 0);
+  EXPECT_EQ(recorder.rows[1].at_constant_load, 1);
   EXPECT_NEAR(recorder.rows[1].load_factor, 0.015, 1e-15);
   EXPECT_EQ(recorder.rows[1].load_factor, recorder.rows[0].load_factor);
   EXPECT_NEAR(recorder.rows[1].external_work - recorder.rows[0].external_work, 0.015 * 0.02, 1e-15);
@@ -124,7 +124,7 @@ TEST(StagedRun, AConstantLoadThatIsTooBigMakesAnAvalanche) {
 /// lambda <= -0.02, the lower bond lambda >= -0.001.
 TEST(StagedRun, WithoutAnAdmissibleLoadFactorElementsBreakAtTheLastOne) {
   AnalysisBody body = make_square();
-  LoadSet dead = set_of(body), growing = set_of(body);
+  LoadCase dead = set_of(body), growing = set_of(body);
   for (Index i = 0; i < 4; ++i) {
     if (body.loads.forces[slot(body, i, 0)] == 0.0) continue;
     const bool upper = body.network.particles.position(i)[1] > 0.5;
@@ -134,14 +134,14 @@ TEST(StagedRun, WithoutAnAdmissibleLoadFactorElementsBreakAtTheLastOne) {
   body.sets = {dead, growing};
   Recorder recorder;
   const DamageResult result = run(body, in_stages({{0, 1.0, {}}, {1, {}, {}}}), recorder);
-  EXPECT_EQ(result.ending, Ending::collapsed);
+  EXPECT_EQ(result.termination, Termination::collapsed);
   ASSERT_EQ(recorder.rows.size(), 3u);
   EXPECT_EQ(recorder.rows[1].element, bond_between(body.network, {0.0, 1.0}, {1.0, 1.0}));
   EXPECT_NEAR(recorder.rows[1].load_factor, 0.03, 1e-15);
-  EXPECT_EQ(recorder.rows[1].avalanche, 0);
+  EXPECT_EQ(recorder.rows[1].at_constant_load, 0);
   EXPECT_EQ(recorder.rows[2].element, bond_between(body.network, {0.0, 0.0}, {1.0, 1.0}));
   EXPECT_EQ(recorder.rows[2].load_factor, recorder.rows[1].load_factor);
-  EXPECT_EQ(recorder.rows[2].avalanche, 1);
+  EXPECT_EQ(recorder.rows[2].at_constant_load, 1);
   EXPECT_LT(result.energy_error, 1e-12);
 }
 
@@ -158,7 +158,7 @@ TEST(StagedRun, EndsAStageByItsOwnRules) {
   Recorder recorder;
   const DamageResult result =
       run(body, in_stages({{0, {}, two}, {0, -0.5, {}}, {0, 0.0, {}}, {0, {}, far}}), recorder);
-  EXPECT_EQ(result.ending, Ending::completed);
+  EXPECT_EQ(result.termination, Termination::completed);
   EXPECT_EQ(result.reason, "the displacement reached 0.08");
   std::vector<double> displacements;
   std::vector<Index> stages;

@@ -66,7 +66,7 @@ TEST(StrainWatch, LooksBeforeTheShortestBondIsAtItsLimit) {
 TEST(StrainWatch, LooksAtBondsOfTheSolidAlone) {
   Pressed body;
   for (double& stretch : body.network.critical_stretch) stretch = 1e-3;
-  body.network.first_tie = 0;
+  body.network.first_slip_spring = 0;
   EXPECT_FALSE(StrainWatch(body.network).is_beyond(body.motion, body.side, intact(body.network)));
 }
 

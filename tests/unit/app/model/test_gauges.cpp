@@ -58,8 +58,8 @@ std::vector<double> linear_displacement(const Model& model) {
 void expect_values_of_linear_displacement(const CaseFile& input) {
   const Model model = build_model(input);
   const std::vector<double> displacement = linear_displacement(model);
-  Csr families;
-  const std::vector<double> values = gauge_values(model, {{}, displacement, 2.0}, families);
+  Csr neighbourhoods;
+  const std::vector<double> values = gauge_values(model, {{}, displacement, 2.0}, neighbourhoods);
   ASSERT_EQ(values.size(), 6u);
   const double du = 0.003 * 30.0 + 0.001 * 40.0, dv = 0.002 * 30.0 - 0.004 * 40.0;
   EXPECT_NEAR(values[0], 2.0 * (du * 0.6 + dv * 0.8), 1e-14);
@@ -94,9 +94,9 @@ TEST(Gauges, AreLinearBetweenParticles) {
     between.between = {{3.0, 21.0, 0.0}, {27.0, 53.0, 0.0}};
     input.gauges.push_back(between);
     const Model model = build_model(input);
-    Csr families;
+    Csr neighbourhoods;
     const std::vector<double> values =
-        gauge_values(model, {{}, linear_displacement(model), 2.0}, families);
+        gauge_values(model, {{}, linear_displacement(model), 2.0}, neighbourhoods);
     for (std::size_t k = 0; k < points.size(); ++k) {
       const double x = std::min(points[k][0], 40.0), y = std::min(points[k][1], 80.0);
       EXPECT_NEAR(values[k], 2.0 * (0.002 * x - 0.004 * y), 1e-14);
@@ -128,8 +128,8 @@ TEST(Gauges, StayOnTheirSideOfACrack) {
     const bool above = model.network.particles.position(i)[1] > 45.0;
     displacement.insert(displacement.end(), {0.0, above ? 1.0 : 0.0});
   }
-  Csr families;
-  EXPECT_NEAR(gauge_values(model, {{}, displacement}, families)[0], 1.0, 1e-14);
+  Csr neighbourhoods;
+  EXPECT_NEAR(gauge_values(model, {{}, displacement}, neighbourhoods)[0], 1.0, 1e-14);
 }
 
 TEST(Gauges, LookPastTheRotationsOfMicropolarParticles) {
@@ -162,11 +162,11 @@ struct Collector final : StepObserver {
   void on_step(const StepRecord& record, StateSource& source) override {
     rows.push_back(record);
     const StepState state = source.state();
-    gauges.push_back(
-        gauge_values(model, {state.secants, state.displacement, record.load_factor}, families));
+    gauges.push_back(gauge_values(model, {state.secants, state.displacement, record.load_factor},
+                                  neighbourhoods));
   }
   const Model& model;
-  Csr families;
+  Csr neighbourhoods;
   std::vector<StepRecord> rows;
   std::vector<std::vector<double>> gauges;
 };

@@ -7,11 +7,11 @@
 namespace perilink {
 namespace {
 
-LoadedPlace pushed(const std::string& name, const Vector3& force) {
+LoadRegion pushed(const std::string& name, const Vector3& force) {
   return {name, force, {}, std::hypot(force[0], force[1], force[2])};
 }
 
-double load_of(const std::vector<LoadedPlace>& places) { return total_load(places); }
+double load_of(const std::vector<LoadRegion>& places) { return total_load(places); }
 
 TEST(TotalLoad, IsThatOfOnePlaceAndOfPlacesSideBySideTheirSum) {
   EXPECT_DOUBLE_EQ(load_of({pushed("a", {3.0, 4.0, 0.0})}), 5.0);
@@ -52,8 +52,8 @@ TEST(TotalLoad, IsAMomentWhereNothingPushes) {
 }
 
 /// Drives component c from low to high.
-DrivenPlace moved(int c, double low, double high) {
-  DrivenPlace place;
+PrescribedRegion moved(int c, double low, double high) {
+  PrescribedRegion place;
   place.drives[c] = true;
   place.low[c] = low;
   place.high[c] = high;
@@ -63,14 +63,14 @@ DrivenPlace moved(int c, double low, double high) {
 constexpr std::array<bool, 6> nothing{};
 constexpr std::array<bool, 6> y_held = {false, true};
 
-double motion_of(const std::vector<DrivenPlace>& places, const std::array<bool, 6>& held) {
+double motion_of(const std::vector<PrescribedRegion>& places, const std::array<bool, 6>& held) {
   return relative_motion(places, held, 2);
 }
 
 TEST(RelativeMotion, OfOnePlaceIsItsDisplacement) {
   EXPECT_DOUBLE_EQ(motion_of({moved(1, -0.2, -0.2)}, y_held), 0.2);
   EXPECT_DOUBLE_EQ(motion_of({moved(1, -0.2, -0.2)}, nothing), 0.2) << "springs or inertia resist";
-  DrivenPlace oblique = moved(0, 3.0, 3.0);
+  PrescribedRegion oblique = moved(0, 3.0, 3.0);
   oblique.drives[1] = true;
   oblique.low[1] = oblique.high[1] = -4.0;
   EXPECT_DOUBLE_EQ(motion_of({oblique}, y_held), 5.0);
@@ -100,7 +100,7 @@ TEST(RelativeMotion, IsARotationWhereNothingIsMoved) {
 }
 
 TEST(PlaceNamed, IsMadeOnce) {
-  std::vector<LoadedPlace> places;
+  std::vector<LoadRegion> places;
   place_named(places, "top").sizes = 1.0;
   place_named(places, "bottom").sizes = 2.0;
   EXPECT_EQ(place_named(places, "top").sizes, 1.0);

@@ -29,7 +29,7 @@ struct Solved {
 TEST(Reactions, OfOneSupportAreTheLoad) {
   const CaseFile input = elastic_strip();
   const Solved solved(input);
-  const std::vector<HeldPlace> places = held_places(input, solved.model);
+  const std::vector<SupportRegion> places = support_regions(input, solved.model);
   ASSERT_EQ(places.size(), 1u);
   EXPECT_EQ(places[0].name, "supports: lower end");
   EXPECT_EQ(places[0].particles.size(), 15u);
@@ -49,7 +49,7 @@ TEST(Reactions, HaveTheMomentOfTheLoadsAboutTheSupport) {
   CaseFile input = elastic_strip();
   input.loads[0].force = {3.0, 0.0, 0.0};
   const Solved solved(input);
-  const std::vector<HeldPlace> places = held_places(input, solved.model);
+  const std::vector<SupportRegion> places = support_regions(input, solved.model);
   const Reaction reaction =
       reaction_on(solved.model, places[0].particles, holding_forces(solved.model, solved.state()));
   const double arm = (60.0 + 70.0 + 0.5 * 80.0) / 2.5 - 10.0;
@@ -64,8 +64,9 @@ TEST(Reactions, OfMicropolarBodiesCountTheMomentsOfHeldRotations) {
   input.supports[0].fix[5] = true;
   input.loads[0].force = {3.0, 0.0, 0.0};
   const Solved solved(input);
-  const Reaction reaction = reaction_on(solved.model, held_places(input, solved.model)[0].particles,
-                                        holding_forces(solved.model, solved.state()));
+  const Reaction reaction =
+      reaction_on(solved.model, support_regions(input, solved.model)[0].particles,
+                  holding_forces(solved.model, solved.state()));
   const double arm = (60.0 + 70.0 + 0.5 * 80.0) / 2.5 - 10.0;
   EXPECT_NEAR(reaction.moment[2], 3.0 * arm, 1e-9);
 }
@@ -84,7 +85,7 @@ TEST(Reactions, OfAllPlacesBalanceTheLoads) {
   input.springs.push_back(spring);
   input.loads[0].force = {2.0, 12.0, 0.0};
   const Solved solved(input);
-  const std::vector<HeldPlace> places = held_places(input, solved.model);
+  const std::vector<SupportRegion> places = support_regions(input, solved.model);
   ASSERT_EQ(places.size(), 2u);
   EXPECT_EQ(places[0].name, "symmetry: x = 0");
   EXPECT_EQ(places[1].name, "springs: lower end");
@@ -105,7 +106,7 @@ TEST(Reactions, GrowWithTheLoadFactor) {
   const Solved solved(input);
   const std::vector<double> forces = holding_forces(solved.model, {{}, solved.motion, 3.0, 3.0});
   const Reaction reaction =
-      reaction_on(solved.model, held_places(input, solved.model)[0].particles, forces);
+      reaction_on(solved.model, support_regions(input, solved.model)[0].particles, forces);
   EXPECT_NEAR(reaction.force[1], -36.0, 1e-10);
 }
 
@@ -124,7 +125,7 @@ TEST(Reactions, OfSpringsCountParticlesAroundTheirFacets) {
   spring.stiffness = Vector3{10.0, 100.0, 0.0};
   input.springs.push_back(spring);
   const Solved solved(input);
-  const std::vector<HeldPlace> places = held_places(input, solved.model);
+  const std::vector<SupportRegion> places = support_regions(input, solved.model);
   ASSERT_EQ(places.size(), 2u);
   EXPECT_EQ(places[1].particles.size(), 3u);
   const Reaction sum = reaction_table(places, solved.model, solved.state()).sum;
@@ -140,26 +141,26 @@ TEST(Reactions, OutOfBalanceAreReportedOnce) {
   sum.force[0] = 0.9e-6;
   ReactionBalance balance;
   balance.add(1, sum, 10.0, 1e-8);
-  EXPECT_FALSE(balance.doubt());
+  EXPECT_FALSE(balance.warning());
   sum.moment[2] = 20.0;
   balance.add(7, sum, 10.0, 1e-8);
   sum.moment[2] = 30.0;
   balance.add(8, sum, 10.0, 1e-8);
-  ASSERT_TRUE(balance.doubt());
-  EXPECT_NE(balance.doubt()->find("row 7 are out of balance by 0.02"), std::string::npos)
-      << *balance.doubt();
+  ASSERT_TRUE(balance.warning());
+  EXPECT_NE(balance.warning()->find("row 7 are out of balance by 0.02"), std::string::npos)
+      << *balance.warning();
   ReactionBalance loose;
   loose.add(7, sum, 10.0, 0.05);
-  EXPECT_FALSE(loose.doubt()) << "within what the iterations leave";
+  EXPECT_FALSE(loose.warning()) << "within what the iterations leave";
   sum.force_size = 0.0;
   sum.moment_size = 1000.0;
   sum.moment = {};
   ReactionBalance moments;
   moments.add(1, sum, 10.0, 1e-7);
-  EXPECT_FALSE(moments.doubt()) << "round-off of forces beside moments";
+  EXPECT_FALSE(moments.warning()) << "round-off of forces beside moments";
   sum.force[0] = NAN;
   loose.add(8, sum, 10.0, 0.05);
-  EXPECT_TRUE(loose.doubt());
+  EXPECT_TRUE(loose.warning());
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ TEST(BarFile, HasARowForEverySegmentAlongEachBar) {
   network.bonds.second = {1, 2, 4};
   network.bonds.lengths = {2, 1, 3};
   network.stiffness = {1, 1, 1};
-  network.first_segment = 0;
+  network.first_bar_element = 0;
   network.bars = {{1, 1, 1}, {0, 0, 1}, {0, 0, 0}};
   const BarState state{{0.1, 0.2, 0.3}, {1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {0.5, 0.25, 0}};
   EXPECT_EQ(bar_table(network, state),

@@ -20,8 +20,8 @@ Network make_square() {
   for (const auto& [i, j] : ends) network.bonds.append(network.particles, i, j);
   network.stiffness.assign(6, 2.0);
   network.critical_stretch.assign(6, 1.0);
-  network.first_tie = 4;
-  network.first_segment = 5;
+  network.first_slip_spring = 4;
+  network.first_bar_element = 5;
   network.laws.push_back(BondLaw::plateau());
   network.law_of = {0, 0, 0, 0, 0, 1};
   return network;
@@ -32,11 +32,11 @@ class FieldFile : public ::testing::Test {
   FieldFile() {
     secants_[3] = secants_[4] = 0.0;  // broken
     grid_ = make_field_grid(network_, secants_, motion_, {5, 2, 0.5, 7.0, 1.0, 0.25, 2.0},
-                            std::vector<Index>{3, 4}, families_);
+                            std::vector<Index>{3, 4}, neighbourhoods_);
   }
 
   Network network_ = make_square();
-  Csr families_ = bonds_of_particles(network_.bonds, 6);
+  Csr neighbourhoods_ = bonds_of_particles(network_.bonds, 6);
   std::vector<double> secants_ = std::vector<double>(6, 1.0);
   std::vector<double> motion_ = {0, 0, 0.1, 0, 0, 0, 0.1, 0, 0.05, 0, 0.09, 0};
   VtuGrid grid_;
@@ -107,7 +107,7 @@ TEST_F(FieldFile, ShowsTheRotationsOfMicropolarBodies) {
     motion.insert(motion.end(), {motion_[2 * i], motion_[2 * i + 1], 0.1 * i});
   }
   const VtuGrid grid = make_field_grid(network_, secants_, motion, {5, 2, 0.5, 7.0, 1.0},
-                                       std::vector<Index>{3, 4}, families_);
+                                       std::vector<Index>{3, 4}, neighbourhoods_);
   EXPECT_EQ(grid.find_point_data("displacement")->values,
             grid_.find_point_data("displacement")->values);
   EXPECT_EQ(grid.find_point_data("principal_strain")->values,

@@ -54,12 +54,14 @@ TEST(FieldPieces, HoldTheFieldsOfTheWholeBody) {
   ASSERT_TRUE(shared.pattern);
   const ElasticAnswer alone = solve_elastic(whole, {});
   const FieldMoment moment{1, 0, 1.0, 12.0, 10.0};
-  const Csr families = bonds_of_particles(whole.network.bonds, whole.network.particles.size());
+  const Csr neighbourhoods =
+      bonds_of_particles(whole.network.bonds, whole.network.particles.size());
   const std::vector<double> intact(static_cast<std::size_t>(whole.network.num_elements()), 1.0);
   const std::vector<double>& u = alone.solution.displacement;
-  VtuGrid expected = make_field_grid(whole.network, intact, u, moment, {}, families);
+  VtuGrid expected = make_field_grid(whole.network, intact, u, moment, {}, neighbourhoods);
   add_stresses(expected,
-               particle_stresses({whole.network, families, whole.problem, whole.hooke}, u), 2);
+               particle_stresses({whole.network, neighbourhoods, whole.problem, whole.hooke}, u),
+               2);
   const test::TemporaryDirectory folder;
   const std::string stem = (folder / "fields_000001").string();
   test::with_thread_ranks(

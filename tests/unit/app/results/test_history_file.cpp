@@ -167,7 +167,7 @@ TEST_F(HistoryFileTest, TablesWithoutLoadAreRefused) {
 TEST_F(HistoryFileTest, StagesHaveColumns) {
   StepRecord record = make_record();
   record.stage = 2;
-  record.avalanche = 1;
+  record.at_constant_load = 1;
   record.side_change = 1;
   {
     CaseFile input;
@@ -181,7 +181,7 @@ TEST_F(HistoryFileTest, StagesHaveColumns) {
   EXPECT_EQ(table.columns[14], "avalanche");
   const StepRecord back = read_history(directory_ + "/history.csv").at(0);
   EXPECT_EQ(back.stage, 2);
-  EXPECT_EQ(back.avalanche, 1);
+  EXPECT_EQ(back.at_constant_load, 1);
   EXPECT_EQ(back.side_change, 1);
 }
 

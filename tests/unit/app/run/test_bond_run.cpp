@@ -197,9 +197,9 @@ TEST_F(BondRunTest, DoubtsABodyThatFliesApart) {
   const test::WholeRun run(replaced(text, "duration = 8", "duration = 16"));
   const auto& json = run.summary.json;
   EXPECT_GT(json["kinetic_energy"].get<double>(), 0.9 * json["external_work"].get<double>());
-  EXPECT_THAT(run.summary.doubts,
+  EXPECT_THAT(run.summary.warnings,
               testing::Contains(testing::HasSubstr("a piece of the body is held by nothing")));
-  EXPECT_EQ(json["doubts"], run.summary.doubts);
+  EXPECT_EQ(json["doubts"], run.summary.warnings);
   EXPECT_THAT(run.summary.text, testing::HasSubstr("held by nothing"));
 }
 
@@ -212,9 +212,9 @@ TEST_F(BondRunTest, ABodyOnSpringsIsHeld) {
   const test::WholeRun run(
       replaced(replaced(text, "duration = 8", "duration = 2.5"), "[4]", "[1]"));
   EXPECT_EQ(run.summary.json["broken_bonds"], 0);
-  const std::vector<std::string>& doubts = run.summary.doubts;
-  EXPECT_THAT(doubts, testing::Contains(testing::HasSubstr("is kinetic energy at the end")));
-  EXPECT_THAT(doubts, testing::Not(testing::Contains(testing::HasSubstr("held by nothing"))));
+  const std::vector<std::string>& warnings = run.summary.warnings;
+  EXPECT_THAT(warnings, testing::Contains(testing::HasSubstr("is kinetic energy at the end")));
+  EXPECT_THAT(warnings, testing::Not(testing::Contains(testing::HasSubstr("held by nothing"))));
 }
 
 TEST_F(BondRunTest, SummaryTellsHowItEnded) {

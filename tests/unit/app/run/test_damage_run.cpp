@@ -173,7 +173,7 @@ TEST_F(DamageRunTest, YieldingBreaksNothing) {
   const auto observer = make_run();
   row(*observer, 17);
   fail(17);
-  row(*observer, model_.network.first_segment + 2);
+  row(*observer, model_.network.first_bar_element + 2);
   ++record_.yield_events;
   row(*observer, 8);
   fail(8);

@@ -69,7 +69,7 @@ TEST(ElasticRun, TellsTheForcesOfItsPlaces) {
 
 /// The middle of the strip, 40 long, is stretched or sheared.
 TEST(ElasticRun, DoubtsStrainsAndRotationsAboveATenth) {
-  const auto doubts = [](int axis, double value) {
+  const auto warnings = [](int axis, double value) {
     CaseFile input = elastic_case();
     input.loads.clear();
     DisplacementSection driven;
@@ -80,8 +80,8 @@ TEST(ElasticRun, DoubtsStrainsAndRotationsAboveATenth) {
     return test::WholeRun(input).summary.json["doubts"];
   };
   for (const int axis : {0, 1}) {
-    EXPECT_TRUE(doubts(axis, 2.0).empty());
-    const auto found = doubts(axis, 8.0);
+    EXPECT_TRUE(warnings(axis, 2.0).empty());
+    const auto found = warnings(axis, 8.0);
     ASSERT_EQ(found.size(), 1u);
     EXPECT_NE(found[0].get<std::string>().find("by more than a tenth"), std::string::npos);
   }

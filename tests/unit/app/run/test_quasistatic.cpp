@@ -11,7 +11,7 @@ namespace {
 
 DamageResult some_result() {
   DamageResult result;
-  result.ending = Ending::collapsed;
+  result.termination = Termination::collapsed;
   result.reason = "the body \"separated\"";
   result.last.step = 9;
   result.last.yield_events = 2;
@@ -95,14 +95,14 @@ TEST(Equilibria, AreToldToPeople) {
                            "0.1875 of the smooth curve", "(0, -0.25) by upper platen"}) {
     EXPECT_THAT(summary.text, testing::HasSubstr(part));
   }
-  EXPECT_THAT(summary.doubts, testing::ElementsAre(testing::HasSubstr("up to 0.5 of the work")));
+  EXPECT_THAT(summary.warnings, testing::ElementsAre(testing::HasSubstr("up to 0.5 of the work")));
   EXPECT_EQ(summary.outcome, "8 broken bonds, 2 factorisations, largest residual 1.00e-14");
 }
 
 TEST(Equilibria, OfAnElasticAnswerAreOneRowWithoutBreaks) {
   CaseFile input = test::strip_case();
   const ElasticAnswer answer = solve_elastic(build_model(input), {});
-  EXPECT_EQ(answer.ending, Ending::completed);
+  EXPECT_EQ(answer.termination, Termination::completed);
   const Equilibria found(answer);
   EXPECT_EQ(found.last.step, 1);
   EXPECT_EQ(found.peaks.highest().load, 12.0);
@@ -119,17 +119,17 @@ TEST(Equilibria, OfAnElasticAnswerTellWhatIsMissing) {
   EXPECT_EQ(Equilibria(answer).energy_error, 0.25);
 }
 
-TEST(PlaceForces, OfLoadsAreTheirForcesAtTheLoadFactor) {
+TEST(RegionForces, OfLoadsAreTheirForcesAtTheLoadFactor) {
   const Model model = build_model(test::free_strip_case());
   EXPECT_TRUE(has_several_places(model));
-  const std::vector<PlaceForce> places = place_forces(model, 0.5, {}, {});
+  const std::vector<RegionForce> places = region_forces(model, 0.5, {}, {});
   ASSERT_EQ(places.size(), 2u);
   EXPECT_EQ(places[0].force, (std::vector<double>{0.0, 6.0}));
   EXPECT_EQ(places[1].force, (std::vector<double>{0.0, -6.0}));
 }
 
 /// Round-off across the pull is shown as zero.
-TEST(PlaceForces, OfDrivenPlacesHaveNoRoundOffAcrossThePull) {
+TEST(RegionForces, OfDrivenPlacesHaveNoRoundOffAcrossThePull) {
   const Model model = build_model(parse_case(R"(
 [body]
 spacing = 1
@@ -165,7 +165,7 @@ type = "elastic"
 )",
                                              ""));
   const ElasticAnswer answer = solve_elastic(model, {});
-  const std::vector<PlaceForce> places = place_forces(
+  const std::vector<RegionForce> places = region_forces(
       model, 1.0, std::vector<double>(static_cast<std::size_t>(model.network.num_elements()), 1.0),
       answer.solution.displacement);
   ASSERT_EQ(places.size(), 2u);

@@ -57,7 +57,7 @@ TEST_F(RelaxationRun, TakesAboutAsLongAsExpected) {
 
 TEST_F(RelaxationRun, SummaryTellsHowItEnded) {
   const test::WholeRun run(input_);
-  EXPECT_THAT(run.summary.doubts, testing::IsEmpty());
+  EXPECT_THAT(run.summary.warnings, testing::IsEmpty());
   const auto& json = run.summary.json;
   EXPECT_EQ(json["status"], "completed") << json["reason"];
   EXPECT_GT(json["iterations"], 0);

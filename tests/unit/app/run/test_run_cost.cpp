@@ -76,12 +76,12 @@ TEST(RunCost, ADraftHasTheSizesOfTheModel) {
 TEST(RunCost, CountsTheMemoryOfParticlesAndBonds) {
   Model draft = draft_model(test::strip_case());
   Network& network = draft.network;
-  const double single = expected_cost_of_boxes(network, false).memory;
+  const double single = expected_cost_of_subdomains(network, false).memory;
   EXPECT_GT(single, 800.0 * network.particles.size() + 60.0 * network.num_elements());
   share_directions(network.bonds);
   ASSERT_FALSE(network.bonds.kind.empty());
-  EXPECT_NEAR(single - expected_cost_of_boxes(network, false).memory, 28.0 * network.num_elements(),
-              1.0);
+  EXPECT_NEAR(single - expected_cost_of_subdomains(network, false).memory,
+              28.0 * network.num_elements(), 1.0);
 }
 
 TEST(RunCost, CalibrationsHaveTheBondsInMemory) {

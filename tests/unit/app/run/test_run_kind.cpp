@@ -18,15 +18,15 @@ class Stub final : public RunKind {
  public:
   using RunKind::RunKind;
   void analyse() override {}
-  Verdict verdict() override { return {ending, reason}; }
+  RunOutcome run_outcome() override { return {termination, reason}; }
   void tell(Summary& summary) const override {
     summary.add("own", 1.5);
     summary.line("own", "{} of its own", 1.5);
     summary.add_note("known late");
-    summary.doubts = {"a doubt"};
+    summary.warnings = {"a doubt"};
     summary.rate = "7 per s";
   }
-  Ending ending = Ending::collapsed;
+  Termination termination = Termination::collapsed;
   std::string reason = "the body \"separated\"";
 };
 
@@ -66,13 +66,13 @@ TEST(RunKind, StandsInTheFrameOfAllSummaries) {
 TEST(RunKind, NamesEveryEnding) {
   const CaseFile input = test::strip_case();
   Stub run(input, 1);
-  for (const auto& [ending, word] :
-       std::vector<std::pair<Ending, std::string>>{{Ending::completed, "completed"},
-                                                   {Ending::collapsed, "collapsed"},
-                                                   {Ending::nothing_breaks, "nothing_breaks"},
-                                                   {Ending::interrupted, "interrupted"},
-                                                   {Ending::failed, "failed"}}) {
-    run.ending = ending;
+  for (const auto& [termination, word] : std::vector<std::pair<Termination, std::string>>{
+           {Termination::completed, "completed"},
+           {Termination::collapsed, "collapsed"},
+           {Termination::nothing_breaks, "nothing_breaks"},
+           {Termination::interrupted, "interrupted"},
+           {Termination::failed, "failed"}}) {
+    run.termination = termination;
     EXPECT_EQ(summary_of(run, "").json["status"], word);
   }
 }

@@ -20,57 +20,58 @@ DamageResult result_of(const std::vector<CurvePoint>& rows) {
   return result;
 }
 
-TEST(PeakDoubt, SaysBothPeaksOfALoadThatClimbedAgain) {
+TEST(PeakWarning, SaysBothPeaksOfALoadThatClimbedAgain) {
   const PeakWatch peaks = result_of({{0.1, 3320}, {0.2, 900}, {5.0, 11314}}).peaks;
-  const auto doubt = text_of_peaks(peaks, false);
-  ASSERT_TRUE(doubt);
-  EXPECT_THAT(*doubt, HasSubstr("residual strength: the load reached 3320 at displacement 0.1 "
-                                "(peak_load), it fell or a crack went through the body, and the "
-                                "load climbed again, to 11314 at 5 (largest_load)"));
+  const auto warning = text_of_peaks(peaks, false);
+  ASSERT_TRUE(warning);
+  EXPECT_THAT(*warning, HasSubstr("residual strength: the load reached 3320 at displacement 0.1 "
+                                  "(peak_load), it fell or a crack went through the body, and the "
+                                  "load climbed again, to 11314 at 5 (largest_load)"));
   EXPECT_THAT(text_of_peaks(peaks, true).value(),
               testing::AllOf(HasSubstr("reached 3320 at displacement 0.1 (first_peak_load)"),
                              HasSubstr("climbed again, to 11314 at 5 (peak_load)")));
 }
 
-TEST(PeakDoubt, IsSilentWhereTheFirstPeakIsTheHighest) {
+TEST(PeakWarning, IsSilentWhereTheFirstPeakIsTheHighest) {
   EXPECT_FALSE(text_of_peaks(result_of({{0.1, 3320}, {0.2, 900}, {5.0, 3319}}).peaks, false));
   EXPECT_FALSE(text_of_peaks(result_of({{0.1, 3320}, {0.2, 1700}, {5.0, 11314}}).peaks, false))
       << "it never fell below half";
 }
 
 /// The lower end is held, the upper one pulled by a force.
-TEST(GripNote, CountsBondsThatBreakAtParticlesWithPrescribedDisplacements) {
+TEST(ClampNote, CountsBondsThatBreakAtParticlesWithPrescribedDisplacements) {
   const Model model = build_model(test::strip_case());
   const Bonds& bonds = model.network.bonds;
-  std::vector<Index> at_grip, elsewhere;
+  std::vector<Index> at_clamp, elsewhere;
   for (Index b = 0; b < bonds.size(); ++b) {
     const double lower = std::min(model.network.particles.position(bonds.first[b])[1],
                                   model.network.particles.position(bonds.second[b])[1]);
-    (lower <= 20.0 ? at_grip : elsewhere).push_back(b);
+    (lower <= 20.0 ? at_clamp : elsewhere).push_back(b);
   }
-  EXPECT_EQ(note_of_grips(model, {}), std::nullopt);
-  EXPECT_EQ(note_of_grips(model, elsewhere), std::nullopt);
-  const std::vector<Index> broken = {elsewhere[0], at_grip[0], elsewhere[1], at_grip[1]};
-  EXPECT_THAT(note_of_grips(model, broken).value(),
+  EXPECT_EQ(note_of_clamps(model, {}), std::nullopt);
+  EXPECT_EQ(note_of_clamps(model, elsewhere), std::nullopt);
+  const std::vector<Index> broken = {elsewhere[0], at_clamp[0], elsewhere[1], at_clamp[1]};
+  EXPECT_THAT(note_of_clamps(model, broken).value(),
               HasSubstr("2 of 4 broken bonds end at particles of [[supports]]"));
 }
 
 /// The lower end of the strip is held; only bonds that broke after the body gave way count.
-TEST(PeakDoubt, CountsLaterBondsAtGrips) {
+TEST(PeakWarning, CountsLaterBondsAtGrips) {
   const Model model = build_model(test::strip_case());
   const Bonds& bonds = model.network.bonds;
-  std::vector<Index> at_grip, elsewhere;
+  std::vector<Index> at_clamp, elsewhere;
   for (Index b = 0; b < bonds.size(); ++b) {
     const double lower = std::min(model.network.particles.position(bonds.first[b])[1],
                                   model.network.particles.position(bonds.second[b])[1]);
-    (lower <= 20.0 ? at_grip : elsewhere).push_back(b);
+    (lower <= 20.0 ? at_clamp : elsewhere).push_back(b);
   }
   DamageResult result = result_of({{0.1, 3320}, {0.2, 900}, {5.0, 11314}});
   result.broken_as_gave_way = 2;
-  const std::vector<Index> torn = {at_grip[0], elsewhere[0], at_grip[1], at_grip[2], elsewhere[1]};
+  const std::vector<Index> torn = {at_clamp[0], elsewhere[0], at_clamp[1], at_clamp[2],
+                                   elsewhere[1]};
   EXPECT_THAT(text_of_peaks(result, model, torn).value(),
               HasSubstr("2 of the 3 bonds that broke since then end at particles of [[supports]]"));
-  const std::vector<Index> sound = {at_grip[0], at_grip[1], elsewhere[0]};
+  const std::vector<Index> sound = {at_clamp[0], at_clamp[1], elsewhere[0]};
   EXPECT_THAT(text_of_peaks(result, model, sound).value(), Not(HasSubstr("supports")));
   EXPECT_FALSE(text_of_peaks(result_of({{0.1, 3320}}), model, torn));
 }

@@ -20,19 +20,19 @@ ExplicitResult sound() {
   return result;
 }
 
-TEST(RunDoubts, AreNoneWhereEnergyAndForcesBalance) {
-  EXPECT_THAT(doubts_about(sound(), {104.0}), IsEmpty());
+TEST(RunWarnings, AreNoneWhereEnergyAndForcesBalance) {
+  EXPECT_THAT(warnings_about(sound(), {104.0}), IsEmpty());
 }
 
-TEST(RunDoubts, NameEnergyThatIsTooMuch) {
+TEST(RunWarnings, NameEnergyThatIsTooMuch) {
   ExplicitResult result = sound();
   result.largest_surplus = 0.13;
-  EXPECT_THAT(doubts_about(result, {100.0}), ElementsAre(HasSubstr("up to 13 % of the work")));
+  EXPECT_THAT(warnings_about(result, {100.0}), ElementsAre(HasSubstr("up to 13 % of the work")));
 }
 
-TEST(RunDoubts, NameALoadThatTheSupportsDoNotFeel) {
-  EXPECT_THAT(doubts_about(sound(), {107.0}), ElementsAre(HasSubstr("differ by 7 %")));
-  EXPECT_THAT(doubts_about(sound(), {94.0}), ElementsAre(HasSubstr("differ by 6 %")));
+TEST(RunWarnings, NameALoadThatTheSupportsDoNotFeel) {
+  EXPECT_THAT(warnings_about(sound(), {107.0}), ElementsAre(HasSubstr("differ by 7 %")));
+  EXPECT_THAT(warnings_about(sound(), {94.0}), ElementsAre(HasSubstr("differ by 6 %")));
 }
 
 /// 30 of its energy of 100 are motion.
@@ -42,20 +42,20 @@ ExplicitResult moving() {
   return result;
 }
 
-TEST(RunDoubts, NameWorkThatIsStillMotion) {
+TEST(RunWarnings, NameWorkThatIsStillMotion) {
   ExplicitResult result = moving();
-  EXPECT_THAT(doubts_about(result, {100.0}),
+  EXPECT_THAT(warnings_about(result, {100.0}),
               ElementsAre(HasSubstr("30 % of the work is kinetic energy at the end: the body, or "
                                     "pieces of it, move freely")));
-  EXPECT_THAT(doubts_about(result, {100.0, false, 0.0, 1}),
+  EXPECT_THAT(warnings_about(result, {100.0, false, 0.0, 1}),
               ElementsAre(HasSubstr("a piece of the body is held by nothing")));
-  EXPECT_THAT(doubts_about(result, {100.0, false, 0.0, 2}),
+  EXPECT_THAT(warnings_about(result, {100.0, false, 0.0, 2}),
               ElementsAre(HasSubstr("2 pieces of the body are held by nothing")));
   result.last.energy.kinetic = 7.0;  // 77 in all
-  EXPECT_THAT(doubts_about(result, {100.0}), IsEmpty());
+  EXPECT_THAT(warnings_about(result, {100.0}), IsEmpty());
 }
 
-TEST(RunDoubts, NameCompressionBeyondTenTimesTheTensileStrength) {
+TEST(RunWarnings, NameCompressionBeyondTenTimesTheTensileStrength) {
   Network network;
   network.particles.material = {0, 1, no_index, 0};
   network.strengths = {{4.0}, {}};  // the second material cannot break
@@ -64,16 +64,16 @@ TEST(RunDoubts, NameCompressionBeyondTenTimesTheTensileStrength) {
   const Compression at_peak = largest_compression(network, principal);
   EXPECT_EQ(at_peak.stress, 41.0);
   EXPECT_EQ(at_peak.times, 10.25);
-  EXPECT_THAT(doubt_about_compression(at_peak).value(),
+  EXPECT_THAT(warning_about_compression(at_peak).value(),
               AllOf(HasSubstr("no crushing law"), HasSubstr("is 41, 10.2 times the tensile")));
-  EXPECT_FALSE(doubt_about_compression({39.0, 9.75}));
+  EXPECT_FALSE(warning_about_compression({39.0, 9.75}));
   network.laws = {BondLaw::brittle().crushing({{1.0, 1.0}}, 1.0, false)};
   EXPECT_EQ(largest_compression(network, principal).stress, 0.0) << "it can crush";
 }
 
 /// Two bonds of length 2 and stiffness 3 with teeth that take 0.05 and 0.95 of 10 (their areas over
 /// the square of the critical stretch).
-TEST(RunDoubts, NameEnergyThatSofteningTakesBesideTheCracks) {
+TEST(RunWarnings, NameEnergyThatSofteningTakesBesideTheCracks) {
   const BondLaw law = BondLaw::saw_tooth({{1.0, 1.0}, {0.5, std::sqrt(19.0)}});
   Network network;
   network.laws = {law};
@@ -81,37 +81,37 @@ TEST(RunDoubts, NameEnergyThatSofteningTakesBesideTheCracks) {
   network.critical_stretch = {0.1, 0.1, 0.1};
   network.bonds.first = network.bonds.second = {0, 0, 0};
   network.bonds.lengths = {2.0, 2.0, 2.0};
-  network.first_tie = 3;
+  network.first_slip_spring = 3;
   const std::vector<double> secants = {0.5, 0.0, 1.0};
   const SoftenedEnergy energy = softened_energy(network, secants);
   const double scale = 0.5 * 3.0 * 0.2 * 0.2;
   EXPECT_NEAR(energy.diffuse, scale * 0.5, 1e-14);
   EXPECT_NEAR(energy.cracks, scale * 10.0, 1e-14);
-  EXPECT_FALSE(doubt_about_diffuse_softening(energy));
-  EXPECT_THAT(doubt_about_diffuse_softening({10.0, 1.5}).value(),
+  EXPECT_FALSE(warning_about_diffuse_softening(energy));
+  EXPECT_THAT(warning_about_diffuse_softening({10.0, 1.5}).value(),
               AllOf(HasSubstr("dissipated 1.5, 15 % of"), HasSubstr("a twentieth to a thirtieth")));
-  EXPECT_FALSE(doubt_about_diffuse_softening({0.0, 1.5})) << "nothing has cracked";
+  EXPECT_FALSE(warning_about_diffuse_softening({0.0, 1.5})) << "nothing has cracked";
   network.cut_elements = {1};
   EXPECT_EQ(softened_energy(network, secants).cracks, 0.0) << "a pre-crack";
 }
 
-TEST(RunDoubts, LeaveImpactsAndRunsThatWereCutShortAlone) {
+TEST(RunWarnings, LeaveImpactsAndRunsThatWereCutShortAlone) {
   ExplicitResult result = moving();
-  EXPECT_THAT(doubts_about(result, {100.0, true, 1.0}), IsEmpty());
-  result.ending = Ending::interrupted;
-  EXPECT_THAT(doubts_about(result, {100.0, false, 1.0}), IsEmpty());
+  EXPECT_THAT(warnings_about(result, {100.0, true, 1.0}), IsEmpty());
+  result.termination = Termination::interrupted;
+  EXPECT_THAT(warnings_about(result, {100.0, false, 1.0}), IsEmpty());
 }
 
-TEST(RunDoubts, NameRunsThatEndBeforeAWaveIsBack) {
+TEST(RunWarnings, NameRunsThatEndBeforeAWaveIsBack) {
   ExplicitResult result = sound();
   result.last.time = 0.3;
-  EXPECT_THAT(doubts_about(result, {100.0, false, 0.29}), IsEmpty());
-  EXPECT_THAT(doubts_about(result, {100.0, false, 0.5}),
+  EXPECT_THAT(warnings_about(result, {100.0, false, 0.29}), IsEmpty());
+  EXPECT_THAT(warnings_about(result, {100.0, false, 0.5}),
               ElementsAre(HasSubstr("before a wave has gone along the body and back, which takes "
                                     "0.5")));
 }
 
-TEST(RunDoubts, TakeTheFastestMaterialForWaves) {
+TEST(RunWarnings, TakeTheFastestMaterialForWaves) {
   CaseFile input;
   input.materials.resize(2);
   input.materials[0].youngs_modulus = 9.0;
@@ -124,68 +124,68 @@ TEST(RunDoubts, TakeTheFastestMaterialForWaves) {
   EXPECT_TRUE(run_facts(input, 6.0, 0.0).impact);
 }
 
-TEST(RunDoubts, LeaveSupportsOfSymmetryAlone) {
+TEST(RunWarnings, LeaveSupportsOfSymmetryAlone) {
   ExplicitResult result = sound();
-  EXPECT_THAT(doubts_about(result, {500.0}), IsEmpty());
+  EXPECT_THAT(warnings_about(result, {500.0}), IsEmpty());
   result.peak_load = 0.0;
-  EXPECT_THAT(doubts_about(result, {0.0}), IsEmpty());
-  EXPECT_THAT(doubts_about(result, {50.0}), IsEmpty());
+  EXPECT_THAT(warnings_about(result, {0.0}), IsEmpty());
+  EXPECT_THAT(warnings_about(result, {50.0}), IsEmpty());
 }
 
-TEST(RunDoubts, AreNoneWhereEquilibriaAreExactButForRoundOff) {
-  EXPECT_THAT(doubts_of_balance(1e-9, 1e-9), IsEmpty());
+TEST(RunWarnings, AreNoneWhereEquilibriaAreExactButForRoundOff) {
+  EXPECT_THAT(warnings_of_balance(1e-9, 1e-9), IsEmpty());
 }
 
-TEST(RunDoubts, NameEnergiesAndForcesOutOfBalance) {
-  EXPECT_THAT(doubts_of_balance(0.99, 0.0), ElementsAre(HasSubstr("up to 0.99 of the work")));
-  EXPECT_THAT(doubts_of_balance(0.99, 3e-6),
+TEST(RunWarnings, NameEnergiesAndForcesOutOfBalance) {
+  EXPECT_THAT(warnings_of_balance(0.99, 0.0), ElementsAre(HasSubstr("up to 0.99 of the work")));
+  EXPECT_THAT(warnings_of_balance(0.99, 3e-6),
               ElementsAre(HasSubstr("of the work"), HasSubstr("up to 3e-06 of the load")));
 }
 
 /// A smaller tolerance helps only where the tolerance ended the iterations.
-TEST(RunDoubts, TellRoundOffFromIterationsThatEndedEarly) {
+TEST(RunWarnings, TellRoundOffFromIterationsThatEndedEarly) {
   EXPECT_THAT(
-      doubts_of_balance(0.0, 1e-3, 1e-4),
+      warnings_of_balance(0.0, 1e-3, 1e-4),
       ElementsAre(AllOf(HasSubstr("up to 0.001 of the load"), HasSubstr("an error of 0.0001"),
                         HasSubstr("a smaller `tolerance`"))));
-  EXPECT_THAT(doubts_of_balance(0.0, 1e-3, 1e-10), ElementsAre(HasSubstr("close to singular")));
-  EXPECT_THAT(doubts_of_balance(0.0, 1e-8, 1e-10), IsEmpty());
+  EXPECT_THAT(warnings_of_balance(0.0, 1e-3, 1e-10), ElementsAre(HasSubstr("close to singular")));
+  EXPECT_THAT(warnings_of_balance(0.0, 1e-8, 1e-10), IsEmpty());
 }
 
 /// Work is summed over load steps; what breaks between them may take more.
-TEST(RunDoubts, SeeEnergyThatNoLoadStepBroughtIn) {
+TEST(RunWarnings, SeeEnergyThatNoLoadStepBroughtIn) {
   EnergyBalance energy;
   energy.external_work = 2.8;
   energy.stored = 2.8;
-  EXPECT_THAT(doubts_at_rest(energy), IsEmpty());
+  EXPECT_THAT(warnings_at_rest(energy), IsEmpty());
   energy.fractured = 9.2;
-  EXPECT_THAT(doubts_at_rest(energy),
+  EXPECT_THAT(warnings_at_rest(energy),
               ElementsAre(AllOf(HasSubstr("12 is stored and dissipated"), HasSubstr("2.8 only"))));
 }
 
-TEST(RunDoubts, SeePeaksThatLieBeyondSmallDisplacements) {
-  EXPECT_EQ(doubt_about_size({9.0, 500.0}, 100.0), std::nullopt);
-  EXPECT_EQ(doubt_about_size({-10.0, 500.0}, 100.0), std::nullopt);
-  const auto doubt = doubt_about_size({-198.0, 5e6}, 100.0);
-  ASSERT_TRUE(doubt);
-  EXPECT_THAT(*doubt, AllOf(HasSubstr("5e+06 at displacement -198"),
-                            HasSubstr("by 2 of its longest side")));
+TEST(RunWarnings, SeePeaksThatLieBeyondSmallDisplacements) {
+  EXPECT_EQ(warning_about_size({9.0, 500.0}, 100.0), std::nullopt);
+  EXPECT_EQ(warning_about_size({-10.0, 500.0}, 100.0), std::nullopt);
+  const auto warning = warning_about_size({-198.0, 5e6}, 100.0);
+  ASSERT_TRUE(warning);
+  EXPECT_THAT(*warning, AllOf(HasSubstr("5e+06 at displacement -198"),
+                              HasSubstr("by 2 of its longest side")));
 }
 
-TEST(RunDoubts, SeeBodiesThatHaveMovedFartherThanTheyAreLong) {
-  EXPECT_EQ(doubt_about_end(-100.0, 100.0), std::nullopt);
-  EXPECT_THAT(doubt_about_end(-3700.0, 100.0).value(), HasSubstr("37 of its longest side"));
+TEST(RunWarnings, SeeBodiesThatHaveMovedFartherThanTheyAreLong) {
+  EXPECT_EQ(warning_about_end(-100.0, 100.0), std::nullopt);
+  EXPECT_THAT(warning_about_end(-3700.0, 100.0).value(), HasSubstr("37 of its longest side"));
 }
 
-TEST(RunDoubts, SeeMotionThatIsNotSmall) {
-  EXPECT_EQ(doubt_about_motion(0.01), std::nullopt);
-  const auto doubt = doubt_about_motion(0.25);
-  ASSERT_TRUE(doubt);
-  EXPECT_THAT(*doubt, HasSubstr("25 % of the body is stretched or turned by more than a tenth"));
+TEST(RunWarnings, SeeMotionThatIsNotSmall) {
+  EXPECT_EQ(warning_about_motion(0.01), std::nullopt);
+  const auto warning = warning_about_motion(0.25);
+  ASSERT_TRUE(warning);
+  EXPECT_THAT(*warning, HasSubstr("25 % of the body is stretched or turned by more than a tenth"));
 }
 
-TEST(RunDoubts, NameWhatIsNotANumber) {
-  EXPECT_THAT(doubts_of_balance(NAN, 0.0), ElementsAre(HasSubstr("out of balance")));
+TEST(RunWarnings, NameWhatIsNotANumber) {
+  EXPECT_THAT(warnings_of_balance(NAN, 0.0), ElementsAre(HasSubstr("out of balance")));
 }
 
 }  // namespace

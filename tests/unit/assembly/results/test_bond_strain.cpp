@@ -26,11 +26,11 @@ SymmetricTensor exact_strain(int dim) {
 
 void expect_strains(const Network& network, double secant) {
   const std::vector<double> motion = test::linear_motion(network, gradient);
-  const Csr families = bonds_of_particles(network.bonds, network.particles.size());
+  const Csr neighbourhoods = bonds_of_particles(network.bonds, network.particles.size());
   const std::vector<double> secants(static_cast<std::size_t>(network.num_elements()), secant);
   const SymmetricTensor exact = exact_strain(network.dim());
   for (Index i = 0; i < network.particles.size(); ++i) {
-    const SymmetricTensor strain = bond_strain(network, families, secants, motion, i);
+    const SymmetricTensor strain = bond_strain(network, neighbourhoods, secants, motion, i);
     for (std::size_t c = 0; c < strain.size(); ++c) {
       // Round-off, times the condition of the families at corners, near 1e2.
       EXPECT_NEAR(strain[c], secant * exact[c], 1e-14) << "particle " << i;
@@ -62,21 +62,21 @@ INSTANTIATE_TEST_SUITE_P(
 /// force of the whole on a part is what passes through the line.
 TEST(BondStrain, BrokenBondsCarryNothing) {
   const Network network = test::make_network({"", Pattern::rectangular, Surface::none}, 4);
-  const Csr families = bonds_of_particles(network.bonds, network.particles.size());
+  const Csr neighbourhoods = bonds_of_particles(network.bonds, network.particles.size());
   const std::vector<double> motion = test::linear_motion(network, gradient);
   std::vector<double> secants(static_cast<std::size_t>(network.num_elements()), 1.0);
   const Index middle = 12;
-  for (const Index e : families.row(middle)) secants[e] = 0.0;
-  EXPECT_EQ(bond_strain(network, families, secants, motion, middle), SymmetricTensor{});
-  EXPECT_NE(bond_strain(network, families, secants, motion, middle + 1), SymmetricTensor{});
+  for (const Index e : neighbourhoods.row(middle)) secants[e] = 0.0;
+  EXPECT_EQ(bond_strain(network, neighbourhoods, secants, motion, middle), SymmetricTensor{});
+  EXPECT_NE(bond_strain(network, neighbourhoods, secants, motion, middle + 1), SymmetricTensor{});
 }
 
 /// Two particles settle one strain of three.
 TEST(BondStrain, IsZeroWhereTheBondsDoNotResistEveryStrain) {
   const Network network = test::single_frame(2, {1.0, 0.0}, 5.0, 0.0);
-  const Csr families = bonds_of_particles(network.bonds, 2);
+  const Csr neighbourhoods = bonds_of_particles(network.bonds, 2);
   const std::vector<double> secants = {1.0}, motion = {0.0, 0.0, 0.0, 0.1, 0.0, 0.0};
-  EXPECT_EQ(bond_strain(network, families, secants, motion, 0), SymmetricTensor{});
+  EXPECT_EQ(bond_strain(network, neighbourhoods, secants, motion, 0), SymmetricTensor{});
 }
 
 }  // namespace

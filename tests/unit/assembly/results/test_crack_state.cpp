@@ -16,7 +16,7 @@ class CrackOpeningsTest : public testing::Test {
  protected:
   CrackOpeningsTest()
       : network(test::make_network({"", Pattern::rectangular, Surface::none}, 8)),
-        families(bonds_of_particles(network.bonds, network.particles.size())),
+        neighbourhoods(bonds_of_particles(network.bonds, network.particles.size())),
         secants(static_cast<std::size_t>(network.num_elements()), 1.0) {
     for (Index e = 0; e < network.num_elements(); ++e) {
       if (is_above(network.bonds.first[e]) != is_above(network.bonds.second[e])) {
@@ -37,7 +37,7 @@ class CrackOpeningsTest : public testing::Test {
     return motion;
   }
   CrackOpenings openings(std::span<const double> motion) const {
-    return crack_openings(network, families, secants, motion);
+    return crack_openings(network, neighbourhoods, secants, motion);
   }
 
   /// Whether the families of both ends are whole.
@@ -48,7 +48,7 @@ class CrackOpeningsTest : public testing::Test {
   }
 
   Network network;
-  Csr families;
+  Csr neighbourhoods;
   std::vector<double> secants;
   std::vector<Index> crossing;
 };
@@ -96,7 +96,7 @@ TEST_F(CrackOpeningsTest, PressedFacesAreClosed) {
 
 TEST_F(CrackOpeningsTest, SetsThatShareNoParticleAreCracksOfTheirOwn) {
   damage(0.0);
-  const Index corner = families.row(0)[0];
+  const Index corner = neighbourhoods.row(0)[0];
   secants[corner] = 0.0;
   const CrackOpenings found = openings(moved_apart(0.0, 0.02));
   ASSERT_EQ(found.cracks.size(), 2u);

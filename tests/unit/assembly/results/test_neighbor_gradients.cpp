@@ -34,12 +34,12 @@ bool fit(std::span<const double> offsets, std::span<double> weights) {
 /// A square lattice whose particles have the neighbours within 2.5 spacings.
 struct Square {
   Network network = make_network(rectangular, 12);
-  Csr families = bonds_of_particles(network.bonds, network.particles.size());
+  Csr neighbourhoods = bonds_of_particles(network.bonds, network.particles.size());
   std::vector<double> motion = random_vector(network.particles.positions.size(), 7);
 
   std::vector<Index> neighbors(Index i) const {
     std::vector<Index> found;
-    for (const Index e : families.row(i)) found.push_back(network.bonds.other_end(e, i));
+    for (const Index e : neighbourhoods.row(i)) found.push_back(network.bonds.other_end(e, i));
     return found;
   }
   NeighborGradients<2> gradients() const { return {network.particles, motion, 2, fit}; }

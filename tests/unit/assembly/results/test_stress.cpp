@@ -59,14 +59,14 @@ class StressOfQuadraticFields : public testing::TestWithParam<LatticeCase> {};
 TEST_P(StressOfQuadraticFields, IsExactEverywhere) {
   const Network network = make_network(GetParam(), 6);
   const Particles& particles = network.particles;
-  const Csr families = bonds_of_particles(network.bonds, particles.size());
+  const Csr neighbourhoods = bonds_of_particles(network.bonds, particles.size());
   const std::vector<double> displacement = quadratic_displacement(particles);
   for (const Problem problem :
        {Problem::plane_stress, Problem::plane_strain, Problem::three_dimensional}) {
     if (dimension_of(problem) != particles.dim) continue;
     const std::vector<HookeConstants> materials = {hooke_constants(problem, 30.0, 0.2)};
     const std::vector<double> stresses =
-        particle_stresses({network, families, problem, materials}, displacement);
+        particle_stresses({network, neighbourhoods, problem, materials}, displacement);
     for (Index i = 0; i < particles.size(); ++i) {
       const Stress exact = exact_stress(particles, problem, materials[0], i);
       for (std::size_t c = 0; c < 6; ++c) {
@@ -92,7 +92,7 @@ TEST(StressAt, FallsBackToWhatTheNeighborsSettle) {
   body.solid[0].upper[1] = body.spacing;
   const Network network = build_network(make_body(body), test::network_input(body));
   const Particles& particles = network.particles;
-  const Csr families = bonds_of_particles(network.bonds, particles.size());
+  const Csr neighbourhoods = bonds_of_particles(network.bonds, particles.size());
   const std::vector<HookeConstants> materials = {hooke_constants(Problem::plane_stress, 30.0, 0.2)};
   std::vector<double> displacement;
   for (Index i = 0; i < particles.size(); ++i) {
@@ -100,7 +100,7 @@ TEST(StressAt, FallsBackToWhatTheNeighborsSettle) {
     displacement.push_back(0.01 * x[0]);
     displacement.push_back(0.02 * x[1]);
   }
-  const StressInput input{network, families, Problem::plane_stress, materials};
+  const StressInput input{network, neighbourhoods, Problem::plane_stress, materials};
   const Stress stress = stress_at(input, displacement, 3);
   EXPECT_NEAR(stress[0], 30.0 / 0.96 * (0.01 + 0.2 * 0.02), 1e-12);
   EXPECT_NEAR(stress[1], 30.0 / 0.96 * (0.02 + 0.2 * 0.01), 1e-12);
@@ -111,7 +111,7 @@ TEST(StressAt, FallsBackToWhatTheNeighborsSettle) {
     if (particles.position(i)[1] > 0.0) row.particles.material[i] = 1;
   }
   const std::vector<HookeConstants> two = {materials[0], materials[0]};
-  const Stress none = stress_at({row, families, Problem::plane_stress, two}, displacement, 3);
+  const Stress none = stress_at({row, neighbourhoods, Problem::plane_stress, two}, displacement, 3);
   EXPECT_EQ(none, Stress{}) << "neighbours of another material do not count";
 }
 
@@ -119,17 +119,17 @@ TEST(StressAt, FallsBackToWhatTheNeighborsSettle) {
 TEST(ParticleStresses, AreTheSameForAnyNumberOfThreads) {
   const Network network = make_network(test::rectangular, 70);
   ASSERT_GT(network.particles.size(), NeighborGradients<2>::block);
-  const Csr families = bonds_of_particles(network.bonds, network.particles.size());
+  const Csr neighbourhoods = bonds_of_particles(network.bonds, network.particles.size());
   const std::vector<double> motion = test::random_vector(network.particles.positions.size(), 5);
   const std::vector<HookeConstants> materials = {hooke_constants(Problem::plane_stress, 30.0, 0.2)};
-  const StressInput input{network, families, Problem::plane_stress, materials};
+  const StressInput input{network, neighbourhoods, Problem::plane_stress, materials};
   const int before = omp_get_max_threads();
   omp_set_num_threads(1);
   const std::vector<double> stresses = particle_stresses(input, motion);
-  const std::vector<double> strains = principal_strains(network, families, {}, motion);
+  const std::vector<double> strains = principal_strains(network, neighbourhoods, {}, motion);
   omp_set_num_threads(2);
   EXPECT_EQ(particle_stresses(input, motion), stresses);
-  EXPECT_EQ(principal_strains(network, families, {}, motion), strains);
+  EXPECT_EQ(principal_strains(network, neighbourhoods, {}, motion), strains);
   omp_set_num_threads(before);
 }
 
@@ -140,12 +140,12 @@ TEST(StressAt, SecondNeighborsAreTheNeighborsOfNeighbors) {
   NetworkInput constants = test::network_input(body);
   constants.micromodulus = Constants::continuum;
   const Network network = build_network(make_body(body), constants);
-  const Csr families = bonds_of_particles(network.bonds, network.particles.size());
+  const Csr neighbourhoods = bonds_of_particles(network.bonds, network.particles.size());
   const std::vector<double> displacement = quadratic_displacement(network.particles);
   const std::vector<HookeConstants> materials = {hooke_constants(Problem::plane_stress, 30.0, 0.2)};
   const Index middle = 24;
   const Stress exact = exact_stress(network.particles, Problem::plane_stress, materials[0], middle);
-  StressInput input{network, families, Problem::plane_stress, materials, true};
+  StressInput input{network, neighbourhoods, Problem::plane_stress, materials, true};
   const Stress stress = stress_at(input, displacement, middle);
   for (std::size_t c = 0; c < 6; ++c) EXPECT_NEAR(stress[c], exact[c], 1e-11);
 }

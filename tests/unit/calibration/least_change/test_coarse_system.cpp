@@ -30,7 +30,7 @@ struct Row {
       }
     }
   }
-  static void join(Index a, Index b, BoxMatrix& sum) {
+  static void join(Index a, Index b, SubdomainMatrix& sum) {
     MatrixXd spring = MatrixXd::Identity(of_box, of_box);
     spring(0, 1) = spring(1, 0) = 0.3;
     sum.block(a, a) += spring;
@@ -46,7 +46,7 @@ struct Row {
     }
     return all;
   }
-  BoxMatrix matrix, inside;
+  SubdomainMatrix matrix, inside;
 };
 
 VectorXd solve(const CoarseSystem& system, VectorXd values) {

@@ -19,8 +19,8 @@ using Eigen::MatrixXd;
 
 /// Points at random, or on a line, each joined to all others by bonds without moments; equations of
 /// different length.
-struct Cloud {
-  Cloud(int dim, Index count, bool on_line = false) {
+struct UnstructuredParticles {
+  UnstructuredParticles(int dim, Index count, bool on_line = false) {
     const ForceRows form{dim, false};
     equations.dim = dim;
     equations.rows = equations.odd = form.count();
@@ -72,11 +72,11 @@ struct Cloud {
 /// As many as there are vectors that all bonds together leave alone: none is missing.
 TEST(KillingFields, AreAllThatNoBondFeels) {
   for (const int dim : {2, 3}) {
-    const Cloud cloud(dim, dim == 2 ? 16 : 40);
-    const MatrixXd fields = killing_fields(cloud.equations, cloud.points);
+    const UnstructuredParticles particle_set(dim, dim == 2 ? 16 : 40);
+    const MatrixXd fields = killing_fields(particle_set.equations, particle_set.points);
     EXPECT_EQ(fields.cols(), dim == 2 ? 10 : 50);
-    EXPECT_LT((cloud.matrix * fields).cwiseAbs().maxCoeff(), 1e-11);  // round-off
-    Eigen::FullPivLU<MatrixXd> all(cloud.matrix);
+    EXPECT_LT((particle_set.matrix * fields).cwiseAbs().maxCoeff(), 1e-11);  // round-off
+    Eigen::FullPivLU<MatrixXd> all(particle_set.matrix);
     all.setThreshold(1e-9);
     EXPECT_EQ(all.dimensionOfKernel(), fields.cols());
     // Squares down to 1e-10 of the largest were divided by: 1e-16 / 1e-10.
@@ -90,22 +90,23 @@ TEST(KillingFields, AreAllThatNoBondFeels) {
 /// The turn about a line does not move its points: products of the five other motions are 35, and
 /// five of them repeat, with (motion along y) (turn about y) + (along z) (turn about z) = 0.
 TEST(KillingFields, AreFewerOnALine) {
-  const Cloud cloud(3, 40, true);
-  const MatrixXd fields = killing_fields(cloud.equations, cloud.points);
+  const UnstructuredParticles particle_set(3, 40, true);
+  const MatrixXd fields = killing_fields(particle_set.equations, particle_set.points);
   EXPECT_EQ(fields.cols(), 30);
-  EXPECT_LT((cloud.matrix * fields).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT((particle_set.matrix * fields).cwiseAbs().maxCoeff(), 1e-9);
 }
 
 TEST(KillingFields, OfOnePointAreItsTensors) {
-  const Cloud cloud(3, 5);
-  EXPECT_EQ(killing_fields(cloud.equations, std::span(cloud.points).first(1)).cols(), 10);
+  const UnstructuredParticles particle_set(3, 5);
+  EXPECT_EQ(killing_fields(particle_set.equations, std::span(particle_set.points).first(1)).cols(),
+            10);
 }
 
 /// An equation that is switched off has no part in any field.
 TEST(KillingFields, LeaveOutWhatIsSwitchedOff) {
-  Cloud cloud(2, 16);
-  cloud.equations.scale[5] = 0.0;
-  const MatrixXd fields = killing_fields(cloud.equations, cloud.points);
+  UnstructuredParticles particle_set(2, 16);
+  particle_set.equations.scale[5] = 0.0;
+  const MatrixXd fields = killing_fields(particle_set.equations, particle_set.points);
   EXPECT_EQ(fields.row(5).norm(), 0.0);
   EXPECT_TRUE(fields.allFinite());
 }

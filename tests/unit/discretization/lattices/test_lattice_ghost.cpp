@@ -62,10 +62,10 @@ TEST(GhostLattice, GhostsFollowTheSolidAndLieWithinTheHorizon) {
     const auto& kind = body.particles.kind;
     EXPECT_TRUE(std::is_sorted(kind.begin(), kind.end()));
     EXPECT_EQ(kind.back(), ParticleKind::ghost);
-    const Csr families = bonds_of_particles(make_bonds(body.particles, 3.0 * body.lattice.spacing),
-                                            body.particles.size());
+    const Csr neighbourhoods = bonds_of_particles(
+        make_bonds(body.particles, 3.0 * body.lattice.spacing), body.particles.size());
     for (Index i = 0; i < body.particles.size(); ++i) {
-      EXPECT_FALSE(families.row(i).empty());
+      EXPECT_FALSE(neighbourhoods.row(i).empty());
       EXPECT_EQ(body.particles.material[i], kind[i] == ParticleKind::ghost ? no_index : 0);
     }
   }
@@ -78,12 +78,12 @@ TEST(GhostLattice, SolidParticlesOfASmallBodyHaveWholeFamilies) {
     input.pattern = pattern;
     input.solid = {{{0.0, 0.0, 0.0}, {50.0, 50.0, 50.0}}};
     const Body body = make_body(input);
-    const auto family = bulk_family(body.lattice, input.horizon);
-    const Csr families =
+    const auto neighbourhood = interior_neighbourhood(body.lattice, input.horizon);
+    const Csr neighbourhoods =
         bonds_of_particles(make_bonds(body.particles, input.horizon), body.particles.size());
     for (Index i = 0; i < body.particles.size(); ++i) {
       if (body.particles.kind[i] == ParticleKind::ghost) continue;
-      EXPECT_EQ(families.row(i).size(), family.offsets.size());
+      EXPECT_EQ(neighbourhoods.row(i).size(), neighbourhood.offsets.size());
     }
   }
 }

@@ -14,43 +14,43 @@ namespace {
 
 constexpr double state_modulus = 25.0, spacing = 0.1;
 
-std::vector<FamilyBond> hexagonal_family(double angle) {
-  std::vector<FamilyBond> family;
+std::vector<NeighbourhoodBond> hexagonal_neighbourhood(double angle) {
+  std::vector<NeighbourhoodBond> neighbourhood;
   for (int k = 0; k < 6; ++k) {
     const double a = angle + k * std::numbers::pi / 3.0;
-    family.push_back({{std::cos(a), std::sin(a), 0.0}, spacing, true});
+    neighbourhood.push_back({{std::cos(a), std::sin(a), 0.0}, spacing, true});
   }
-  return family;
+  return neighbourhood;
 }
 
-std::vector<FamilyBond> face_centred_family() {
-  std::vector<FamilyBond> family;
+std::vector<NeighbourhoodBond> face_centred_neighbourhood() {
+  std::vector<NeighbourhoodBond> neighbourhood;
   for (int x = -2; x <= 2; ++x) {
     for (int y = -2; y <= 2; ++y) {
       for (int z = -2; z <= 2; ++z) {
         const double size = std::sqrt(1.0 * (x * x + y * y + z * z));
         if ((x + y + z) % 2 != 0 || size == 0.0 || size > 2.1) continue;
-        family.push_back(
+        neighbourhood.push_back(
             {{x / size, y / size, z / size}, size * spacing / std::numbers::sqrt2, size > 1.5});
       }
     }
   }
-  return family;
+  return neighbourhood;
 }
 
-std::vector<FamilyBond> random_family(int dim, unsigned seed) {
+std::vector<NeighbourhoodBond> random_neighbourhood(int dim, unsigned seed) {
   std::mt19937 generator(seed);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> length(0.5 * spacing, 1.5 * spacing);
-  std::vector<FamilyBond> family;
+  std::vector<NeighbourhoodBond> neighbourhood;
   for (int k = 0; k < (dim == 2 ? 6 : 18); ++k) {
     Vector3 n{normal(generator), normal(generator), dim == 3 ? normal(generator) : 0.0};
     const double size = std::hypot(n[0], n[1], n[2]);
     for (double& c : n) c /= size;
     const double l = length(generator);
-    family.push_back({n, l, l > 1.2 * spacing});
+    neighbourhood.push_back({n, l, l > 1.2 * spacing});
   }
-  return family;
+  return neighbourhood;
 }
 
 TEST(StateFit, OfHexagonalFamiliesAreTheClosedForms) {
@@ -59,7 +59,7 @@ TEST(StateFit, OfHexagonalFamiliesAreTheClosedForms) {
     for (const double ratio : {-0.3, 0.0, 0.2, 0.45}) {
       const StateModuli exact = hexagonal_moduli(problem, state_modulus, ratio, spacing, thickness);
       const ParticleFit fit =
-          fit_particle_moduli(problem, state_modulus, ratio, hexagonal_family(0.3), volume);
+          fit_particle_moduli(problem, state_modulus, ratio, hexagonal_neighbourhood(0.3), volume);
       EXPECT_EQ(fit.kind, FitKind::exact);
       EXPECT_NEAR(fit.moduli.own, exact.own, 1e-13 * exact.own);
       EXPECT_NEAR(fit.moduli.state * spacing, exact.sum, 1e-13 * exact.own);
@@ -74,7 +74,7 @@ TEST(StateFit, OfFaceCentredFamiliesAreTheClosedForms) {
   for (const double ratio : {0.0, 0.2, 0.4}) {
     const StateModuli exact = face_centred_moduli(state_modulus, ratio, spacing);
     const ParticleFit fit = fit_particle_moduli(Problem::three_dimensional, state_modulus, ratio,
-                                                face_centred_family(), volume);
+                                                face_centred_neighbourhood(), volume);
     EXPECT_EQ(fit.kind, FitKind::exact);
     EXPECT_NEAR(fit.moduli.own, exact.own, 1e-12 * exact.own);
     EXPECT_NEAR(fit.moduli.far, exact.far, 1e-12 * exact.own);
@@ -84,8 +84,8 @@ TEST(StateFit, OfFaceCentredFamiliesAreTheClosedForms) {
 
 /// Difference from Hooke's tensor of a family with these constants, component by component: the
 /// stress under each unit strain, Frobenius norm over all four indices.
-double residual_of(const ParticleModuli& moduli, std::span<const FamilyBond> family, double volume,
-                   Problem problem, double ratio) {
+double residual_of(const ParticleModuli& moduli, std::span<const NeighbourhoodBond> neighbourhood,
+                   double volume, Problem problem, double ratio) {
   const int dim = dimension_of(problem);
   const HookeConstants hooke = hooke_constants(problem, state_modulus, ratio);
   double difference = 0.0, size = 0.0;
@@ -96,10 +96,10 @@ double residual_of(const ParticleModuli& moduli, std::span<const FamilyBond> fam
           const double wanted = hooke.lambda * (i == j) * (k == l) +
                                 hooke.mu * ((i == k) * (j == l) + (i == l) * (j == k));
           double sum = 0.0, found = 0.0;
-          for (const FamilyBond& bond : family) {
+          for (const NeighbourhoodBond& bond : neighbourhood) {
             sum += bond.length * bond.direction[k] * bond.direction[l];
           }
-          for (const FamilyBond& bond : family) {
+          for (const NeighbourhoodBond& bond : neighbourhood) {
             const Vector3& n = bond.direction;
             const double own = moduli.own + (bond.far ? moduli.far : 0.0);
             found +=
@@ -120,10 +120,11 @@ TEST(StateFit, OfScatteredFamiliesIsTheNearest) {
     const double volume = std::pow(spacing, dim);
     int fitted = 0;
     for (unsigned seed = 0; seed < 20; ++seed) {
-      const auto family = random_family(dim, seed);
-      const ParticleFit fit = fit_particle_moduli(problem, state_modulus, 0.2, family, volume);
+      const auto neighbourhood = random_neighbourhood(dim, seed);
+      const ParticleFit fit =
+          fit_particle_moduli(problem, state_modulus, 0.2, neighbourhood, volume);
       const auto residual = [&](const ParticleModuli& moduli) {
-        return residual_of(moduli, family, volume, problem, 0.2);
+        return residual_of(moduli, neighbourhood, volume, problem, 0.2);
       };
       EXPECT_NEAR(fit.residual, residual(fit.moduli), 1e-12);
       if (fit.kind != FitKind::least) continue;
@@ -147,8 +148,8 @@ TEST(StateFit, OfScatteredFamiliesIsTheNearest) {
 
 TEST(StateFit, ReportsFamiliesThatLeaveAStrainFree) {
   // All neighbours in one line: a sheared family does not notice.
-  const std::vector<FamilyBond> line = {{{1.0, 0.0, 0.0}, spacing, false},
-                                        {{-1.0, 0.0, 0.0}, spacing, false}};
+  const std::vector<NeighbourhoodBond> line = {{{1.0, 0.0, 0.0}, spacing, false},
+                                               {{-1.0, 0.0, 0.0}, spacing, false}};
   const ParticleFit fit = fit_particle_moduli(Problem::plane_stress, state_modulus, 0.2, line, 0.1);
   EXPECT_EQ(fit.kind, FitKind::singular);
   EXPECT_GT(fit.moduli.own, 0.0);
@@ -159,30 +160,30 @@ TEST(StateFit, ReportsFamiliesThatLeaveAStrainFree) {
 
 TEST(StateFit, ReportsSeveralSolutions) {
   // Two hexagons, one larger: either is isotropic, and what one takes the other may give.
-  std::vector<FamilyBond> family = hexagonal_family(0.3);
-  for (FamilyBond& bond : family) bond.far = false;
-  for (FamilyBond bond : hexagonal_family(0.1)) {
+  std::vector<NeighbourhoodBond> neighbourhood = hexagonal_neighbourhood(0.3);
+  for (NeighbourhoodBond& bond : neighbourhood) bond.far = false;
+  for (NeighbourhoodBond bond : hexagonal_neighbourhood(0.1)) {
     bond.length *= 1.5;
     bond.far = true;
-    family.push_back(bond);
+    neighbourhood.push_back(bond);
   }
   const ParticleFit fit =
-      fit_particle_moduli(Problem::plane_stress, state_modulus, 0.2, family, 0.01);
+      fit_particle_moduli(Problem::plane_stress, state_modulus, 0.2, neighbourhood, 0.01);
   EXPECT_EQ(fit.kind, FitKind::many);
   EXPECT_EQ(fit.moduli.far, 0.0);
   EXPECT_LT(fit.residual, 1e-13) << "without the one too many they are exact";
 }
 
 TEST(StateFit, OfSquareFamiliesIsExact) {
-  std::vector<FamilyBond> family;
+  std::vector<NeighbourhoodBond> neighbourhood;
   for (int k = 0; k < 8; ++k) {
     const double a = k * std::numbers::pi / 4.0;
     const double length = k % 2 == 0 ? spacing : spacing * std::numbers::sqrt2;
-    family.push_back({{std::cos(a), std::sin(a), 0.0}, length, k % 2 == 1});
+    neighbourhood.push_back({{std::cos(a), std::sin(a), 0.0}, length, k % 2 == 1});
   }
   const double volume = spacing * spacing;
   const ParticleFit fit =
-      fit_particle_moduli(Problem::plane_stress, state_modulus, 0.2, family, volume);
+      fit_particle_moduli(Problem::plane_stress, state_modulus, 0.2, neighbourhood, volume);
   EXPECT_EQ(fit.kind, FitKind::exact);
   // C11 - C12 = 2 C66 needs a + c = a / sqrt(2), and C11 - C12 = a h / V is E / (1 + nu).
   EXPECT_NEAR(fit.moduli.own + fit.moduli.far, fit.moduli.own / std::numbers::sqrt2,
@@ -192,11 +193,12 @@ TEST(StateFit, OfSquareFamiliesIsExact) {
 
 TEST(StateFit, OfBondsThatAreAllFarIsThatOfNearOnes) {
   const double volume = std::pow(spacing, 3);
-  auto near = random_family(3, 5), far = near;
-  for (FamilyBond& bond : near) bond.far = false;
-  for (FamilyBond& bond : far) bond.far = true;
-  const auto fit = [&](const std::vector<FamilyBond>& family) {
-    return fit_particle_moduli(Problem::three_dimensional, state_modulus, 0.2, family, volume);
+  auto near = random_neighbourhood(3, 5), far = near;
+  for (NeighbourhoodBond& bond : near) bond.far = false;
+  for (NeighbourhoodBond& bond : far) bond.far = true;
+  const auto fit = [&](const std::vector<NeighbourhoodBond>& neighbourhood) {
+    return fit_particle_moduli(Problem::three_dimensional, state_modulus, 0.2, neighbourhood,
+                               volume);
   };
   EXPECT_EQ(fit(far).kind, FitKind::least);
   EXPECT_EQ(fit(far).moduli.own, fit(near).moduli.own);
@@ -207,11 +209,11 @@ TEST(StateFit, TakesNoConstantsOfNegativeEnergy) {
   // Close to a ratio of -1 the state takes most of the bonds' energy away.
   int refused = 0;
   for (unsigned seed = 0; seed < 200; ++seed) {
-    const auto family = random_family(2, seed);
+    const auto neighbourhood = random_neighbourhood(2, seed);
     const ParticleFit fit =
-        fit_particle_moduli(Problem::plane_stress, state_modulus, -0.95, family, 0.01);
+        fit_particle_moduli(Problem::plane_stress, state_modulus, -0.95, neighbourhood, 0.01);
     double reach = 0.0;
-    for (const FamilyBond& bond : family) {
+    for (const NeighbourhoodBond& bond : neighbourhood) {
       const double own = fit.moduli.own + (bond.far ? fit.moduli.far : 0.0);
       EXPECT_GT(own, 0.0);
       reach += bond.length / own;

@@ -22,7 +22,7 @@ struct Barred {
 
   Barred() {
     RebarLine bar{{0.1, 0.43, 0.0}, {0.9, 0.57, 0.0}};
-    bar.anchored = true;
+    bar.embedded = true;
     input.bars = {bar};
     BarMaterial material{200.0, 0.01};
     material.bond.perimeter = 0.4;
@@ -34,15 +34,15 @@ struct Barred {
 
 TEST(BarElements, EveryNodeHasAnAnchorAndTiesAlongAndAcross) {
   const Network network = Barred().build();
-  const Index nodes = network.num_elements() - network.first_segment + 1;
-  EXPECT_EQ(network.anchors.size(), nodes);
-  EXPECT_EQ(network.first_segment - network.first_anchored_tie, 2 * nodes);
-  EXPECT_EQ(network.first_anchored_tie, network.first_tie);
-  for (Index e = network.first_tie; e < network.first_segment; e += 2) {
-    const Index node = network.bonds.first[e], anchor = network.bonds.second[e];
+  const Index nodes = network.num_elements() - network.first_bar_element + 1;
+  EXPECT_EQ(network.embedded_points.size(), nodes);
+  EXPECT_EQ(network.first_bar_element - network.first_embedded_slip_spring, 2 * nodes);
+  EXPECT_EQ(network.first_embedded_slip_spring, network.first_slip_spring);
+  for (Index e = network.first_slip_spring; e < network.first_bar_element; e += 2) {
+    const Index node = network.bonds.first[e], embedded_point = network.bonds.second[e];
     EXPECT_EQ(network.particles.kind[node], ParticleKind::rebar);
-    EXPECT_EQ(network.particles.kind[anchor], ParticleKind::anchor);
-    EXPECT_TRUE(network.is_anchored(e));
+    EXPECT_EQ(network.particles.kind[embedded_point], ParticleKind::embedded_point);
+    EXPECT_TRUE(network.is_embedded(e));
     const auto along = network.bonds.direction(e), across = network.bonds.direction(e + 1);
     EXPECT_NEAR(along[0] * across[0] + along[1] * across[1], 0.0, 1e-14);
     EXPECT_LT(along[0], 0.0) << "a node that moves along the bar lengthens its tie";
@@ -57,12 +57,12 @@ TEST(BarElements, AnchorsFollowLinearMotions) {
   std::vector<double> motion;
   for (Index i = 0; i < network.particles.size(); ++i) {
     const auto x = network.particles.position(i);
-    const bool anchor = network.is_anchor(i);
-    motion.push_back(anchor ? 0.0 : 0.1 + 0.2 * x[0] - 0.3 * x[1]);
-    motion.push_back(anchor ? 0.0 : 0.4 * x[0] + 0.5 * x[1]);
+    const bool embedded_point = network.is_embedded_point(i);
+    motion.push_back(embedded_point ? 0.0 : 0.1 + 0.2 * x[0] - 0.3 * x[1]);
+    motion.push_back(embedded_point ? 0.0 : 0.4 * x[0] + 0.5 * x[1]);
   }
   follow_particles(network, motion);
-  for (Index i = network.first_anchor(); i < network.particles.size(); ++i) {
+  for (Index i = network.first_embedded_point(); i < network.particles.size(); ++i) {
     const auto x = network.particles.position(i);
     EXPECT_NEAR(motion[2 * i], 0.1 + 0.2 * x[0] - 0.3 * x[1], 1e-13);
     EXPECT_NEAR(motion[2 * i + 1], 0.4 * x[0] + 0.5 * x[1], 1e-13);
@@ -75,8 +75,8 @@ TEST(BarElements, BondGivesTiesAlongTheBarTheirStiffnessAndLaw) {
   barred.material().bond.hook_to = true;
   const Network network = barred.build();
   double surface = 0.0;
-  const Index last = network.first_segment - 2;
-  for (Index e = network.first_tie; e < last; e += 2) {
+  const Index last = network.first_bar_element - 2;
+  for (Index e = network.first_slip_spring; e < last; e += 2) {
     surface += network.stiffness[e] / (6.0 / 0.002);
     EXPECT_NEAR(network.critical_stretch[e] * network.bonds.lengths[e], 0.002, 1e-15);
     EXPECT_TRUE(network.law(e).endless());
@@ -84,7 +84,7 @@ TEST(BarElements, BondGivesTiesAlongTheBarTheirStiffnessAndLaw) {
   }
   EXPECT_FALSE(network.has_limit(last)) << "a hook does not slip";
   const double length = std::hypot(0.8, 0.14);
-  const double of_last = 0.5 * network.bonds.lengths[network.first_segment];
+  const double of_last = 0.5 * network.bonds.lengths[network.first_bar_element];
   EXPECT_NEAR(surface, 0.4 * (length - of_last), 1e-13);
 }
 
@@ -92,18 +92,18 @@ TEST(BarElements, WhereNothingIsNearTheyHangOnTheirBar) {
   Barred barred;
   barred.input.bars[0].to = {3.0, 0.5, 0.0};
   const Network network = barred.build();
-  const Index nodes = network.num_elements() - network.first_segment + 1;
-  EXPECT_LT(network.anchors.size(), nodes);
-  EXPECT_GT(network.anchors.size(), 0);
+  const Index nodes = network.num_elements() - network.first_bar_element + 1;
+  EXPECT_LT(network.embedded_points.size(), nodes);
+  EXPECT_GT(network.embedded_points.size(), 0);
 }
 
 TEST(BarElements, CracksKeepAnchorsOnTheirSide) {
   Barred barred;
   barred.input.cracks = {{{{0.53, -1.0, 0.0}, {0.53, 3.0, 0.0}}}};
   const Network network = barred.build();
-  for (Index k = 0; k < network.anchors.size(); ++k) {
-    const double x = network.particles.position(network.first_anchor() + k)[0];
-    for (const Index i : network.anchors.particles.row(k)) {
+  for (Index k = 0; k < network.embedded_points.size(); ++k) {
+    const double x = network.particles.position(network.first_embedded_point() + k)[0];
+    for (const Index i : network.embedded_points.particles.row(k)) {
       EXPECT_EQ(network.particles.position(i)[0] > 0.53, x > 0.53);
     }
   }
@@ -116,13 +116,13 @@ TEST(BarElements, ThoseThatBendAreFramesAndThoseThatShiftEndAtAnchors) {
   const Network network = barred.build();
   ASSERT_TRUE(network.carries_moments());
   const double inertia = 0.01 * 0.01 / (4.0 * std::numbers::pi);
-  for (Index e = network.first_segment; e < network.num_elements(); ++e) {
+  for (Index e = network.first_bar_element; e < network.num_elements(); ++e) {
     const double length = network.bonds.lengths[e];
     EXPECT_NEAR(network.bending[e], 12.0 * 200.0 * inertia / std::pow(length, 3),
                 1e-12 * network.bending[e]);
-    ASSERT_TRUE(network.is_anchor(network.bonds.second[e]));
-    const Index anchor = network.bonds.second[e] - network.first_anchor();
-    EXPECT_EQ(network.anchors.particles.row(anchor).size(), 1u);
+    ASSERT_TRUE(network.is_embedded_point(network.bonds.second[e]));
+    const Index embedded_point = network.bonds.second[e] - network.first_embedded_point();
+    EXPECT_EQ(network.embedded_points.particles.row(embedded_point).size(), 1u);
   }
   EXPECT_EQ(network.bending[0], 0.0);
 }

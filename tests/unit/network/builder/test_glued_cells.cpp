@@ -1,4 +1,4 @@
-#include "network/builder/glued_cells.hpp"
+#include "network/builder/tied_cells.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,17 +15,17 @@ namespace perilink {
 namespace {
 
 /// A square of six by six cells; those right of the middle are ordinary elements.
-struct GluedHalves {
-  explicit GluedHalves(BondModel model = BondModel::bond_based) {
+struct TiedHalves {
+  explicit TiedHalves(BondModel model = BondModel::bond_based) {
     const Mesh mesh = test::box_mesh(2, 6);
     const std::vector<Index> material(static_cast<std::size_t>(mesh.num_cells()), 0);
-    std::vector<std::uint8_t> glued;
+    std::vector<std::uint8_t> tied;
     for (Index cell = 0; cell < mesh.num_cells(); ++cell) {
       double x = 0.0;
       for (int k = 0; k < 3; ++k) x += mesh.positions[2 * mesh.cells[3 * cell + k]] / 3.0;
-      glued.push_back(x > 0.5 ? 1 : 0);
+      tied.push_back(x > 0.5 ? 1 : 0);
     }
-    body = make_mesh_body(mesh, material, 1.0, glued);
+    body = make_mesh_body(mesh, material, 1.0, tied);
     body.lattice.surface = Surface::calibrated;
     input.problem = Problem::plane_stress;
     input.model = model;
@@ -40,24 +40,24 @@ struct GluedHalves {
   Network network;
 };
 
-TEST(GluedCells, BondsAreThoseOfTheirPartAlone) {
-  const GluedHalves halves;
+TEST(TiedCells, BondsAreThoseOfTheirPartAlone) {
+  const TiedHalves halves;
   const BondedPart part = bonded_part(halves.body, 1.0);
   EXPECT_EQ(part.body.particles.size(), 4 * 7);
   EXPECT_TRUE(std::is_sorted(part.whole_of.begin(), part.whole_of.end()));
   double volume = 0.0;
   for (const double v : part.body.particles.volumes) volume += v;
   EXPECT_NEAR(volume, 0.5, 0.01) << "the vertices of the mesh are a little off";
-  EXPECT_EQ(std::count(part.body.facets.glued.begin(), part.body.facets.glued.end(), 1), 6);
+  EXPECT_EQ(std::count(part.body.facets.tied.begin(), part.body.facets.tied.end(), 1), 6);
 
   const Network& network = halves.network;
   EXPECT_EQ(network.particles.size(), 49);
   ASSERT_TRUE(network.cells);
   EXPECT_EQ(network.cells->cells.size(), 36);
-  EXPECT_EQ(network.num_bonds() + network.num_edges_of_cells(), network.first_tie);
+  EXPECT_EQ(network.num_bonds() + network.num_edges_of_cells(), network.first_slip_spring);
   const std::vector<std::uint8_t> in_cells = vertices_of_cells(network);
   EXPECT_EQ(std::count(in_cells.begin(), in_cells.end(), 1), 28);
-  for (Index b = 0; b < network.first_tie; ++b) {
+  for (Index b = 0; b < network.first_slip_spring; ++b) {
     const bool edge = b >= network.num_bonds();
     EXPECT_EQ(network.stiffness[b] == 0.0, edge);
     EXPECT_EQ(network.has_limit(b), !edge);
@@ -70,9 +70,9 @@ TEST(GluedCells, BondsAreThoseOfTheirPartAlone) {
 }
 
 /// Forces are the derivatives of the energy, and stiffness that of the forces.
-TEST(GluedCells, ForcesAndStiffnessBelongToTheEnergy) {
+TEST(TiedCells, ForcesAndStiffnessBelongToTheEnergy) {
   for (const BondModel model : {BondModel::bond_based, BondModel::micropolar}) {
-    const GluedHalves halves(model);
+    const TiedHalves halves(model);
     const Network& network = halves.network;
     const std::vector<double> intact(static_cast<std::size_t>(network.num_elements()), 1.0);
     const auto size = static_cast<std::size_t>(network.particles.size() * network.width());

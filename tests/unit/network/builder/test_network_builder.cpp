@@ -54,8 +54,8 @@ TEST(BuildNetwork, BondsCarryTheMeanOfTheirEndsAndBreakByTheSmallerEnergy) {
     factors.insert(mean);
   }
   EXPECT_EQ(factors.size(), 3U);
-  EXPECT_EQ(network.first_tie, network.num_elements());
-  EXPECT_EQ(network.first_segment, network.num_elements());
+  EXPECT_EQ(network.first_slip_spring, network.num_elements());
+  EXPECT_EQ(network.first_bar_element, network.num_elements());
 }
 
 TEST(BuildNetwork, AnUnbreakableEndMakesAnUnbreakableBond) {
@@ -96,7 +96,8 @@ TEST(BuildNetwork, LatticeConstantsReleaseTheFractureEnergy) {
   const Network network = build_network(body, input);
   const double c = moduli_of(body, input, input.materials[0]).micromodulus;
   const double sum = lattice_fracture_sum(
-      input.problem, bulk_family(body.lattice, input.horizon).offsets, body.lattice.cell_volume, c);
+      input.problem, interior_neighbourhood(body.lattice, input.horizon).offsets,
+      body.lattice.cell_volume, c);
   EXPECT_NEAR(0.5 * sum * std::pow(network.critical_stretch[0], 2), 0.02, 1e-15);
 }
 
@@ -110,15 +111,15 @@ TEST(BuildNetwork, BarsAddSegmentsAndTies) {
   const Network network = build_network(body, input);
   const double c = moduli_of(body, input, input.materials[0]).micromodulus;
 
-  ASSERT_EQ(network.num_elements() - network.first_segment, 7 + 8);
-  EXPECT_DOUBLE_EQ(network.critical_stretch[network.first_segment], 0.4 / 200.0);
-  EXPECT_TRUE(network.law(network.first_segment).endless());
-  EXPECT_TRUE(network.law(network.first_tie).is_brittle());
+  ASSERT_EQ(network.num_elements() - network.first_bar_element, 7 + 8);
+  EXPECT_DOUBLE_EQ(network.critical_stretch[network.first_bar_element], 0.4 / 200.0);
+  EXPECT_TRUE(network.law(network.first_bar_element).endless());
+  EXPECT_TRUE(network.law(network.first_slip_spring).is_brittle());
   EXPECT_EQ(network.critical_stretch.back(), infinity);
-  EXPECT_NEAR(network.stiffness[network.first_segment], 200.0 * 0.01 / 0.2, 1e-12);
+  EXPECT_NEAR(network.stiffness[network.first_bar_element], 200.0 * 0.01 / 0.2, 1e-12);
   EXPECT_NEAR(network.stiffness.back(), 210.0 * 0.02 / 0.2, 1e-12);
   int breakable = 0;
-  for (Index e = network.first_tie; e < network.num_elements(); ++e) {
+  for (Index e = network.first_slip_spring; e < network.num_elements(); ++e) {
     if (network.is_segment(e)) {
       EXPECT_FALSE(network.can_break(e));
       continue;
@@ -192,12 +193,12 @@ TEST(BuildNetwork, CracksCutBondsAndTiesButNoBars) {
     }
     return count;
   };
-  const Index bonds = across(whole, 0, whole.first_tie);
+  const Index bonds = across(whole, 0, whole.first_slip_spring);
   EXPECT_GT(bonds, 0);
-  EXPECT_GT(across(whole, whole.first_tie, whole.first_segment), 0);
-  EXPECT_EQ(across(cracked, 0, cracked.first_segment), 0);
-  EXPECT_EQ(across(cracked, cracked.first_segment, cracked.num_elements()), 1);
-  EXPECT_EQ(cracked.first_tie, whole.first_tie - bonds);
+  EXPECT_GT(across(whole, whole.first_slip_spring, whole.first_bar_element), 0);
+  EXPECT_EQ(across(cracked, 0, cracked.first_bar_element), 0);
+  EXPECT_EQ(across(cracked, cracked.first_bar_element, cracked.num_elements()), 1);
+  EXPECT_EQ(cracked.first_slip_spring, whole.first_slip_spring - bonds);
   EXPECT_EQ(cracked.cut_by_crack, std::vector<Index>{bonds});
   EXPECT_EQ(cracked.stiffness.size(), static_cast<std::size_t>(cracked.num_elements()));
 }

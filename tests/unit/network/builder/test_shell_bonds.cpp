@@ -16,7 +16,7 @@ using namespace test;
 constexpr double E = 30.0, nu = 0.2, thickness = 0.05;
 
 /// A rectangle of a few spacings with a horizon of 2.5, as a shell.
-Network make_sheet(Pattern pattern, double radius, int columns = 8) {
+Network make_mid_surface(Pattern pattern, double radius, int columns = 8) {
   const LatticeInput lattice = body_input({"", pattern, Surface::calibrated}, columns);
   LatticeInput thin = lattice;
   thin.thickness = thickness;
@@ -53,15 +53,15 @@ bool is_inside(const Network& network, Index i) {
   return true;
 }
 
-class Sheets : public testing::TestWithParam<Pattern> {};
-INSTANTIATE_TEST_SUITE_P(Lattices, Sheets,
+class MidSurfaces : public testing::TestWithParam<Pattern> {};
+INSTANTIATE_TEST_SUITE_P(Lattices, MidSurfaces,
                          testing::Values(Pattern::rectangular, Pattern::hexagonal));
 
 /// w = -(a x^2 + b y^2 + 2 c x y) / 2, rotations (w_y, -w_x): no shear across the sheet, the energy
 /// D (a^2 + b^2 + 2 nu a b + 2 (1 - nu) c^2) / 2 per area (Timoshenko & Woinowsky-Krieger 1959,
 /// Eq. 111), D = E t^3 / (12 (1 - nu^2)), and no moment on particles inside.
-TEST_P(Sheets, BendAsThePlateDoes) {
-  const Network network = make_sheet(GetParam(), 0.0);
+TEST_P(MidSurfaces, BendAsThePlateDoes) {
+  const Network network = make_mid_surface(GetParam(), 0.0);
   const double D = E * std::pow(thickness, 3) / (12.0 * (1.0 - nu * nu));
   for (const auto& [a, b, c] : {Vector3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, -0.5, 0.3}}) {
     std::vector<double> motion;
@@ -86,8 +86,8 @@ TEST_P(Sheets, BendAsThePlateDoes) {
 }
 
 /// In its own plane a flat shell is the plane body in plane stress.
-TEST_P(Sheets, StretchAsThePlaneBodyDoes) {
-  const Network network = make_sheet(GetParam(), 0.0);
+TEST_P(MidSurfaces, StretchAsThePlaneBodyDoes) {
+  const Network network = make_mid_surface(GetParam(), 0.0);
   const double exx = 1.0, eyy = -0.3, exy = 0.4;
   std::vector<double> motion;
   for (Index i = 0; i < network.particles.size(); ++i) {
@@ -100,9 +100,9 @@ TEST_P(Sheets, StretchAsThePlaneBodyDoes) {
   EXPECT_NEAR(energy, density * thickness * area_of(network), 1e-10 * energy);
 }
 
-TEST_P(Sheets, MoveAsRigidBodiesForNothing) {
+TEST_P(MidSurfaces, MoveAsRigidBodiesForNothing) {
   for (const double radius : {0.0, 1.1}) {
-    const Network network = make_sheet(GetParam(), radius);
+    const Network network = make_mid_surface(GetParam(), radius);
     const Vector3 w{0.3, -0.7, 0.5};
     std::vector<double> motion;
     for (Index i = 0; i < network.particles.size(); ++i) {
@@ -118,9 +118,9 @@ TEST_P(Sheets, MoveAsRigidBodiesForNothing) {
 /// The curvature of a cylinder grows everywhere by kappa without stretch: the angle psi of its
 /// normal goes from s / R to s / R + kappa s; the energy is D kappa^2 / 2 per area. Without the
 /// rise of bonds it would be larger by xi^4 / (12 R^2 t^2) of that, here up to two.
-TEST_P(Sheets, OfCylindersBendWithoutStretching) {
+TEST_P(MidSurfaces, OfCylindersBendWithoutStretching) {
   const double radius = 1.0, kappa = 1e-6;
-  const Network network = make_sheet(GetParam(), radius, 16);
+  const Network network = make_mid_surface(GetParam(), radius, 16);
   std::vector<double> motion;
   for (Index i = 0; i < network.particles.size(); ++i) {
     const double s = network.places().position(i)[0], angle = s / radius;
@@ -135,8 +135,8 @@ TEST_P(Sheets, OfCylindersBendWithoutStretching) {
   EXPECT_NEAR(forces_of(network, motion).energy, expected, 0.02 * expected);
 }
 
-TEST(Sheet, LongerThanItsCylinderIsAroundIsRefused) {
-  EXPECT_THROW(make_sheet(Pattern::rectangular, 0.2), std::invalid_argument);
+TEST(MidSurface, LongerThanItsCylinderIsAroundIsRefused) {
+  EXPECT_THROW(make_mid_surface(Pattern::rectangular, 0.2), std::invalid_argument);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "network/correction/glued_strength.hpp"
+#include "network/correction/tied_strength.hpp"
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ struct Ladder {
       }
     }
     network.facets.append(std::vector<Index>{0}, {0.0, -1.0, 0.0}, 0, no_index);
-    network.facets.glued.push_back(1);
+    network.facets.tied.push_back(1);
   }
 
   /// What the bonds that cross a height hold, over k xi^2 s_c^2 of one as they were.
@@ -55,12 +55,12 @@ struct Ladder {
 };
 
 /// The cut at 1/2 misses one of the three bonds inside, and carries 1.5 of 2 units of force.
-TEST(GluedStrength, CutsBesideTheFaceHoldAsMuchForTheirForceAsInside) {
+TEST(TiedStrength, CutsBesideTheFaceHoldAsMuchForTheirForceAsInside) {
   Ladder ladder(12);
   EXPECT_NEAR(ladder.energy(0.5), 2.0, 1e-12);
   EXPECT_NEAR(ladder.energy(6.5), 3.0, 1e-12);
   const std::vector<double> before = ladder.network.critical_stretch;
-  toughen_glued_faces(ladder.joint, 1, 2.0, 1.0, ladder.network);
+  toughen_tied_faces(ladder.joint, 1, 2.0, 1.0, ladder.network);
   // Factors on stretches are multiples of 0.01.
   EXPECT_NEAR(ladder.energy(0.5), 3.0 * 1.5 / 2.0, 0.03);
   EXPECT_NEAR(ladder.energy(6.5), 3.0, 1e-12);
@@ -69,10 +69,10 @@ TEST(GluedStrength, CutsBesideTheFaceHoldAsMuchForTheirForceAsInside) {
   }
 }
 
-TEST(GluedStrength, LayersWithoutAnInsideStayAsTheyAre) {
+TEST(TiedStrength, LayersWithoutAnInsideStayAsTheyAre) {
   Ladder ladder(3);
   const std::vector<double> before = ladder.network.critical_stretch;
-  toughen_glued_faces(ladder.joint, 1, 2.0, 1.0, ladder.network);
+  toughen_tied_faces(ladder.joint, 1, 2.0, 1.0, ladder.network);
   EXPECT_EQ(ladder.network.critical_stretch, before);
 }
 

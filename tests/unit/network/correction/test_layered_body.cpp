@@ -60,13 +60,13 @@ TEST(LayeredBody, ALayerIsABodyOfOneMaterialWithGluedFaces) {
     const Facets& facets = layer.network.facets;
     EXPECT_EQ(facets.size(), 32);
     Vector3 closed{};
-    Index glued = 0;
+    Index tied = 0;
     for (Index f = 0; f < facets.size(); ++f) {
       EXPECT_TRUE(facets.on_surface(f));
-      glued += facets.is_glued(f) ? 1 : 0;
+      tied += facets.is_tied(f) ? 1 : 0;
       for (int a = 0; a < 2; ++a) closed[a] += facets.area_vector(f)[a];
     }
-    EXPECT_EQ(glued, 8);
+    EXPECT_EQ(tied, 8);
     EXPECT_NEAR(std::hypot(closed[0], closed[1]), 0.0, 1e-12);
   }
 }

@@ -220,7 +220,7 @@ TEST(SurfaceCorrection, ShortBondsOfUnbreakableCloudsAreStiffest) {
     Body body = make_mesh_body(
         mesh, std::vector<Index>(static_cast<std::size_t>(mesh.num_cells()), 0), 1.0);
     body.lattice.surface = Surface::calibrated;
-    NetworkInput input = micropolar_cloud_input(count);
+    NetworkInput input = unstructured_micropolar_input(count);
     input.model = BondModel::bond_based;
     input.problem = dim == 2 ? Problem::plane_stress : Problem::three_dimensional;
     const auto power = [&] {
@@ -234,9 +234,9 @@ TEST(SurfaceCorrection, ShortBondsOfUnbreakableCloudsAreStiffest) {
 
 /// What bonds lose to those of other lengths they lose in extension and bending alike.
 TEST(SurfaceCorrection, ShortMicropolarBondsOfUnbreakableCloudsAreStiffest) {
-  NetworkInput input = micropolar_cloud_input(20);
+  NetworkInput input = unstructured_micropolar_input(20);
   input.materials[0].fracture_energy = INFINITY;
-  const Network network = build_network(make_cloud(1, 20), input);
+  const Network network = build_network(make_unstructured(1, 20), input);
   double largest = 0.0, smallest = INFINITY;
   for (Index b = 0; b < network.num_elements(); ++b) {
     const double xi = network.bonds.lengths[b];

@@ -37,13 +37,13 @@ TEST_P(LatticeNetworkOf, HasTheParticlesAndBondsOfTheRows) {
   const LatticeRows& lattice = model_.lattice;
   ASSERT_EQ(network_.particles.size() + body_.left_out, lattice.particles());
   ASSERT_EQ(body_.slots.size(), network_.particles.volumes.size());
-  const Csr families = bonds_of_particles(network_.bonds, network_.particles.size());
+  const Csr neighbourhoods = bonds_of_particles(network_.bonds, network_.particles.size());
   Index missing = 0;
   for (Index i = 0; i < network_.particles.size(); ++i) {
     const Index slot = body_.slots[i];
     EXPECT_EQ(network_.particles.position(i)[1], lattice.positions[lattice.at(1, slot)]);
     EXPECT_EQ(network_.particles.volumes[i], model_.volume[slot]);
-    missing += lattice.bond_count[slot] - static_cast<Index>(families.row(i).size());
+    missing += lattice.bond_count[slot] - static_cast<Index>(neighbourhoods.row(i).size());
   }
   EXPECT_EQ(missing, body_.left_out);  // each that is left out hung on one bond
   for (Index e = 0; e < network_.num_elements(); ++e) {
@@ -77,7 +77,7 @@ TEST_P(LatticeNetworkOf, IsHookesSolidInUniformStrain) {
       {{{0.0, 1.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 0.0, 0.0}}},
       {{{0.3, -0.4, 0.0}, {-0.4, 0.7, 0.0}, {0.0, 0.0, 0.0}}},
   }};
-  const Csr families = bonds_of_particles(network_.bonds, network_.particles.size());
+  const Csr neighbourhoods = bonds_of_particles(network_.bonds, network_.particles.size());
   const std::vector<int> depth = depths(network_);
   ASSERT_GT(*std::max_element(depth.begin(), depth.end()), 1);
   for (std::array<Vector3, 3> strain : strains) {

@@ -19,8 +19,8 @@
 namespace perilink {
 namespace {
 
-using test::particle_cloud;
 using test::random_numbers;
+using test::unstructured_particles;
 
 class ParticleNetworks : public testing::TestWithParam<int> {
  protected:
@@ -29,7 +29,7 @@ class ParticleNetworks : public testing::TestWithParam<int> {
 };
 
 TEST_P(ParticleNetworks, BondNearestNeighbours) {
-  const Network network = particle_cloud(dim(), count()).network;
+  const Network network = unstructured_particles(dim(), count()).network;
   const Particles& particles = network.particles;
   std::vector<int> members(static_cast<std::size_t>(particles.size()), 0);
   std::vector<double> farthest(members.size(), 0.0);
@@ -62,7 +62,7 @@ TEST_P(ParticleNetworks, BondNearestNeighbours) {
 }
 
 TEST_P(ParticleNetworks, HaveTheMatrixOfTheirForces) {
-  const Network network = particle_cloud(dim(), count()).network;
+  const Network network = unstructured_particles(dim(), count()).network;
   const std::size_t slots = network.particles.positions.size();
   const auto secants =
       random_numbers(static_cast<std::size_t>(network.num_elements()), 3, 0.0, 1.0);
@@ -89,7 +89,7 @@ TEST_P(ParticleNetworks, HaveTheMatrixOfTheirForces) {
 /// Under a uniform strain a particle stores a quarter of sum_j L_j F_j S_j with the constants of
 /// the fit to its own neighbours.
 TEST_P(ParticleNetworks, StoreTheEnergyOfTheirFits) {
-  const ParticleNetwork built = particle_cloud(dim(), count());
+  const ParticleNetwork built = unstructured_particles(dim(), count());
   const Network& network = built.network;
   const ParticleFitReport& report = built.report;
   EXPECT_EQ(report.exact + report.least + report.many + report.indefinite + report.singular,
@@ -98,21 +98,21 @@ TEST_P(ParticleNetworks, StoreTheEnergyOfTheirFits) {
   const Csr around = bonds_of_particles(network.bonds, network.particles.size());
   double exact = 0.0;
   for (Index i = 0; i < network.particles.size(); ++i) {
-    std::vector<FamilyBond> family;
+    std::vector<NeighbourhoodBond> neighbourhood;
     double farthest = 0.0;
     for (const Index e : around.row(i)) {
       if (!network.counts_for(e, network.bonds.first[e] == i ? first_end : second_end)) continue;
-      FamilyBond bond{{}, network.bonds.lengths[e], false};
+      NeighbourhoodBond bond{{}, network.bonds.lengths[e], false};
       for (int a = 0; a < dim(); ++a) bond.direction[a] = network.bonds.direction(e)[a];
       farthest = std::max(farthest, bond.length);
-      family.push_back(bond);
+      neighbourhood.push_back(bond);
     }
-    for (FamilyBond& bond : family) bond.far = bond.length > 0.85 * farthest;
+    for (NeighbourhoodBond& bond : neighbourhood) bond.far = bond.length > 0.85 * farthest;
     const ParticleFit fit =
         fit_particle_moduli(dim() == 2 ? Problem::plane_stress : Problem::three_dimensional, 30.0,
-                            0.2, family, network.particles.volumes[i]);
+                            0.2, neighbourhood, network.particles.volumes[i]);
     double sum = 0.0;
-    for (const FamilyBond& bond : family) {
+    for (const NeighbourhoodBond& bond : neighbourhood) {
       const Vector3& n = bond.direction;
       const double stretch = strain[0] * n[0] * n[0] + strain[1] * n[1] * n[1] +
                              (dim() == 3 ? strain[2] : 0.0) * n[2] * n[2];
@@ -133,7 +133,7 @@ TEST_P(ParticleNetworks, StoreTheEnergyOfTheirFits) {
 }
 
 TEST_P(ParticleNetworks, FillTheirBody) {
-  const Network network = particle_cloud(dim(), count()).network;
+  const Network network = unstructured_particles(dim(), count()).network;
   const auto& volumes = network.particles.volumes;
   EXPECT_NEAR(std::accumulate(volumes.begin(), volumes.end(), 0.0), 1.0, 1e-12);
 }

@@ -198,7 +198,7 @@ struct RunOrder {
 ExplicitResult run_explicit_bonds(const LoadedNetwork& problem, const Inertia& inertia,
                                   const BondRunRules& rules, const ExplicitOptions& options,
                                   BondRunObserver& observer) {
-  expect_nothing_carried(problem.unknowns);
+  expect_nothing_embedded(problem.unknowns);
   if (!can_be_shared(problem, options.ranks)) {
     auto bonds = make_bonds(problem.network, rules, stencil_for(problem.network, rules.strain));
     return BondRun(problem, inertia, std::move(bonds), rules, options, observer).run();

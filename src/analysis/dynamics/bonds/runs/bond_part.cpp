@@ -21,11 +21,11 @@ void for_each_member(Part& part, Visit visit) {
   visit(network.law_of);
   visit(network.critical_stretch);
   visit(network.cut_elements);
-  visit(network.first_anchored_tie);
-  visit(network.first_segment);
-  visit(network.anchors.particles.offsets);
-  visit(network.anchors.particles.values);
-  visit(network.anchors.weights);
+  visit(network.first_embedded_slip_spring);
+  visit(network.first_bar_element);
+  visit(network.embedded_points.particles.offsets);
+  visit(network.embedded_points.particles.values);
+  visit(network.embedded_points.weights);
   visit(part.body.unknowns.width);
   visit(part.body.unknowns.number);
   visit(part.body.unknowns.prescribed);
@@ -76,15 +76,16 @@ std::vector<Index> in_part(const std::vector<Index>& all, const std::vector<Inde
 
 /// Those among the particles that the part numbers. Where it has ties of theirs it numbers the
 /// particles around them, too.
-Anchors cut_anchors(const Network& network, Index first, Index past) {
-  Anchors own;
-  const Index anchors = network.first_anchor();
-  for (Index anchor = std::max(first, anchors); anchor < past; ++anchor) {
+EmbeddedPoints cut_embedded_points(const Network& network, Index first, Index past) {
+  EmbeddedPoints own;
+  const Index embedded_points = network.first_embedded_point();
+  for (Index embedded_point = std::max(first, embedded_points); embedded_point < past;
+       ++embedded_point) {
     std::vector<Index> particles;
-    for (const Index p : network.anchors.particles.row(anchor - anchors)) {
+    for (const Index p : network.embedded_points.particles.row(embedded_point - embedded_points)) {
       particles.push_back(p - first);
     }
-    own.append(particles, network.anchors.weights_of(anchor - anchors));
+    own.append(particles, network.embedded_points.weights_of(embedded_point - embedded_points));
   }
   return own;
 }
@@ -131,9 +132,9 @@ Network cut_network(const Network& network, const std::vector<Index>& elements, 
   const auto count_before = [&](Index element) {
     return static_cast<Index>(std::ranges::lower_bound(elements, element) - elements.begin());
   };
-  own.first_anchored_tie = count_before(network.first_anchored_tie);
-  own.first_segment = count_before(network.first_segment);
-  own.anchors = cut_anchors(network, first, past);
+  own.first_embedded_slip_spring = count_before(network.first_embedded_slip_spring);
+  own.first_bar_element = count_before(network.first_bar_element);
+  own.embedded_points = cut_embedded_points(network, first, past);
   return own;
 }
 

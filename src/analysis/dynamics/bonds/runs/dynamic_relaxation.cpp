@@ -165,7 +165,7 @@ class Relaxation {
     const bool ends = iteration_ >= options_.most_iterations;
     const bool is_due = separation_.is_due(fractured_);
     if (grows || (ends && !is_due)) {
-      end(Ending::failed,
+      end(Termination::failed,
           fmt::format("load step {} (load factor {}): {} after {} iterations; the residual force "
                       "is {:.2e} of the loads and reactions, what is left of the way {:.2e}; the "
                       "tolerance of both is {:.2e}",
@@ -178,7 +178,7 @@ class Relaxation {
     if (!checks || next_.done) return;
     observe([&] {
       observer_.on_iteration(static_cast<Index>(step_) + 1, iteration_, result_.residual);
-      if (observer_.stop_requested()) end(Ending::interrupted, "interrupted");
+      if (observer_.stop_requested()) end(Termination::interrupted, "interrupted");
     });
   }
 
@@ -201,7 +201,7 @@ class Relaxation {
     if (!pulled.empty()) collapse(pulled);
   }
   void collapse(const std::string& how) {
-    end(Ending::collapsed,
+    end(Termination::collapsed,
         fmt::format("load step {} (load factor {}): {}", step_ + 1, factor_, how));
   }
 
@@ -212,12 +212,12 @@ class Relaxation {
     try {
       action();
     } catch (const std::exception& error) {
-      end(Ending::failed, failure_text(error));
+      end(Termination::failed, failure_text(error));
     }
   }
 
-  void end(Ending ending, const std::string& reason) {
-    result_.ending = ending;
+  void end(Termination termination, const std::string& reason) {
+    result_.termination = termination;
     result_.reason = reason;
     next_.done = true;
   }
@@ -278,7 +278,7 @@ class Relaxation {
       }
       if (step_ + 1 == options_.load_factors.size()) return note_end();
       // Load steps may be at rest from the beginning.
-      if (observer_.stop_requested()) end(Ending::interrupted, "interrupted");
+      if (observer_.stop_requested()) end(Termination::interrupted, "interrupted");
     });
     if (shares_.leading) shares_.leading->tell(!next_.done);
   }
@@ -352,7 +352,7 @@ Inertia fictitious_inertia(const Network& network, Strain strain) {
 RelaxationResult run_dynamic_relaxation(const LoadedNetwork& problem,
                                         const RelaxationOptions& options,
                                         BondRunObserver& observer) {
-  expect_nothing_carried(problem.unknowns);
+  expect_nothing_embedded(problem.unknowns);
   const Inertia inertia = fictitious_inertia(problem.network, options.strain);
   if (!can_be_shared(problem, options.ranks)) {
     return Relaxation(problem, inertia, make_explicit_bonds(problem.network, options.strain),

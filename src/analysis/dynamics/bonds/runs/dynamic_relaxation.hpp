@@ -20,7 +20,7 @@ struct RelaxationOptions {
 
 /// How a relaxation ended.
 struct RelaxationResult {
-  Ending ending = Ending::completed;
+  Termination termination = Termination::completed;
   std::string reason;
   Index iterations = 0;  ///< over all load steps
   /// Norm of the residual force over that of loads and reactions, the largest of the load steps

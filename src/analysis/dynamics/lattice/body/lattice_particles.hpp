@@ -18,7 +18,7 @@ class LatticeParticles {
   explicit LatticeParticles(const ExplicitModel& model);
 
   /// The bonds of a particle, own ones first, then the incoming ones; absent ones are in the mask.
-  struct Family {
+  struct Neighbourhood {
     Index slot = 0;
     int bonds = 0;                            ///< 6 or 18
     std::array<Index, most_bonds> at{};       ///< in arrays of shape (own bonds, slots)
@@ -32,59 +32,62 @@ class LatticeParticles {
     /// Plus one for own bonds, minus one for incoming: the sign of LatticeFlow::half.
     double side(int j) const { return j < bonds / 2 ? 1.0 : -1.0; }
   };
-  Family family(const ExplicitState& state, Index row, Index slot) const;
-  bool is_whole(const Family& family) const { return family.mask == whole_; }
+  Neighbourhood neighbourhood(const ExplicitState& state, Index row, Index slot) const;
+  bool is_whole(const Neighbourhood& neighbourhood) const { return neighbourhood.mask == whole_; }
   /// Whether a particle or one of its neighbours lacks bonds.
   bool is_near_face(Index slot) const { return near_face_[slot] != 0; }
 
   /// Elastic stretches of the particle's own halves of its bonds, without shares of damage.
-  Halves elastic(const ExplicitState& state, const Family& family) const;
+  Halves elastic(const ExplicitState& state, const Neighbourhood& neighbourhood) const;
   /// The same as `damage` sees them: of bonds between particles with different damage, each half
   /// has its share (whole bonds by the rules of 2017).
-  Halves shared(const ExplicitState& state, const Family& family) const;
+  Halves shared(const ExplicitState& state, const Neighbourhood& neighbourhood) const;
   /// Factor of the damage of a bond, by the sign of its stretch.
-  static double factor(const ExplicitState& state, const Family& family, int bond);
+  static double factor(const ExplicitState& state, const Neighbourhood& neighbourhood, int bond);
   /// Square root of what the particle's damage leaves of its half of a bond; one by the rules of
   /// the papers.
-  static double root(const ExplicitState& state, const Family& family, int bond);
+  static double root(const ExplicitState& state, const Neighbourhood& neighbourhood, int bond);
   /// Force states of the particle: own modulus times the stretch times the factor of damage, plus
   /// the part of the sum times `root` [force].
-  Halves forces(const ExplicitState& state, const Family& family) const;
+  Halves forces(const ExplicitState& state, const Neighbourhood& neighbourhood) const;
   /// Force states of the particles at the other ends of its bonds, each in the bond between the
   /// two, by the rules of the papers [force].
-  Halves partner_forces(const ExplicitState& state, const Family& family) const;
+  Halves partner_forces(const ExplicitState& state, const Neighbourhood& neighbourhood) const;
   /// (1 / 2V) sum_j L n n' F_j, with the stress out of the plane in plane strain [force/length^2].
   /// \param force  F_j, as `forces` gives them
-  SymmetricTensor stress(const ExplicitState& state, const Family& family,
+  SymmetricTensor stress(const ExplicitState& state, const Neighbourhood& neighbourhood,
                          const Halves& force) const;
-  SymmetricTensor stress(const ExplicitState& state, const Family& family) const {
-    return stress(state, family, forces(state, family));
+  SymmetricTensor stress(const ExplicitState& state, const Neighbourhood& neighbourhood) const {
+    return stress(state, neighbourhood, forces(state, neighbourhood));
   }
   /// Mean of the stresses of a particle and its neighbours, weighted with their volumes, without
   /// plastic strains out of the plane.
   /// \param volume  becomes the sum of the volumes
   /// \param count   becomes the number of particles
-  SymmetricTensor mean_stress(const ExplicitState& state, const Family& family, Index row,
-                              double& volume, int& count) const;
+  SymmetricTensor mean_stress(const ExplicitState& state, const Neighbourhood& neighbourhood,
+                              Index row, double& volume, int& count) const;
 
   /// Strain that fits the stretches of the existing bonds best; in the plane xx, yy and xy only.
-  SymmetricTensor fit(const Halves& stretch, const Family& family) const;
+  SymmetricTensor fit(const Halves& stretch, const Neighbourhood& neighbourhood) const;
   /// Coefficients of `fit` of a particle with all bonds in the plane, shape (6, 3).
   const std::vector<double>& whole_inverse() const { return whole_inverse_; }
   /// Stretches of the bonds under a strain.
-  Halves project(const SymmetricTensor& strain, const Family& family) const;
+  Halves project(const SymmetricTensor& strain, const Neighbourhood& neighbourhood) const;
 
  private:
   /// All but the slots in StepNumbers.
-  Family family(Index row, Index slot) const;
+  Neighbourhood neighbourhood(Index row, Index slot) const;
   /// Least-squares inverse of "stretch of bond j from strain", shape (bonds, 3 or 6).
   using Inverse = std::vector<double>;
   Inverse invert(std::uint32_t mask) const;
   void find_faces();
   /// Elastic stretches of the halves at one end, 1: the particle's own, -1: its partners'.
-  Halves elastic_at(double end, const ExplicitState& state, const Family& family) const;
-  SymmetricTensor bond_stress(const Family& family, const Halves& force) const;
-  const Inverse& inverse_of(const Family& family) const { return inverses_[kind_[family.slot]]; }
+  Halves elastic_at(double end, const ExplicitState& state,
+                    const Neighbourhood& neighbourhood) const;
+  SymmetricTensor bond_stress(const Neighbourhood& neighbourhood, const Halves& force) const;
+  const Inverse& inverse_of(const Neighbourhood& neighbourhood) const {
+    return inverses_[kind_[neighbourhood.slot]];
+  }
 
   const ExplicitModel& model_;
   std::uint32_t whole_ = 0;

@@ -1,4 +1,4 @@
-#include "analysis/dynamics/bonds/anchored_ties.hpp"
+#include "analysis/dynamics/bonds/embedded_slip_springs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,14 +18,14 @@ Network barred(const ForceCurve& bond) {
   const LatticeInput body = body_input({"", Pattern::rectangular, Surface::none}, 6);
   NetworkInput input = network_input(body);
   RebarLine bar{{0.1, 0.43, 0.0}, {0.9, 0.57, 0.0}};
-  bar.anchored = true;
+  bar.embedded = true;
   input.bars = {bar};
   BarMaterial material{200.0, 0.01};
   material.bond.perimeter = 0.4;
   material.bond.curve = bond;
   input.bar_materials = {material};
   Network network = build_network(make_body(body), input);
-  for (Index e = 0; e < network.first_tie; ++e) network.critical_stretch[e] = INFINITY;
+  for (Index e = 0; e < network.first_slip_spring; ++e) network.critical_stretch[e] = INFINITY;
   return network;
 }
 
@@ -34,9 +34,9 @@ BondMotion motion_of(const Network& network, double size, double speed) {
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   BondMotion motion;
   for (Index slot = 0; slot < 2 * network.particles.size(); ++slot) {
-    const bool anchor = network.is_anchor(slot / 2);
-    motion.displacement.push_back(anchor ? 0.0 : size * any(random));
-    motion.velocity.push_back(anchor ? 0.0 : speed * any(random));
+    const bool embedded_point = network.is_embedded_point(slot / 2);
+    motion.displacement.push_back(embedded_point ? 0.0 : size * any(random));
+    motion.velocity.push_back(embedded_point ? 0.0 : speed * any(random));
   }
   return motion;
 }
@@ -50,7 +50,7 @@ InternalForce expected_of(const Network& network, const std::vector<double>& sec
   return force;
 }
 
-TEST(AnchoredTies, PullLikeThoseOfTheNetwork) {
+TEST(EmbeddedSlipSprings, PullLikeThoseOfTheNetwork) {
   const Network network = barred({{{1e3, 3e6}}});
   const BondMotion motion = motion_of(network, 0.01, 0.0);
   const auto bonds = make_explicit_bonds(network);
@@ -66,7 +66,7 @@ TEST(AnchoredTies, PullLikeThoseOfTheNetwork) {
   EXPECT_NEAR(bonds->stored(0, count, 0.1, motion), expected.energy, 1e-12 * expected.energy);
 }
 
-TEST(AnchoredTies, FallFromToothToToothTogether) {
+TEST(EmbeddedSlipSprings, FallFromToothToToothTogether) {
   const Network network = barred({{{1e-4, 0.3}, {1e-3, 0.4}}});
   const BondMotion motion = motion_of(network, 0.01, 0.0);
   const auto bonds = make_explicit_bonds(network);
@@ -75,7 +75,7 @@ TEST(AnchoredTies, FallFromToothToToothTogether) {
   const BondLosses losses = bonds->forces(0, count, 0.1, motion, force);
   const std::vector<double> secants = bonds->secants();
   double fallen = 0.0;
-  for (Index e = network.first_tie; e < network.first_segment; e += 2) {
+  for (Index e = network.first_slip_spring; e < network.first_bar_element; e += 2) {
     EXPECT_LT(secants[e], 1.0);
     EXPECT_EQ(secants[e + 1], 1.0) << "across the bar";
     fallen += 1.0 - secants[e];

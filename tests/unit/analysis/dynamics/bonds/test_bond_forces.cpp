@@ -84,7 +84,7 @@ TEST_P(HalvesOfBlocks, BondsBreakWhereTheirEnergyIsTooLarge) {
   const Forces found = all_forces(body, *bonds, motion, 0.1);
   const std::vector<double> secants = bonds->secants();
   Index broken = 0;
-  for (Index e = 0; e < network.first_segment; ++e) {
+  for (Index e = 0; e < network.first_bar_element; ++e) {
     const std::size_t first = static_cast<std::size_t>(network.bonds.first[e]) * network.width();
     const std::size_t second = static_cast<std::size_t>(network.bonds.second[e]) * network.width();
     double extension = 0.0;
@@ -101,7 +101,7 @@ TEST_P(HalvesOfBlocks, BondsBreakWhereTheirEnergyIsTooLarge) {
     broken += breaks;
   }
   ASSERT_GT(broken, 0);
-  ASSERT_LT(broken, network.first_segment);
+  ASSERT_LT(broken, network.first_bar_element);
   EXPECT_EQ(found.losses.broken_halves(), 2 * broken);
   const InternalForce expected = internal_force(network, secants, motion.displacement);
   double largest = 0.0;
@@ -139,7 +139,7 @@ TEST(ExplicitBonds, FallToTheToothOnWhichTheyHold) {
   const Network& network = body.network;
   const double critical =
       *std::min_element(network.critical_stretch.begin(), network.critical_stretch.end());
-  const auto tooth_at = [](double stretch) {
+  const auto segment_at = [](double stretch) {
     return stretch > 3.0 ? 0.0 : stretch > 1.4 ? 0.2 : stretch > 1.0 ? 0.6 : 1.0;
   };
   for (const double strain : {0.9, 1.2, 2.1, 4.1, -4.1}) {
@@ -153,7 +153,7 @@ TEST(ExplicitBonds, FallToTheToothOnWhichTheyHold) {
     double lost = 0.0;
     for (Index e = 0; e < network.num_elements(); ++e) {
       const double n = network.bonds.direction(e)[0], stretch = strain * critical * n * n;
-      const double expected = tooth_at(stretch / network.critical_stretch[e]);
+      const double expected = segment_at(stretch / network.critical_stretch[e]);
       EXPECT_EQ(secants[e], expected) << strain << " " << e;
       broken += expected == 0.0;
       lost += 0.5 * network.stiffness[e] * (1.0 - expected) *
@@ -169,9 +169,9 @@ TEST(ExplicitBonds, FallToTheToothOnWhichTheyHold) {
 TEST(ExplicitBonds, BarsYieldEitherWay) {
   AnalysisBody body = make_block({{"plane", Pattern::rectangular, Surface::none}, false, true});
   Network& network = body.network;
-  ASSERT_LT(network.first_segment, network.num_elements());
-  std::fill_n(network.critical_stretch.begin(), network.first_segment, INFINITY);
-  const double yield = network.critical_stretch[network.first_segment];
+  ASSERT_LT(network.first_bar_element, network.num_elements());
+  std::fill_n(network.critical_stretch.begin(), network.first_bar_element, INFINITY);
+  const double yield = network.critical_stretch[network.first_bar_element];
   for (const double strain : {7.0 * yield, -7.0 * yield}) {
     BondMotion motion;
     motion.displacement = linear_field(network.particles, {{{strain, 0, 0}, {}, {}}});
@@ -179,7 +179,7 @@ TEST(ExplicitBonds, BarsYieldEitherWay) {
     const auto bonds = make_explicit_bonds(network);
     const Forces found = all_forces(body, *bonds, motion, 0.1);
     const std::vector<double> secants = bonds->secants();
-    for (Index e = network.first_segment; e < network.num_elements(); ++e) {
+    for (Index e = network.first_bar_element; e < network.num_elements(); ++e) {
       // Teeth lie within a factor sqrt(1.05) of the plateau.
       EXPECT_NEAR(secants[e] * 7.0, 1.0, 0.025);
     }

@@ -63,8 +63,8 @@ TEST(BondStencil, KindsOfASquareLattice) {
 }
 
 TEST(BondStencil, CloudsHaveNone) {
-  const Body cloud = make_cloud(1, 4);
-  const Network network = build_network(cloud, network_input(body_input({}, 4)));
+  const Body particle_set = make_unstructured(1, 4);
+  const Network network = build_network(particle_set, network_input(body_input({}, 4)));
   const BondStencil stencil = find_stencil(network);
   EXPECT_TRUE(stencil.kinds.empty());
   EXPECT_EQ(stencil.rest.size(), static_cast<std::size_t>(network.num_elements()));
@@ -84,7 +84,7 @@ TEST(BondStencil, LeavesBarsToOthers) {
   const BondStencil stencil = find_stencil(body.network);
   const std::set<Index> rest(stencil.rest.begin(), stencil.rest.end());
   EXPECT_FALSE(stencil.kinds.empty());
-  for (Index e = body.network.first_segment; e < body.network.num_elements(); ++e) {
+  for (Index e = body.network.first_bar_element; e < body.network.num_elements(); ++e) {
     EXPECT_TRUE(rest.contains(e));
   }
 }
@@ -101,7 +101,7 @@ TEST(BondStencil, HoldsOneOfTwoBondsSideBySide) {
   again(network.bonds.directions, 2 * copied + 1);
   again(network.stiffness, copied);
   again(network.critical_stretch, copied);
-  network.first_tie = network.first_segment = network.num_elements();
+  network.first_slip_spring = network.first_bar_element = network.num_elements();
   EXPECT_EQ(find_stencil(network).rest, std::vector<Index>{added});
 }
 

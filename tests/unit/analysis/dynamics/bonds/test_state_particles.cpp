@@ -18,8 +18,8 @@
 namespace perilink {
 namespace {
 
-using test::particle_cloud;
 using test::random_numbers;
+using test::unstructured_particles;
 
 constexpr double strength = 0.003, dt = 0.1;
 
@@ -35,7 +35,7 @@ StateMaterial concrete(bool breakable) {
 class ExplicitParticles : public testing::TestWithParam<int> {
  protected:
   ExplicitParticles()
-      : network_(particle_cloud(GetParam(), GetParam() == 2 ? 7 : 4).network),
+      : network_(unstructured_particles(GetParam(), GetParam() == 2 ? 7 : 4).network),
         size_(network_.particles.size()),
         problem_(GetParam() == 2 ? Problem::plane_stress : Problem::three_dimensional),
         hooke_(hooke_constants(problem_, 30.0, 0.2)) {}
@@ -260,7 +260,7 @@ TEST_P(ExplicitParticles, DamageNeverHeals) {
 TEST_P(ExplicitParticles, NoVibrationIsFasterThanTheBound) {
   for (const double ratio : {-0.3, 0.2, 0.45}) {
     const Network network =
-        particle_cloud(GetParam(), GetParam() == 2 ? 6 : 3, {30.0, ratio}).network;
+        unstructured_particles(GetParam(), GetParam() == 2 ? 6 : 3, {30.0, ratio}).network;
     const Inertia inertia = lumped_inertia(network, std::vector{2.5});
     const std::size_t slots = network.particles.positions.size();
     const Unknowns unknowns = number_unknowns(network.dim(), std::vector<std::uint8_t>(slots, 0),

@@ -176,7 +176,7 @@ class PulledPlate : public testing::Test {
 TEST_F(PulledPlate, EnergyIsAccountedForWhileBondsBreak) {
   Recorder recorder;
   const ExplicitResult result = run(1, recorder);
-  EXPECT_EQ(result.ending, Ending::completed) << result.reason;
+  EXPECT_EQ(result.termination, Termination::completed) << result.reason;
   EXPECT_GT(result.last.broken_bonds, 100);
   EXPECT_LT(result.largest_surplus, 1e-11);  // some steps with round-off of the energies
 }

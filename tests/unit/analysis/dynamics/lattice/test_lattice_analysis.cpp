@@ -79,7 +79,7 @@ TEST(ExplicitAnalysis, StopsOnRequestBetweenRowsWithOneMoreRow) {
   options.ramp = options.duration;
   Stopper stopper;
   const ExplicitResult result = run_explicit_analysis(model, state, options, stopper);
-  EXPECT_EQ(result.ending, Ending::interrupted);
+  EXPECT_EQ(result.termination, Termination::interrupted);
   EXPECT_EQ(stopper.rows, 2);
   EXPECT_LT(result.steps, 1000) << "long before the next row";
   EXPECT_EQ(stopper.last_row, result.steps);
@@ -96,12 +96,12 @@ TEST(ExplicitAnalysis, TellsTheEndOnceAndPassesFailuresOn) {
   stopper.wanted = 1000;
   ExplicitState state(model);
   const ExplicitResult result = run_explicit_analysis(model, state, options, stopper);
-  EXPECT_EQ(result.ending, Ending::completed);
+  EXPECT_EQ(result.termination, Termination::completed);
   EXPECT_EQ(stopper.ends, 1);
   EXPECT_EQ(stopper.end, result.steps);
   stopper.fails = true;
   const ExplicitResult failed = run_explicit_analysis(model, state, options, stopper);
-  EXPECT_EQ(failed.ending, Ending::failed);
+  EXPECT_EQ(failed.termination, Termination::failed);
   EXPECT_EQ(failed.reason, "disk full");
 }
 
@@ -147,7 +147,7 @@ TEST(ExplicitAnalysis, BarSwingsWithItsOwnPeriod) {
 TEST(ExplicitAnalysis, SlowTensionGivesModulusAndPoissonsRatio) {
   for (const double degrees : {0.0, 15.0, 30.0}) {
     ExplicitModel model = plane_model(rectangle(0.0776, 0.1658, 0.01, degrees), paper_concrete());
-    grip_ends(model, 0.005, 1e-5);
+    clamped_ends(model, 0.005, 1e-5);
     ExplicitState state(model);
     ExplicitOptions options;
     options.duration = 0.006;
@@ -189,14 +189,14 @@ TEST(ExplicitAnalysis, EnergyStaysTheSameWithoutDamping) {
 
 TEST(ExplicitAnalysis, EnergyIsBalancedInSlowLoading) {
   ExplicitModel model = plane_model(rectangle(0.0776, 0.1658, 0.01, 15.0), paper_concrete());
-  grip_ends(model, 0.01, 1e-4);
+  clamped_ends(model, 0.01, 1e-4);
   ExplicitState state(model);
   ExplicitOptions options;
   options.duration = 0.003;
   options.ramp = 0.0024;
   options.reference = 1e-4;
   const ExplicitResult result = run_lattice(model, state, options);
-  EXPECT_EQ(result.ending, Ending::completed);
+  EXPECT_EQ(result.termination, Termination::completed);
   EXPECT_LT(result.largest_surplus, 1e-6);
 }
 
@@ -204,7 +204,7 @@ TEST(ExplicitAnalysis, EnergyIsBalancedWhileASpecimenTears) {
   LatticeMaterial material = paper_concrete();
   material.breakable = true;
   ExplicitModel model = plane_model(rectangle(0.0776, 0.0758, 0.01, 0.0), material);
-  grip_ends(model, 0.01, 2.5e-4);
+  clamped_ends(model, 0.01, 2.5e-4);
   ExplicitState state(model);
   ExplicitOptions options;
   options.duration = 0.02;
@@ -224,7 +224,7 @@ TEST(ExplicitAnalysis, ResultsDoNotDependOnTheNumberOfThreads) {
   material.softening.strength = 2.62e3;  // cracks at once
   ExplicitModel model = plane_model(rectangle(0.5, 0.5, 0.01, 15.0), material);
   ASSERT_GT(model.lattice.particles(), 8000);  // enough for two threads
-  grip_ends(model, 0.02, 1e-5);
+  clamped_ends(model, 0.02, 1e-5);
   std::vector<double> displacement;
   EnergyBalance energy;
   for (const int threads : {1, 2}) {
@@ -338,7 +338,8 @@ TEST(ExplicitAnalysis, NoticesMotionThatGrowsOutOfNothing) {
     options.duration = 4000 * options.time_step;
     options.refuse_unstable = false;
     const ExplicitResult result = run_lattice(model, state, options);
-    EXPECT_EQ(result.ending, factor < 1.0 ? Ending::completed : Ending::failed) << factor;
+    EXPECT_EQ(result.termination, factor < 1.0 ? Termination::completed : Termination::failed)
+        << factor;
     if (factor > 1.0) {
       EXPECT_NE(result.reason.find("too large"), std::string::npos) << result.reason;
     }

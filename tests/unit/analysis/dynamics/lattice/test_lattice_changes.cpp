@@ -142,7 +142,8 @@ TEST(LatticeChanges, SidesOfAPressedColumnDoNotSplit) {
   }
   evaluate(model, state);
   for_each_particle(lattice, [&](Index row, Index slot) {
-    const SymmetricTensor stress = particles.stress(state, particles.family(state, row, slot));
+    const SymmetricTensor stress =
+        particles.stress(state, particles.neighbourhood(state, row, slot));
     largest = std::max(largest, principal_values(stress, 2).first);
   });
   EXPECT_GT(largest, 2.62e6);

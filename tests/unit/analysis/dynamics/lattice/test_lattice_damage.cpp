@@ -87,8 +87,8 @@ double first_stress(const ExplicitModel& model, const ExplicitState& state, Inde
   for (std::size_t r = 0; r < model.lattice.rows.size(); ++r) {
     const LatticeRow& row = model.lattice.rows[r];
     if (slot < row.first || slot >= row.first + row.size) continue;
-    const auto family = particles.family(state, static_cast<Index>(r), slot);
-    return principal_values(particles.stress(state, family), model.lattice.dim).first;
+    const auto neighbourhood = particles.neighbourhood(state, static_cast<Index>(r), slot);
+    return principal_values(particles.stress(state, neighbourhood), model.lattice.dim).first;
   }
   return 0.0;
 }

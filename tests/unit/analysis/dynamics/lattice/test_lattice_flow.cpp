@@ -33,15 +33,16 @@ TEST(LatticeYielding, ReturnsInteriorParticlesToTheYieldSurface) {
       change(model, changes, state);
       int interior = 0;
       for_each_particle(model.lattice, [&](Index row, Index slot) {
-        const LatticeParticles::Family family = particles.family(state, row, slot);
-        if (!particles.is_whole(family)) return;
+        const LatticeParticles::Neighbourhood neighbourhood =
+            particles.neighbourhood(state, row, slot);
+        if (!particles.is_whole(neighbourhood)) return;
         ++interior;
         const double yield = yield_stress(model.material.yielding, state.flow.equivalent[slot]);
         EXPECT_GT(yield, 22.98e6);
         EXPECT_NEAR(state.flow.yield[slot], yield, 1e-15 * yield);
         // Bonds stretch by their true lengths, squares of 2e-3, which plastic strains do not have;
         // a whole family's fit of them is the strain that the return saw.
-        EXPECT_NEAR(mises_stress(particles.stress(state, family)), yield, 1e-9 * yield);
+        EXPECT_NEAR(mises_stress(particles.stress(state, neighbourhood)), yield, 1e-9 * yield);
       });
       EXPECT_GT(interior, 20);
     }
@@ -132,11 +133,11 @@ TEST(LatticeYielding, RulesOf2018StepAlongTheDeviatorOfTheBondForces) {
   for_each_particle(lattice, [&](Index row, Index slot) { yielding.flow(state, row, slot); });
   int deep = 0;  // whole neighbours: the bond forces are those of the uniform strain
   for_each_particle(lattice, [&](Index row, Index slot) {
-    const LatticeParticles::Family family = particles.family(state, row, slot);
+    const LatticeParticles::Neighbourhood neighbourhood = particles.neighbourhood(state, row, slot);
     if (particles.is_near_face(slot)) return;
     ++deep;
     double square = 0.0, sum = 0.0;
-    for (int j = 0; j < family.bonds; ++j) {
+    for (int j = 0; j < neighbourhood.bonds; ++j) {
       const double flow = state.flow.stretch[lattice.at(j, slot)];
       sum += flow;
       square += flow * flow;

@@ -43,7 +43,7 @@ class FollowedBody {
   explicit FollowedBody(const BatchBody& kind)
       : growing(make_block(kind.block)), constant(growing), in_stages_(kind.in_stages) {
     EquilibriumOptions options{.route = kind.route, .solver = kind.solver};
-    options.boxes.tolerance = 1e-12;
+    options.subdomains.tolerance = 1e-12;
     options.event_tolerance = 0.02;
     equilibrium.emplace(growing, options);
     if (!in_stages_) return;
@@ -106,13 +106,13 @@ class FollowedBody {
     const Eigen::VectorXd c = in_stages_ ? rested() : Eigen::VectorXd::Zero(u.size());
     const double compliance = equilibrium->work().compliance();
     const Eigen::VectorXd now = in_stages_ ? Eigen::VectorXd(c + stage_load_factor * u) : u;
-    double lost = 0.0, lost_now = 0.0, lost_then = 0.0, lost_beside = 0.0;
+    double lost = 0.0, lost_now = 0.0, lost_then = 0.0, lost_by_permanent = 0.0;
     for (const auto& change : batch) {
       const double part = equilibrium->secants()[change.element] - change.secant;
       lost += equilibrium->energy_lost(change);
       lost_now += 2.0 * part * element_energy(growing.network, as_span(now), change.element);
       lost_then += 2.0 * part * element_energy(growing.network, as_span(u), change.element);
-      lost_beside += 2.0 * part * element_energy(growing.network, as_span(c), change.element);
+      lost_by_permanent += 2.0 * part * element_energy(growing.network, as_span(c), change.element);
     }
 
     const auto outcome = equilibrium->weaken_together(batch);
@@ -130,12 +130,13 @@ class FollowedBody {
     if (in_stages_) {
       const Eigen::VectorXd c_now = rested();
       const double all = std::abs(c.dot(before * c)) + size;
-      EXPECT_NEAR(outcome->growth_beside.linear, u.dot(gone * c_now) + c.dot(gone * u_now),
+      EXPECT_NEAR(outcome->permanent_growth.linear, u.dot(gone * c_now) + c.dot(gone * u_now),
                   batch_closeness * all);
-      EXPECT_NEAR(outcome->growth_beside.constant, c.dot(gone * c_now), batch_closeness * all);
-      EXPECT_NEAR(outcome->released_beside.constant, 0.5 * lost_beside, batch_closeness * all);
+      EXPECT_NEAR(outcome->permanent_growth.constant, c.dot(gone * c_now), batch_closeness * all);
+      EXPECT_NEAR(outcome->released_by_permanent.constant, 0.5 * lost_by_permanent,
+                  batch_closeness * all);
       if (!growing.network.has_closing()) {
-        EXPECT_NEAR(outcome->released_beside.linear, u.dot(gone * c), batch_closeness * all);
+        EXPECT_NEAR(outcome->released_by_permanent.linear, u.dot(gone * c), batch_closeness * all);
       }
     }
     EXPECT_NEAR(outcome->released, 0.5 * lost_then, batch_closeness * size);
@@ -199,9 +200,9 @@ std::vector<BatchBody> batch_bodies() {
       result.push_back({{cubic, driven, false, 5, 0.1, false, true}, {}, in_stages});
     }
     result.push_back({{cubic, driven, false, 4, 0.1, true, true}, {}, driven});
-    BatchBody boxes{{cubic, driven, false, 6, 0.1, false, true}};
-    boxes.solver = LinearSolver::iterative;
-    result.push_back(boxes);
+    BatchBody subdomains{{cubic, driven, false, 6, 0.1, false, true}};
+    subdomains.solver = LinearSolver::iterative;
+    result.push_back(subdomains);
   }
   return result;
 }

@@ -15,7 +15,7 @@ using namespace test;
 /// chain passes one tooth and keeps 0.6 of its stiffness.
 std::pair<double, double> pull_and_push(bool closes) {
   AnalysisBody body = make_chains(2, 2, true, 2.0, 0.01);
-  body.network.laws.front() = closes ? three_teeth().closing() : three_teeth();
+  body.network.laws.front() = closes ? three_segments().closing() : three_segments();
   body.sets = {set_of(body)};
   double pulled = 0.0, pushed = 0.0;
   Recorder recorder([&](const StepRecord& row, StateSource&) {
@@ -24,7 +24,7 @@ std::pair<double, double> pull_and_push(bool closes) {
   });
   const DamageResult result =
       run(body, in_stages({{0, 0.021, {}}, {0, 0.01, {}}, {0, -0.1, {}}}), recorder);
-  EXPECT_EQ(result.ending, Ending::completed) << result.reason;
+  EXPECT_EQ(result.termination, Termination::completed) << result.reason;
   EXPECT_LT(result.energy_error, 1e-12);
   return {pulled, pushed};
 }
@@ -71,13 +71,13 @@ TEST(Closing, ManyCutBondsOpenWithOneFactor) {
                                   false,
                                   false,
                                   true});
-  for (Index e = 0; e < body.network.first_tie; e += 3) {
+  for (Index e = 0; e < body.network.first_slip_spring; e += 3) {
     if (!body.network.has_limit(e)) continue;
     body.network.cut_elements.push_back(e);
     body.network.critical_stretch[e] = std::numeric_limits<double>::infinity();
   }
   for (const LinearSolver solver : {LinearSolver::direct, LinearSolver::iterative}) {
-    Equilibrium equilibrium(body, {.solver = solver, .boxes = {.tolerance = 1e-12}});
+    Equilibrium equilibrium(body, {.solver = solver, .subdomains = {.tolerance = 1e-12}});
     Index opened = 0;
     for (const Index e : body.network.cut_elements) {
       const double extension = extension_of(body.network, equilibrium.displacement(), e);
@@ -115,7 +115,7 @@ TEST(Closing, ManyCutBondsThatHoldTheBodyAreFoundOut) {
       middle += body.network.particles.position(i)[0] / body.network.particles.size();
     }
     const auto right = [&](Index i) { return body.network.particles.position(i)[0] > middle; };
-    for (Index e = 0; e < body.network.first_tie; ++e) {
+    for (Index e = 0; e < body.network.first_slip_spring; ++e) {
       if (right(bonds.first[e]) == right(bonds.second[e])) continue;
       body.network.cut_elements.push_back(e);
       body.network.critical_stretch[e] = std::numeric_limits<double>::infinity();

@@ -69,8 +69,10 @@ class ConstantLoads : public testing::TestWithParam<BodyKind> {
     Balance balance = equilibrium_->check();
     equilibrium_->check_constant(balance);
     EXPECT_LT(balance.residual, 1e-10);
-    EXPECT_NEAR(balance.stored_beside.constant, 0.5 * forces.dot(constant), load_tolerance * size);
-    EXPECT_NEAR(balance.stored_beside.linear, forces.dot(growing), load_tolerance * size * 10.0);
+    EXPECT_NEAR(balance.stored_by_permanent.constant, 0.5 * forces.dot(constant),
+                load_tolerance * size);
+    EXPECT_NEAR(balance.stored_by_permanent.linear, forces.dot(growing),
+                load_tolerance * size * 10.0);
   }
 
   AnalysisBody growing_, constant_;
@@ -90,7 +92,7 @@ TEST_P(ConstantLoads, FollowTheSameEvents) {
     // The compliance f_c'u_c - R_c'd_c grows by what the event says.
     const ConstantWork after = equilibrium_->constant_work();
     const double grown = (after.forces - after.supports) - (before.forces - before.supports);
-    EXPECT_NEAR(outcome.growth_beside.constant, grown, load_tolerance * std::abs(after.forces));
+    EXPECT_NEAR(outcome.permanent_growth.constant, grown, load_tolerance * std::abs(after.forces));
   }
   EXPECT_EQ(events, 12);
   expect_both_fields();

@@ -64,12 +64,13 @@ TEST(Equilibrium, AGlanceCostsNoSolve) {
   AnalysisBody body = make_partly_unbreakable(rectangular, 0.7);
   body.network.support_stiffness.assign(body.unknowns.number.size(), 0.05);
   Equilibrium equilibrium(body, {});
-  EXPECT_FALSE(std::isnan(equilibrium.glance().stored_energy)) << "all is current at the start";
+  EXPECT_FALSE(std::isnan(equilibrium.check_cheaply().stored_energy))
+      << "all is current at the start";
   std::vector<double> first(equilibrium.displacement().begin(), equilibrium.displacement().end());
   Index weakened = 0;
   while (!body.network.has_limit(weakened)) ++weakened;
   ASSERT_FALSE(equilibrium.weaken(weakened, 0.5).mechanism);
-  const Balance balance = equilibrium.glance();
+  const Balance balance = equilibrium.check_cheaply();
   EXPECT_TRUE(std::isnan(balance.stored_energy));
   EXPECT_LT(balance.residual, 1e-12);
   Index stale = 0;
@@ -80,7 +81,7 @@ TEST(Equilibrium, AGlanceCostsNoSolve) {
   strict.residual_tolerance = 1e-30;  // no arithmetic meets it
   Equilibrium doubted(body, strict);
   ASSERT_FALSE(doubted.weaken(weakened, 0.5).mechanism);
-  EXPECT_FALSE(std::isnan(doubted.glance().stored_energy));
+  EXPECT_FALSE(std::isnan(doubted.check_cheaply().stored_energy));
 }
 
 /// Elements without a limit are where displacements may be those of an earlier event.

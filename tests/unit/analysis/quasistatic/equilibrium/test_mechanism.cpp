@@ -20,7 +20,7 @@ using namespace test;
 
 /// A body of boxes in the plane, unit spacing, bonds of two spacings, held at x = 0 and pulled
 /// across at its right end.
-AnalysisBody make_boxes(std::vector<Box> solid, double right) {
+AnalysisBody make_subdomains(std::vector<Subdomain> solid, double right) {
   LatticeInput input;
   input.pattern = Pattern::rectangular;
   input.spacing = 1.0;
@@ -40,7 +40,7 @@ AnalysisBody make_boxes(std::vector<Box> solid, double right) {
 
 /// Two squares that share a particle, with bonds between them only there.
 AnalysisBody make_hinge(double side) {
-  AnalysisBody body = make_boxes(
+  AnalysisBody body = make_subdomains(
       {{{0, 0, 0}, {side, side, 0}}, {{side, side, 0}, {2 * side, 2 * side, 0}}}, 2 * side);
   std::vector<std::uint8_t> keep;
   const Network& network = body.network;
@@ -82,7 +82,7 @@ TEST(Mechanism, IsRefusedInsideABody) {
 
 /// Nor is a strip of one row of cells one, a thousand times as long as it is high.
 TEST(Mechanism, SlenderBodiesAreNone) {
-  const AnalysisBody strip = make_boxes({{{0, 0, 0}, {1000, 1, 0}}}, 1000.0);
+  const AnalysisBody strip = make_subdomains({{{0, 0, 0}, {1000, 1, 0}}}, 1000.0);
   EXPECT_NO_THROW(run_elastic_analysis(strip));
   EXPECT_NO_THROW(Equilibrium(strip, {}));
 }

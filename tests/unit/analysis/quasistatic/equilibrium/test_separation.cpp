@@ -35,7 +35,7 @@ AnalysisBody make_pair(double rest, double bending = 0.0) {
   network.stiffness = {1.0, rest};
   if (bending > 0.0) network.bending = {bending, bending * rest};
   network.critical_stretch = {1e-3, infinity};
-  network.first_tie = network.first_segment = 2;
+  network.first_slip_spring = network.first_bar_element = 2;
   AnalysisBody body = free_body(std::move(network));
   body.loads.forces[0] = 1.0;
   number(body, [](Index i, int axis) { return i > 0 || axis > 0; });
@@ -94,7 +94,7 @@ AnalysisBody make_row(double tilt, bool driven) {
   for (const Index end : {1, 2, 3}) network.bonds.append(network.particles, 0, end);
   network.stiffness = {1.0, 1.0, 1.0};
   network.critical_stretch = {1e-3, 1e-3, 1e-3};
-  network.first_tie = network.first_segment = 3;
+  network.first_slip_spring = network.first_bar_element = 3;
   AnalysisBody body = free_body(std::move(network));
   (driven ? body.unknowns.prescribed : body.loads.forces)[0] = 1.0;
   number(body, [&](Index i, int axis) { return i > 0 || (driven && axis == 0); });
@@ -109,7 +109,7 @@ TEST(Separation, WhatTheLastDigitsOfAMeshHoldHasSeparated) {
     const AnalysisBody body = make_row(1e-11, driven);
     Recorder recorder;
     const DamageResult result = run(body, {}, recorder);
-    EXPECT_EQ(result.ending, Ending::collapsed) << result.reason;
+    EXPECT_EQ(result.termination, Termination::collapsed) << result.reason;
     EXPECT_EQ(result.broken_bonds, 1);
     EXPECT_LE(recorder.rows.back().displacement, 1.01e-3);
     EXPECT_LE(recorder.rows.back().external_work, 0.51e-6);
@@ -123,7 +123,7 @@ TEST(Separation, WhatHoldsByATiltStillHolds) {
     const DamageResult result = run(body, {}, recorder);
     ASSERT_GE(recorder.rows.size(), 2U);
     EXPECT_NEAR(recorder.rows[1].displacement, 1e-3 / 1e-4, 1e-3) << "both are stretched by 1e-3";
-    EXPECT_EQ(result.ending, Ending::collapsed);
+    EXPECT_EQ(result.termination, Termination::collapsed);
   }
 }
 

@@ -23,8 +23,8 @@ AnalysisBody make_joint() {
   network.stiffness = {1.0, 1.0, 3.0};
   network.bending = {2.0, 0.0, 0.0};
   network.critical_stretch = {1e-3, infinity, infinity};
-  network.first_tie = 1;
-  network.first_segment = 3;
+  network.first_slip_spring = 1;
+  network.first_bar_element = 3;
   AnalysisBody body = free_body(std::move(network));
   body.loads.forces[0] = 1.0;
   body.loads.forces[1] = -1.0;
@@ -102,7 +102,7 @@ TEST(Weakening, ABondBetweenPrescribedParticlesBreaksAndNothingMoves) {
   network.stiffness.push_back(1.0);
   network.bending.push_back(3.0);
   network.critical_stretch.push_back(1e-3);
-  network.first_tie = network.first_segment = 2;
+  network.first_slip_spring = network.first_bar_element = 2;
   AnalysisBody body = free_body(std::move(network));
   const double driven[] = {1.0, 0.5, 0.2};
   for (int a = 0; a < 3; ++a) body.unknowns.prescribed[slot(body, 1, a)] = driven[a];

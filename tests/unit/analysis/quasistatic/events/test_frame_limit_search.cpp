@@ -162,7 +162,7 @@ TEST(FrameLimitSearch, TiesGoToTheLowestElement) {
   network.stiffness.push_back(2.0);
   network.bending.push_back(3.0);
   network.critical_stretch.push_back(1e-3 * (1.0 - 1e-12));
-  network.first_tie = network.first_segment = 2;
+  network.first_slip_spring = network.first_bar_element = 2;
   FrameLimitSearch search(network);
   const std::vector<double> u = {0, 0, 0.1, 0.3, 0.2, -0.1};
   EXPECT_EQ(search.find(u, tie_tolerance, 1).element, 0);

@@ -109,7 +109,7 @@ class FollowedBlock : public testing::TestWithParam<BlockCase> {
   double brute_force(EventEngine& engine) const {
     const Eigen::VectorXd u = dense_displacement(body_, engine.secants());
     double largest = 0.0;
-    for (Index e = 0; e < body_.network.first_segment; ++e) {
+    for (Index e = 0; e < body_.network.first_bar_element; ++e) {
       if (engine.secants()[e] == 0.0) continue;
       largest = std::max(largest, stretch(body_.network, {u.data(), u.data() + u.size()}, e) /
                                       body_.network.critical_stretch[e]);
@@ -126,7 +126,7 @@ class FollowedBlock : public testing::TestWithParam<BlockCase> {
 TEST_P(FollowedBlock, FollowsADenseSolutionThroughTheEvents) {
   // Bonds to driven particles break among the first, so that the load changes with them.
   const Bonds& bonds = body_.network.bonds;
-  for (Index e = 0; e < body_.network.first_tie; e += 7) {
+  for (Index e = 0; e < body_.network.first_slip_spring; e += 7) {
     const bool driven = body_.unknowns.prescribed[slot(body_, bonds.first[e], 0)] != 0.0 ||
                         body_.unknowns.prescribed[slot(body_, bonds.second[e], 0)] != 0.0;
     if (driven) body_.network.critical_stretch[e] = 0.005;

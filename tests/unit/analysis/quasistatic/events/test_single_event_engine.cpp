@@ -22,7 +22,7 @@ AnalysisBody make_yielding_bar(double yield_strain) {
 TEST(SingleEventEngine, BarYieldsAlongTheSawTooth) {
   constexpr double strain = 0.01, r = 1.05;
   const AnalysisBody body = make_yielding_bar(strain);
-  const Index bar = body.network.first_segment;
+  const Index bar = body.network.first_bar_element;
   ASSERT_EQ(body.network.num_elements(), bar + 1);
   for (const FactorRoute route : routes) {
     SingleEventEngine engine(body, with_route(route));
@@ -49,21 +49,21 @@ TEST(SingleEventEngine, BarYieldsAlongTheSawTooth) {
 TEST(SingleEventEngine, BondsLoseTheirStiffnessToothByTooth) {
   AnalysisBody body = make_chains(2, 2, true, 1.0, 0.01);
   for (const Index e : bonds_of_row(body.network, 1.0)) body.network.critical_stretch[e] = infinity;
-  body.network.laws.front() = three_teeth();
+  body.network.laws.front() = three_segments();
   for (const FactorRoute route : routes) {
     SingleEventEngine engine(body, with_route(route));
     const Index first = engine.next_event().element;
-    const double teeth[] = {1.0, 0.6, 0.2, 0.0}, factors[] = {0.02, 0.0224, 0.036};
+    const double segments[] = {1.0, 0.6, 0.2, 0.0}, factors[] = {0.02, 0.0224, 0.036};
     for (int k = 0; k < 3; ++k) {
       const Event event = engine.next_event();
       EXPECT_EQ(event.element, first);
       EXPECT_NEAR(event.load_factor, factors[k], 1e-15);
       const EventOutcome outcome = engine.apply(event);
       EXPECT_FALSE(outcome.mechanism);
-      EXPECT_EQ(outcome.secant, teeth[k + 1]);
+      EXPECT_EQ(outcome.secant, segments[k + 1]);
       EXPECT_EQ(outcome.broke(), k == 2);
-      EXPECT_NEAR(outcome.pivot, (1.0 + teeth[k + 1]) / (1.0 + teeth[k]), 1e-14);
-      EXPECT_EQ(engine.secants()[first], teeth[k + 1]);
+      EXPECT_NEAR(outcome.pivot, (1.0 + segments[k + 1]) / (1.0 + segments[k]), 1e-14);
+      EXPECT_EQ(engine.secants()[first], segments[k + 1]);
     }
   }
 }
@@ -73,14 +73,14 @@ TEST(SingleEventEngine, BarYieldsInCompressionToo) {
   for (double& value : body.unknowns.prescribed) value = -value;
   SingleEventEngine engine(body, {});
   const Event event = engine.next_event();
-  EXPECT_EQ(event.element, body.network.first_segment);
+  EXPECT_EQ(event.element, body.network.first_bar_element);
   EXPECT_NEAR(event.load_factor, 0.04 * std::sqrt(1.05), 1e-15);
 }
 
 TEST(SingleEventEngine, BarThatWasCutDoesNotYield) {
   const AnalysisBody body = make_yielding_bar(0.01);
   SingleEventEngine engine(body, {});
-  const std::vector<Index> bar{body.network.first_segment};
+  const std::vector<Index> bar{body.network.first_bar_element};
   EXPECT_EQ(engine.cut(bar), 0);
   EXPECT_EQ(engine.next_event().element, no_index);
 }
@@ -100,7 +100,7 @@ TEST(SingleEventEngine, TellsNoEventOfWhatOnlyMoves) {
       }
       EquilibriumOptions options;
       options.solver = solver;
-      options.boxes.edge = 3;
+      options.subdomains.edge = 3;
       SingleEventEngine engine(body, options);
       EXPECT_NEAR(engine.displacement()[0], 1.0, 1e-9);
       EXPECT_THROW(engine.next_event(), SolverError) << micropolar;

@@ -30,7 +30,7 @@ TEST(StagedEngine, StartsFromTheConstantLoad) {
   EXPECT_EQ(engine.load_factor(), 0.0);
   const Event up = engine.next_event_towards(1.0);
   EXPECT_NEAR(up.load_factor, 0.005, 1e-16);
-  EXPECT_FALSE(up.avalanche);
+  EXPECT_FALSE(up.at_constant_load);
   EXPECT_EQ(engine.next_event().element, up.element);
   EXPECT_EQ(engine.next_event_towards(-1.0).element, no_index) << "nothing is stretched";
   engine.begin_stage(0, body.sets[0].unknowns);
@@ -50,10 +50,10 @@ TEST(StagedEngine, FollowsTheLoadDownUnlessItIsGiven) {
   engine.apply(first);
   const Event next = engine.next_event();
   EXPECT_NEAR(next.load_factor, 0.006, 1e-16);
-  EXPECT_FALSE(next.avalanche);
+  EXPECT_FALSE(next.at_constant_load);
   const Event at_once = engine.next_event_towards(1.0);
   EXPECT_EQ(at_once.load_factor, first.load_factor);
-  EXPECT_TRUE(at_once.avalanche);
+  EXPECT_TRUE(at_once.at_constant_load);
   EXPECT_EQ(at_once.element, next.element);
 }
 
@@ -63,13 +63,13 @@ TEST(StagedEngine, KnowsWhatComesNearItsLimit) {
   StagedEngine engine(body, {});
   const Event failure = engine.next_event();
   EXPECT_NEAR(failure.load_factor, 0.015, 1e-16);
-  engine.set_alert(std::vector<Index>{failure.element}, 0.5);
-  const Event alert = engine.next_event();
-  EXPECT_EQ(alert.element, failure.element);
-  EXPECT_NEAR(alert.load_factor, 0.0075, 1e-16);
-  EXPECT_EQ(engine.near_events(alert, 0.9), std::vector<Index>{failure.element});
+  engine.set_release_threshold(std::vector<Index>{failure.element}, 0.5);
+  const Event release_threshold = engine.next_event();
+  EXPECT_EQ(release_threshold.element, failure.element);
+  EXPECT_NEAR(release_threshold.load_factor, 0.0075, 1e-16);
+  EXPECT_EQ(engine.near_events(release_threshold, 0.9), std::vector<Index>{failure.element});
   EXPECT_EQ(engine.load_factor(), 0.0) << "nothing has moved";
-  engine.set_alert(std::vector<Index>{failure.element}, 1.0);
+  engine.set_release_threshold(std::vector<Index>{failure.element}, 1.0);
   EXPECT_EQ(engine.next_event().load_factor, failure.load_factor);
 }
 

@@ -18,7 +18,7 @@ class BodyPartTest : public testing::Test {
       : body_(make_block({{"square", Pattern::rectangular, Surface::none}})),
         secants_(intact(body_.network)),
         motions_(body_.network, secants_, body_.unknowns, 9),
-        stiffness_(assemble_box_stiffness(body_.network, secants_, body_.unknowns, motions_)),
+        stiffness_(assemble_subdomain_stiffness(body_.network, secants_, body_.unknowns, motions_)),
         partition_(share_out(body_.network, body_.unknowns, 3)) {}
   BodyPart part(int rank) const {
     return cut_part(body_.network, secants_, body_.unknowns, motions_, stiffness_, partition_,
@@ -27,8 +27,8 @@ class BodyPartTest : public testing::Test {
 
   AnalysisBody body_;
   std::vector<double> secants_;
-  BoxMotions motions_;
-  BoxStiffness stiffness_;
+  SubdomainMotions motions_;
+  SubdomainStiffness stiffness_;
   Partition partition_;
 };
 

@@ -92,17 +92,17 @@ TEST_P(LatticeParts, HaveTheAnswerOfTheWholeBody) {
   const TwoBodies bodies = make_two_bodies(own);
   ElasticOptions options;
   options.solver = LinearSolver::iterative;
-  options.boxes = {.tolerance = 1e-12, .edge = 3};
+  options.subdomains = {.tolerance = 1e-12, .edge = 3};
   const ElasticResult alone = run_elastic_analysis(bodies.whole, options);
   with_thread_ranks(
       count,
       [&](Ranks& ranks) {
-        options.boxes.ranks = &ranks;
+        options.subdomains.ranks = &ranks;
         const ElasticResult shared = run_elastic_analysis(bodies.places, options);
         dismiss(ranks);
         ASSERT_TRUE(shared.team);
         EXPECT_EQ(shared.factor.ranks, count);
-        EXPECT_GE(shared.boxes, count);
+        EXPECT_GE(shared.subdomains, count);
         EXPECT_LT(difference_of(alone.displacement, shared.displacement), 1e-10);
         EXPECT_LT(difference_of(alone.forces, shared.forces), 1e-10);
         EXPECT_NEAR(shared.strain_energy, alone.strain_energy, 1e-11 * alone.strain_energy);
@@ -173,7 +173,7 @@ TEST(LatticePart, OfABodyThatNothingHoldsIsRefusedByAllRanks) {
       2,
       [&](Ranks& ranks) {
         ElasticOptions options;
-        options.boxes.ranks = &ranks;
+        options.subdomains.ranks = &ranks;
         EXPECT_THROW(run_elastic_analysis(bodies.places, options), SolverError);
         dismiss(ranks);
       },

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "analysis/quasistatic/boxes/box_solver.hpp"
+#include "analysis/quasistatic/subdomains/subdomain_solver.hpp"
 #include "app/process/serve.hpp"
 #include "assembly/stiffness.hpp"
 #include "base/error.hpp"
@@ -25,8 +25,8 @@ AnalysisBody block_on_spring(const BlockCase& block) {
 }
 
 std::vector<double> solve(const AnalysisBody& body, Secants secants, Ranks* ranks) {
-  BoxSolver solver(body.network, body.unknowns, secants,
-                   {.tolerance = 1e-12, .edge = 2, .ranks = ranks});
+  SubdomainSolver solver(body.network, body.unknowns, secants,
+                         {.tolerance = 1e-12, .edge = 2, .ranks = ranks});
   std::vector<double> solution =
       assemble_right_hand_side(body.network, secants, body.unknowns, body.loads);
   solver.solve(solution, solution);
@@ -37,8 +37,8 @@ std::vector<double> solve(const AnalysisBody& body, Secants secants, Ranks* rank
 /// made before elements failed, one shed its stiffness against shear, and springs were added.
 std::vector<double> solve_after_changes(const AnalysisBody& body, Ranks* ranks) {
   std::vector<double> axial = intact(body.network), other = axial, ground;
-  BoxSolver solver(body.network, body.unknowns, {other, axial},
-                   {.tolerance = 1e-12, .edge = 2, .blocks = true, .ranks = ranks}, &ground);
+  SubdomainSolver solver(body.network, body.unknowns, {other, axial},
+                         {.tolerance = 1e-12, .edge = 2, .blocks = true, .ranks = ranks}, &ground);
   EXPECT_EQ(solver.num_ranks(), ranks == nullptr ? 1 : ranks->count());
   std::vector<double> results, load = body.unknowns.restrict(body.loads.forces);
   const std::vector<std::size_t> slots = body.unknowns.slots();

@@ -37,7 +37,7 @@ TEST(BarLayout, BarsBesideAFaceAreSpreadFromCoverToCover) {
   EXPECT_EQ(bars.lines[0].from, (Vector3{0.5, 0.5, 0.5}));
   EXPECT_EQ(bars.lines[1].to, (Vector3{9.5, 0.5, 3.0}));
   EXPECT_EQ(bars.lines[2].to, (Vector3{9.5, 0.5, 5.5}));
-  EXPECT_TRUE(bars.lines[0].anchored);
+  EXPECT_TRUE(bars.lines[0].embedded);
 }
 
 TEST(BarLayout, StirrupsAreClosedAndNoFartherApartThanWanted) {

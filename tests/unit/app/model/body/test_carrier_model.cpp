@@ -1,4 +1,4 @@
-#include "app/model/body/carrier_model.hpp"
+#include "app/model/body/host_model.hpp"
 
 #include <gtest/gtest.h>
 
@@ -47,44 +47,44 @@ force = [1, 0]
 
 Index whole(const Model& model) {
   return static_cast<Index>(
-      std::count(model.carried->whole.begin(), model.carried->whole.end(), 1));
+      std::count(model.embedded->whole.begin(), model.embedded->whole.end(), 1));
 }
 
-TEST(CarrierModel, WholeEdgesThatAreHeldStayInElements) {
+TEST(HostModel, WholeEdgesThatAreHeldStayInElements) {
   const Model model = plate("");
   EXPECT_EQ(whole(model), 8);
   // Quadratic elements: a grid of 9 by 5 nodes, the left column held.
   EXPECT_EQ(model.unknowns.count, 2 * (9 * 5 - 5));
-  EXPECT_EQ(model.carried->free.count, 2 * (17 * 9 - 9));
-  EXPECT_EQ(model.carried->halo, model.horizon);
+  EXPECT_EQ(model.embedded->free.count, 2 * (17 * 9 - 9));
+  EXPECT_EQ(model.embedded->buffer_zone, model.horizon);
 }
 
-TEST(CarrierModel, RegionsOfParticlesHaveNoElements) {
+TEST(HostModel, RegionsOfParticlesHaveNoElements) {
   EXPECT_EQ(whole(plate("", "particles = [\"corner\"]\n")), 7);
   EXPECT_THROW(plate("", "regions = [\"corner\", \"left\"]\n"), InputError) << "none is whole";
 }
 
-TEST(CarrierModel, PreCracksHaveFreeParticlesAroundThem) {
+TEST(HostModel, PreCracksHaveFreeParticlesAroundThem) {
   // From the lower edge up the middle of the second column of elements, one and a half high.
   const Model model = plate("[[cracks]]\npoints = [[6.5, -1], [6.5, 5.5]]\n");
   EXPECT_EQ(whole(model), 6);
 }
 
-TEST(CarrierModel, ShortPreCracksAndThoseBesideAPlaneCountToo) {
+TEST(HostModel, ShortPreCracksAndThoseBesideAPlaneCountToo) {
   EXPECT_EQ(whole(plate("[[cracks]]\npoints = [[6.5, -1], [6.5, 0.5]]\n")), 7);
   // Between the rows y = 3 and y = 4: particles on both sides are free.
   EXPECT_EQ(whole(plate("[[cracks]]\npoints = [[5.2, 3.5], [6.8, 3.5]]\n")), 6);
 }
 
-TEST(CarrierModel, ElementsWithTooFewParticlesDoNotCarry) {
+TEST(HostModel, ElementsWithTooFewParticlesDoNotCarry) {
   // A single quadratic element of two by two spacings has a particle for every node.
   const Model model = plate("", "", "size = 2.0\n");
-  EXPECT_EQ(model.unknowns.count, model.carried->free.count);
+  EXPECT_EQ(model.unknowns.count, model.embedded->free.count);
 }
 
 /// Elements one and a half spacings high hold two rows of particles at most, however long they are:
 /// quadratic ones have three of nodes.
-TEST(CarrierModel, FlatElementsDoNotCarryHoweverManyParticlesTheyHold) {
+TEST(HostModel, FlatElementsDoNotCarryHoweverManyParticlesTheyHold) {
   const test::TemporaryDirectory work;
   Mesh mesh;
   for (int row = 0; row <= 5; ++row) {
@@ -128,7 +128,7 @@ order = )";
 }
 
 /// The crack lies where the mesh of the body is three times as coarse as on average.
-TEST(CarrierModel, PreCracksInCoarsePartsOfAMeshCountToo) {
+TEST(HostModel, PreCracksInCoarsePartsOfAMeshCountToo) {
   const test::TemporaryDirectory work;
   Mesh mesh;
   std::vector<double> columns;

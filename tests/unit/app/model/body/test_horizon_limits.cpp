@@ -99,7 +99,7 @@ TEST(HorizonLimits, RefuseHorizonsFarBeyondTheBody) {
   CaseFile input = strip_case();
   for (const double horizon : {90.0, 175.0}) {  // to every other, yet no slip
     input.body.horizon = horizon;
-    EXPECT_EQ(build_model(input).network.first_tie, 45 * 44 / 2);
+    EXPECT_EQ(build_model(input).network.first_slip_spring, 45 * 44 / 2);
   }
 }
 

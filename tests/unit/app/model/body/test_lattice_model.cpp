@@ -136,8 +136,8 @@ std::vector<double> hanging_bar(double spacing) {
   EXPECT_FALSE(model.reference.driven);
   EXPECT_NEAR(model.reference.value, 0.5 * 2.0, spacing) << "rough sides";
   const ElasticResult result = run_elastic_analysis(model);
-  Csr families;
-  return gauge_values(model, {{}, result.displacement}, families);
+  Csr neighbourhoods;
+  return gauge_values(model, {{}, result.displacement}, neighbourhoods);
 }
 
 /// Held up to x = 0.1: u = w (L x - x^2 / 2) / E over L = 1.9, sigma = w (2 - x). Sides are too

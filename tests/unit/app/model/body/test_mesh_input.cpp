@@ -287,10 +287,10 @@ TEST_F(MeshInput, IsFoundFromTheFolderOfTheResults) {
   const CaseFile read = parse_case(write_case(moved), (results / "case.toml").string());
   EXPECT_EQ(build_model(read).network.particles.size(), 5);
 
-  CaseFile carried = input;
-  carried.elements.emplace();
-  carried.elements->mesh = "coarse.msh";
-  EXPECT_EQ(*seen_from(carried, results).elements->mesh, "../../coarse.msh");
+  CaseFile embedded = input;
+  embedded.elements.emplace();
+  embedded.elements->mesh = "coarse.msh";
+  EXPECT_EQ(*seen_from(embedded, results).elements->mesh, "../../coarse.msh");
 
   CaseFile absolute = input;
   absolute.body.mesh = (directory_ / "body.msh").string();

@@ -12,7 +12,7 @@ namespace {
 using test::expect_refused;
 
 /// A sheet of 8 by 4.
-CaseFile sheet(const std::string& radius, double ratio, const std::string& more = "") {
+CaseFile mid_surface(const std::string& radius, double ratio, const std::string& more = "") {
   return parse_case(fmt::format("[body]\nproblem = \"shell\"\nthickness = 0.2\n{}spacing = 1.0\n"
                                 "horizon_ratio = 2\npattern = \"hexagonal\"\n"
                                 "[[regions]]\nname = \"sheet\"\nx = [0, 8]\ny = [0, 4]\n"
@@ -26,22 +26,22 @@ CaseFile sheet(const std::string& radius, double ratio, const std::string& more 
 }
 
 TEST(ShellRules, SheetsMayReachAlmostAroundTheirCylinder) {
-  EXPECT_NO_THROW(build_model(sheet("radius = 1.3\n", 0.1)));
-  expect_refused(sheet("radius = 1.27\n", 0.1), "body.radius", "7.97965 around");
+  EXPECT_NO_THROW(build_model(mid_surface("radius = 1.3\n", 0.1)));
+  expect_refused(mid_surface("radius = 1.27\n", 0.1), "body.radius", "7.97965 around");
 }
 
 TEST(ShellRules, ParticlesMustBeHeldAgainstTurningWithinTheSheet) {
-  EXPECT_NO_THROW(build_model(sheet("", 0.3)));
-  expect_refused(sheet("", 0.33332), "materials[1].poissons_ratio", "turn freely");
+  EXPECT_NO_THROW(build_model(mid_surface("", 0.3)));
+  expect_refused(mid_surface("", 0.33332), "materials[1].poissons_ratio", "turn freely");
 }
 
 TEST(ShellRules, PlanesOfSymmetryAcrossACylinderLieAtItsTop) {
   const auto plane = [](const std::string& axis, int at) {
     return fmt::format("[[symmetry]]\naxis = \"{}\"\nat = {}\n", axis, at);
   };
-  EXPECT_NO_THROW(build_model(sheet("radius = 5.0\n", 0.1, plane("x", 0) + plane("y", 4))));
-  expect_refused(sheet("radius = 5.0\n", 0.1, plane("x", 8)), "symmetry[1]", "at its top");
-  EXPECT_NO_THROW(build_model(sheet("", 0.1, plane("x", 8))));
+  EXPECT_NO_THROW(build_model(mid_surface("radius = 5.0\n", 0.1, plane("x", 0) + plane("y", 4))));
+  expect_refused(mid_surface("radius = 5.0\n", 0.1, plane("x", 8)), "symmetry[1]", "at its top");
+  EXPECT_NO_THROW(build_model(mid_surface("", 0.1, plane("x", 8))));
 }
 
 }  // namespace

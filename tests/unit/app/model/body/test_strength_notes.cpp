@@ -23,13 +23,13 @@ MaterialStrength softening(double strength, double fracture_energy = 0.1) {
   MaterialStrength result;
   result.tensile_strength = strength;
   result.process_zone = modulus * fracture_energy / (strength * strength);
-  result.teeth = 10;
+  result.segments = 10;
   return result;
 }
 
 MaterialStrength brittle(double strength) {
   MaterialStrength result = softening(strength);
-  result.teeth = 1;
+  result.segments = 1;
   return result;
 }
 

@@ -149,9 +149,9 @@ TEST(BoundaryConditions, PlatensThatMoveBothAreOneDisplacement) {
   input.supports[0].fix = {true, false, false};
   const Model platens = build_model(input);
   EXPECT_DOUBLE_EQ(platens.reference.value, 0.3);
-  ASSERT_EQ(platens.driven_places.size(), 2u);
-  EXPECT_EQ(platens.driven_places[1].name, "lower end");
-  EXPECT_EQ(platens.driven_places[1].slots.size(), 15u);
+  ASSERT_EQ(platens.prescribed_regions.size(), 2u);
+  EXPECT_EQ(platens.prescribed_regions[1].name, "lower end");
+  EXPECT_EQ(platens.prescribed_regions[1].slots.size(), 15u);
   input.displacements[1].value[1] = -0.1;
   EXPECT_DOUBLE_EQ(build_model(input).reference.value, 0.1);
 }
@@ -335,7 +335,7 @@ TEST(BoundaryConditions, StagesHaveTheirOwnLoadsAndGrips) {
   input.stages[2].loads = "push";
   const Model model = build_model(input);
   ASSERT_EQ(model.sets.size(), 2u);
-  const LoadSet &weight = model.sets[0], &push = model.sets[1];
+  const LoadCase &weight = model.sets[0], &push = model.sets[1];
   EXPECT_EQ(weight.unknowns.count, 2 * 45 - 2 * 15);
   EXPECT_EQ(push.unknowns.count, weight.unknowns.count - 15);
   EXPECT_EQ(model.unknowns.count, weight.unknowns.count);

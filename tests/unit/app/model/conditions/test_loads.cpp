@@ -265,13 +265,13 @@ TEST(Loads, PlacesSideBySideAddUpAndEntriesOfOneRegionAreOnePlace) {
   input.point_loads.push_back({{30.0, 80.0, 0.0}, {0.0, -4.0, 0.0}, {}});
   const Model apart = build_model(input);
   EXPECT_DOUBLE_EQ(apart.reference.value, 8.0);
-  ASSERT_EQ(apart.loaded_places.size(), 2u);
-  EXPECT_EQ(apart.loaded_places[1].name, "particle at (30, 80)");
+  ASSERT_EQ(apart.load_regions.size(), 2u);
+  EXPECT_EQ(apart.load_regions[1].name, "particle at (30, 80)");
   input.point_loads.clear();
   input.tractions.push_back(traction_on("top", 0.5, 0.0));
   input.tractions.push_back(traction_on("top", 0.0, 3.0));
   const Model one = build_model(input);
-  EXPECT_EQ(one.loaded_places.size(), 1u);
+  EXPECT_EQ(one.load_regions.size(), 1u);
   EXPECT_NEAR(one.reference.value, std::hypot(0.5, 3.0) * 80.0, 1e-11);
 }
 

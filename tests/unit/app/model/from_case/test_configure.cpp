@@ -21,7 +21,7 @@ using test::strip_case;
 std::set<Index> interior_neighbours(const Model& model, const Box& box) {
   const Network& network = model.network;
   std::vector<Index> count(static_cast<std::size_t>(network.particles.size()), 0);
-  for (Index b = 0; b < network.first_tie; ++b) {
+  for (Index b = 0; b < network.first_slip_spring; ++b) {
     ++count[network.bonds.first[b]];
     ++count[network.bonds.second[b]];
   }
@@ -207,16 +207,16 @@ TEST(Configure, BarsYieldAndTiesBreakUnlessTheCaseSaysOtherwise) {
   CaseFile input = barred_case();
   const Model model = build_model(input);
   const Network& network = model.network;
-  ASSERT_EQ(network.num_elements() - network.first_segment, 7);
-  EXPECT_DOUBLE_EQ(network.critical_stretch[network.first_segment], 58.0 / 29000.0);
-  EXPECT_GT(network.first_segment, network.first_tie);
-  EXPECT_TRUE(std::isfinite(network.critical_stretch[network.first_tie]));
+  ASSERT_EQ(network.num_elements() - network.first_bar_element, 7);
+  EXPECT_DOUBLE_EQ(network.critical_stretch[network.first_bar_element], 58.0 / 29000.0);
+  EXPECT_GT(network.first_bar_element, network.first_slip_spring);
+  EXPECT_TRUE(std::isfinite(network.critical_stretch[network.first_slip_spring]));
 
   input.rebar[0].yields = false;
-  input.rebar[0].ties_break = false;
+  input.rebar[0].slip_springs_break = false;
   const Network perfect = build_model(input).network;
-  EXPECT_TRUE(std::isinf(perfect.critical_stretch[perfect.first_segment]));
-  for (Index tie = perfect.first_tie; tie < perfect.first_segment; ++tie) {
+  EXPECT_TRUE(std::isinf(perfect.critical_stretch[perfect.first_bar_element]));
+  for (Index tie = perfect.first_slip_spring; tie < perfect.first_bar_element; ++tie) {
     EXPECT_TRUE(std::isinf(perfect.critical_stretch[tie]));
   }
 }

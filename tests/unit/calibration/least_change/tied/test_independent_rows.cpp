@@ -85,12 +85,12 @@ TEST(ImpliedRows, AreMet) {
   EXPECT_EQ(std::ranges::count(rows.implied, 1), copies);
   const LeastChange change = least_change(equations, {});
   EXPECT_TRUE(change.converged);
-  std::vector<double> carried(equations.right.size(), 0.0);
+  std::vector<double> embedded(equations.right.size(), 0.0);
   for (std::size_t v = 0; v < change.weights.size(); ++v) {
-    carried[equations.first[v]] += equations.coefficients[v] * change.weights[v];
+    embedded[equations.first[v]] += equations.coefficients[v] * change.weights[v];
   }
-  for (std::size_t p = 0; p < carried.size(); ++p) {
-    ASSERT_NEAR(carried[p], equations.right[p], 1e-10);
+  for (std::size_t p = 0; p < embedded.size(); ++p) {
+    ASSERT_NEAR(embedded[p], equations.right[p], 1e-10);
   }
 }
 

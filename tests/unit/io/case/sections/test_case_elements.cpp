@@ -18,7 +18,7 @@ TEST(CaseElements, AreReadWithTheirDefaults) {
   ASSERT_TRUE(input.elements);
   EXPECT_EQ(input.elements->spacings, 4);
   EXPECT_EQ(input.elements->order, 2);
-  EXPECT_FALSE(input.elements->halo);
+  EXPECT_FALSE(input.elements->buffer_zone);
   EXPECT_FALSE(parse_case(small_case, "case.toml").elements);
 }
 

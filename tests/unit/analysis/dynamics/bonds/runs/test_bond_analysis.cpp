@@ -26,7 +26,7 @@ class Recorder final : public BondRunObserver {
     secants = state.bonds.secants();
     damage = state.bonds.damage();
     broken = state.broken;
-    for (Index e = 0; e < state.network.first_segment; ++e) {
+    for (Index e = 0; e < state.network.first_bar_element; ++e) {
       if (secants[e] == 0.0 && !std::count(seen.begin(), seen.end(), e)) seen.push_back(e);
     }
   }
@@ -79,7 +79,7 @@ AnalysisBody overloaded(const AnalysisBody& body) {
   const Network& network = body.network;
   const Eigen::VectorXd motion = dense_displacement(body, intact(network));
   double largest = 0.0;
-  for (Index e = 0; e < network.first_segment; ++e) {
+  for (Index e = 0; e < network.first_bar_element; ++e) {
     double extension = 0.0;
     for (int a = 0; a < network.dim(); ++a) {
       extension += network.bonds.direction(e)[a] *
@@ -102,7 +102,7 @@ TEST_P(BondRuns, EnergyIsAccountedFor) {
   const AnalysisBody body = overloaded(make_block(GetParam()));
   for (const double rate : {0.0, 3.0}) {
     const Outcome outcome = run(body, slow_options(body, 4.0, body.reference.value), {rate});
-    EXPECT_EQ(outcome.result.ending, Ending::completed) << outcome.result.reason;
+    EXPECT_EQ(outcome.result.termination, Termination::completed) << outcome.result.reason;
     EXPECT_GT(outcome.result.last.broken_bonds, 0);
     EXPECT_GT(outcome.result.last.energy.fractured, 0.0);
     EXPECT_EQ(outcome.result.last.energy.external_damping > 0.0, rate > 0.0);
@@ -171,7 +171,7 @@ TEST(ExplicitBondAnalysis, AChainBreaksAtItsStrength) {
   const double stiffness = 10.0, limit = 0.01;
   const AnalysisBody body = scaled(make_chains(6, 2, true, stiffness, limit), 0.1);
   const Outcome outcome = run(body, slow_options(body, 300.0, 0.1), {});
-  EXPECT_EQ(outcome.result.ending, Ending::completed);
+  EXPECT_EQ(outcome.result.termination, Termination::completed);
   EXPECT_GE(outcome.result.last.broken_bonds, 2);  // the waves of the first break others
   // What the ramp excites in a chain of this length, less for longer ramps.
   EXPECT_NEAR(std::abs(outcome.result.peak_load), 2.0 * stiffness * limit,
@@ -188,7 +188,7 @@ TEST(ExplicitBondAnalysis, StepsBeyondTheCriticalOneAreRefused) {
   options.time_step = 1.01 * inertia.critical_time_step();
   EXPECT_THROW(run(body, options, {}), std::invalid_argument);
   options.time_step = 0.99 * inertia.critical_time_step();
-  EXPECT_EQ(run(body, options, {}).result.ending, Ending::completed);
+  EXPECT_EQ(run(body, options, {}).result.termination, Termination::completed);
   options.duration = 0.0;
   EXPECT_THROW(run(body, options, {}), std::invalid_argument);
 }
@@ -204,7 +204,7 @@ TEST(ExplicitBondAnalysis, UnstableRunsEnd) {
   options.ramp = options.duration;
   options.refuse_unstable = false;
   const Outcome outcome = run(body, options, {});
-  EXPECT_EQ(outcome.result.ending, Ending::failed);
+  EXPECT_EQ(outcome.result.termination, Termination::failed);
   EXPECT_NE(outcome.result.reason.find("time step"), std::string::npos);
   EXPECT_LT(outcome.result.steps, 5000);
 }
@@ -218,7 +218,7 @@ TEST(ExplicitBondAnalysis, EnergyOfGreenStrainsIsAccountedFor) {
       *std::max_element(body.network.critical_stretch.begin(), body.network.critical_stretch.end());
   const ExplicitOptions options = slow_options(body, 4.0, body.reference.value);
   const Outcome outcome = run(body, options, {0.0, Strain::green});
-  EXPECT_EQ(outcome.result.ending, Ending::completed) << outcome.result.reason;
+  EXPECT_EQ(outcome.result.termination, Termination::completed) << outcome.result.reason;
   EXPECT_GT(outcome.result.last.broken_bonds, 0);
   EXPECT_LT(outcome.result.largest_surplus, largest_stretch);
 }
@@ -230,7 +230,7 @@ TEST(ExplicitBondAnalysis, VelocitiesAreConstant) {
   BondRunRules rules;
   rules.constant_velocity = true;
   const Outcome outcome = run(body, options, rules);
-  EXPECT_EQ(outcome.result.ending, Ending::completed) << outcome.result.reason;
+  EXPECT_EQ(outcome.result.termination, Termination::completed) << outcome.result.reason;
   const double speed = 0.3 / options.duration;
   for (const ExplicitRecord& row : outcome.recorder.rows) {
     EXPECT_NEAR(row.displacement, speed * row.time, 1e-12);
@@ -254,13 +254,13 @@ void expect_the_same(const Outcome& found, const Outcome& alone) {
   EXPECT_EQ(found.recorder.ends, 1);
   EXPECT_EQ(found.result.peak_load, alone.result.peak_load);
   EXPECT_EQ(found.result.peak_displacement, alone.result.peak_displacement);
-  EXPECT_EQ(found.result.ending, alone.result.ending);
+  EXPECT_EQ(found.result.termination, alone.result.termination);
   EXPECT_EQ(found.recorder.rows, alone.recorder.rows);
 }
 
-bool has_fallen_tie(const Network& network, const std::vector<double>& secants) {
+bool has_fallen_slip_spring(const Network& network, const std::vector<double>& secants) {
   const auto first = secants.begin();
-  return std::any_of(first + network.first_anchored_tie, first + network.first_segment,
+  return std::any_of(first + network.first_embedded_slip_spring, first + network.first_bar_element,
                      [](double secant) { return secant < 1.0; });
 }
 
@@ -278,8 +278,8 @@ void expect_ranks_to_change_nothing(const AnalysisBody& body, Strain strain,
   for (const std::size_t stop_after : {0, 7}) {
     const Outcome alone = run(body, options, rules, stop_after);
     EXPECT_EQ(alone.recorder.broken.size() > 20U, breaks);
-    if (body.network.anchors.size() > 0) {
-      EXPECT_TRUE(has_fallen_tie(body.network, alone.recorder.secants));
+    if (body.network.embedded_points.size() > 0) {
+      EXPECT_TRUE(has_fallen_slip_spring(body.network, alone.recorder.secants));
     }
     for (const int count : {2, 3}) {
       with_thread_ranks(
@@ -303,7 +303,7 @@ TEST_P(SharedBondRuns, RanksChangeNothing) {
   const auto& [block, strain] = GetParam();
   const AnalysisBody body = make_block(block);
   const auto limits = body.network.critical_stretch.begin();
-  const double stretch = *std::min_element(limits, limits + body.network.first_tie);
+  const double stretch = *std::min_element(limits, limits + body.network.first_slip_spring);
   expect_ranks_to_change_nothing(
       scaled(body, block.driven ? 2.0 * stretch * block.columns : 600.0 * stretch), strain);
 }
@@ -313,7 +313,7 @@ class SharedParticleRuns : public testing::TestWithParam<std::tuple<int, bool>> 
 /// A square or cube held and driven at opposite faces, of two materials that crack differently.
 TEST_P(SharedParticleRuns, RanksChangeNothing) {
   const auto [dim, breakable] = GetParam();
-  AnalysisBody body = free_body(particle_cloud(dim, dim == 2 ? 30 : 9).network);
+  AnalysisBody body = free_body(unstructured_particles(dim, dim == 2 ? 30 : 9).network);
   const Particles& particles = body.network.particles;
   const auto x = [&](Index i) { return particles.position(i)[0]; };
   for (Index i = 0; i < particles.size(); ++i) {
@@ -370,7 +370,7 @@ TEST(ExplicitBondAnalysis, StopsWhenAsked) {
   options.duration = options.ramp = 10.0;
   options.rows = 10;
   const Outcome outcome = run(body, options, {}, 3);
-  EXPECT_EQ(outcome.result.ending, Ending::interrupted);
+  EXPECT_EQ(outcome.result.termination, Termination::interrupted);
   EXPECT_EQ(outcome.recorder.rows.size(), 4U) << "asked before a row, which is the last";
   EXPECT_EQ(outcome.recorder.ends, 1);
 }

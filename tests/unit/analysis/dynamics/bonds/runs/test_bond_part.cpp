@@ -78,8 +78,8 @@ TEST_F(BondPartTest, HasTheElementsOfItsParticlesAndTheirOtherEnds) {
         own_ends.push_back(p + first(rank));
       });
       EXPECT_EQ(own_ends, ends);
-      EXPECT_EQ(own.body.network.is_anchored(static_cast<Index>(next)),
-                body_.network.is_anchored(e));
+      EXPECT_EQ(own.body.network.is_embedded(static_cast<Index>(next)),
+                body_.network.is_embedded(e));
       EXPECT_EQ(own.body.network.is_segment(static_cast<Index>(next)), body_.network.is_segment(e));
       EXPECT_EQ(own.body.network.stiffness[next], body_.network.stiffness[e]);
       EXPECT_EQ(own.body.network.hinged[next], body_.network.hinged[e]);
@@ -114,12 +114,12 @@ TEST_F(BondPartTest, ArrivesAsItWasSent) {
   EXPECT_EQ(network.critical_stretch, expected.critical_stretch);
   EXPECT_EQ(network.cut_elements, expected.cut_elements);
   EXPECT_EQ(network.hinged, expected.hinged);
-  EXPECT_EQ(network.anchors.weights, expected.anchors.weights);
-  EXPECT_EQ(network.first_anchored_tie, expected.first_anchored_tie);
+  EXPECT_EQ(network.embedded_points.weights, expected.embedded_points.weights);
+  EXPECT_EQ(network.first_embedded_slip_spring, expected.first_embedded_slip_spring);
   ASSERT_EQ(network.laws.size(), expected.laws.size());
-  for (const int tooth : {0, 1, 2, 3}) {
-    EXPECT_EQ(network.laws[0].tooth(tooth).secant, expected.laws[0].tooth(tooth).secant);
-    EXPECT_EQ(network.laws[0].tooth(tooth).limit, expected.laws[0].tooth(tooth).limit);
+  for (const int segment : {0, 1, 2, 3}) {
+    EXPECT_EQ(network.laws[0].segment(segment).secant, expected.laws[0].segment(segment).secant);
+    EXPECT_EQ(network.laws[0].segment(segment).limit, expected.laws[0].segment(segment).limit);
   }
   EXPECT_EQ(come.body.unknowns.number, sent.body.unknowns.number);
   EXPECT_EQ(come.mass, sent.mass);

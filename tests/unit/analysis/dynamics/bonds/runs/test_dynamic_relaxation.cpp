@@ -63,7 +63,7 @@ TEST_P(RelaxedBlocks, RestInStaticEquilibrium) {
   RelaxationOptions options;
   options.tolerance = 1e-8;
   const Relaxed outcome = relax(body, options);
-  ASSERT_EQ(outcome.result.ending, Ending::completed) << outcome.result.reason;
+  ASSERT_EQ(outcome.result.termination, Termination::completed) << outcome.result.reason;
   EXPECT_LE(outcome.result.residual, options.tolerance);
   EXPECT_LE(outcome.result.error, options.tolerance);
   const Eigen::VectorXd statics = dense_displacement(body, intact(body.network));
@@ -116,7 +116,7 @@ void expect_the_same(const Relaxed& found, const Relaxed& alone) {
   EXPECT_EQ(found.recorder.secants, alone.recorder.secants);
   EXPECT_EQ(found.recorder.broken, alone.recorder.broken);
   EXPECT_EQ(found.recorder.ends, alone.recorder.ends);
-  EXPECT_EQ(found.result.ending, alone.result.ending);
+  EXPECT_EQ(found.result.termination, alone.result.termination);
   EXPECT_EQ(found.result.reason, alone.result.reason);
   EXPECT_EQ(found.result.iterations, alone.result.iterations);
   EXPECT_EQ(found.result.residual, alone.result.residual);
@@ -129,7 +129,7 @@ TEST_P(SharedRelaxations, RanksChangeNothing) {
   const auto& [block, strain] = GetParam();
   AnalysisBody body = make_block(block);
   std::vector<double>& limits = body.network.critical_stretch;
-  const auto bonds = limits.begin() + body.network.first_tie;
+  const auto bonds = limits.begin() + body.network.first_slip_spring;
   const double stretch = *std::min_element(limits.begin(), bonds);
   // What breaks lies far apart, so that the body stays whole.
   for (auto limit = limits.begin(); limit != bonds; ++limit) {
@@ -162,9 +162,9 @@ TEST_P(SharedRelaxations, RanksChangeNothing) {
     if (most_rows == 2) {
       EXPECT_EQ(alone.result.reason, "the disk is full");
     } else if (most_iterations == 20) {
-      EXPECT_EQ(alone.result.ending, Ending::failed);
+      EXPECT_EQ(alone.result.termination, Termination::failed);
     } else {
-      EXPECT_EQ(alone.result.ending, Ending::completed) << alone.result.reason;
+      EXPECT_EQ(alone.result.termination, Termination::completed) << alone.result.reason;
       EXPECT_GT(alone.result.last.broken_bonds, 20);
     }
   }
@@ -213,7 +213,7 @@ TEST(DynamicRelaxation, GreenStrainsOfAChain) {
   options.safety = 0.5;  // the stretch stiffens bonds 2.9 times
   options.tolerance = 1e-9;
   const Relaxed outcome = relax(body, options);
-  ASSERT_EQ(outcome.result.ending, Ending::completed) << outcome.result.reason;
+  ASSERT_EQ(outcome.result.termination, Termination::completed) << outcome.result.reason;
   EXPECT_NEAR(outcome.result.last.load, 2.0 * 10.0 * 0.625 * 1.5, 1e-7);
   EXPECT_NEAR(outcome.result.last.energy.stored, 2.0 * 6.0 * 0.5 * 10.0 * 0.625 * 0.625, 1e-7);
 }
@@ -228,7 +228,7 @@ TEST(DynamicRelaxation, BondsBreakBetweenLoadSteps) {
   options.load_factors.erase(options.load_factors.begin());  // the default
   options.tolerance = 1e-8;
   const Relaxed outcome = relax(body, options);
-  ASSERT_EQ(outcome.result.ending, Ending::collapsed) << outcome.result.reason;
+  ASSERT_EQ(outcome.result.termination, Termination::collapsed) << outcome.result.reason;
   EXPECT_THAT(outcome.result.reason, testing::HasSubstr("no longer resists the displacements"));
   EXPECT_EQ(outcome.recorder.ends, 1);
   double peak = 0.0;
@@ -248,7 +248,7 @@ TEST(DynamicRelaxation, LoadsPullPiecesAway) {
   options.load_factors = {0.5, 1.0, 2.0};
   options.most_iterations = 20000;
   const Relaxed outcome = relax(body, options);
-  EXPECT_EQ(outcome.result.ending, Ending::collapsed) << outcome.result.reason;
+  EXPECT_EQ(outcome.result.termination, Termination::collapsed) << outcome.result.reason;
   EXPECT_THAT(outcome.result.reason, testing::HasSubstr("load step 3 (load factor 2)"));
   EXPECT_THAT(outcome.result.reason, testing::HasSubstr("the loads pull away"));
   EXPECT_EQ(outcome.recorder.rows.size(), 2U);
@@ -269,7 +269,7 @@ TEST(DynamicRelaxation, AnIterationLimitIsNoSuccess) {
   RelaxationOptions options;
   options.most_iterations = 20;
   const Relaxed outcome = relax(body, options);
-  EXPECT_EQ(outcome.result.ending, Ending::failed);
+  EXPECT_EQ(outcome.result.termination, Termination::failed);
   EXPECT_THAT(outcome.result.reason, testing::HasSubstr("not at rest after 20 iterations"));
   EXPECT_TRUE(outcome.recorder.rows.empty());
   EXPECT_EQ(outcome.recorder.ends, 0);
@@ -283,7 +283,7 @@ TEST(DynamicRelaxation, GrowingMotionIsNoticed) {
   RelaxationOptions options;
   options.strain = Strain::green;
   const Relaxed outcome = relax(loaded, options);
-  EXPECT_EQ(outcome.result.ending, Ending::failed);
+  EXPECT_EQ(outcome.result.termination, Termination::failed);
   EXPECT_THAT(outcome.result.reason, testing::HasSubstr("the motion grows"));
 }
 
@@ -291,11 +291,11 @@ TEST(DynamicRelaxation, ObserversStopItAndTheirExceptionsPass) {
   const AnalysisBody body = make_chains(40, 2, true, 10.0, INFINITY);
   StepRecorder stopping;
   stopping.stops = true;
-  EXPECT_EQ(run_dynamic_relaxation(body, {}, stopping).ending, Ending::interrupted);
+  EXPECT_EQ(run_dynamic_relaxation(body, {}, stopping).termination, Termination::interrupted);
   StepRecorder breaking;
   breaking.breaks = true;
   const RelaxationResult failed = run_dynamic_relaxation(body, {}, breaking);
-  EXPECT_EQ(failed.ending, Ending::failed);
+  EXPECT_EQ(failed.termination, Termination::failed);
   EXPECT_EQ(failed.reason, "the disk is full");
 }
 

@@ -77,7 +77,7 @@ TEST(ExplicitModel, BandIsOneRowAlongRowsAndWiderBetween) {
 
 TEST(ExplicitModel, SortsPrescribedMotionsByRow) {
   ExplicitModel model = plane_model(rectangle(0.05, 0.05, 0.01, 10.0), elastic_concrete());
-  grip_ends(model, 0.01, -2e-4);
+  clamped_ends(model, 0.01, -2e-4);
   EXPECT_EQ(model.load_component, 1);
   for (std::size_t r = 0; r < model.lattice.rows.size(); ++r) {
     const LatticeRow& row = model.lattice.rows[r];

@@ -53,15 +53,19 @@ TEST(LatticeParticles, StressOfInteriorParticlesIsHookesAndTheFitTheStrain) {
     const double trace = strain[0] + strain[1] + strain[2];
     int interior = 0;
     for (const Index slot : lattice.particle_slot) {
-      const LatticeParticles::Family family = particles.family(state, row_of(lattice, slot), slot);
-      EXPECT_EQ(particles.is_whole(family), lattice.bond_count[slot] == 2 * lattice.own_bonds());
-      if (!particles.is_whole(family)) continue;
+      const LatticeParticles::Neighbourhood neighbourhood =
+          particles.neighbourhood(state, row_of(lattice, slot), slot);
+      EXPECT_EQ(particles.is_whole(neighbourhood),
+                lattice.bond_count[slot] == 2 * lattice.own_bonds());
+      if (!particles.is_whole(neighbourhood)) continue;
       ++interior;
-      const SymmetricTensor fit = particles.fit(particles.elastic(state, family), family);
-      const SymmetricTensor stress = particles.stress(state, family);
-      const LatticeParticles::Halves stretch = particles.project(strain, family);
-      for (int j = 0; j < family.bonds; ++j) {
-        EXPECT_NEAR(stretch[j], state.now.effective[family.at[j]], 1e-11);  // squares of the strain
+      const SymmetricTensor fit =
+          particles.fit(particles.elastic(state, neighbourhood), neighbourhood);
+      const SymmetricTensor stress = particles.stress(state, neighbourhood);
+      const LatticeParticles::Halves stretch = particles.project(strain, neighbourhood);
+      for (int j = 0; j < neighbourhood.bonds; ++j) {
+        EXPECT_NEAR(stretch[j], state.now.effective[neighbourhood.at[j]],
+                    1e-11);  // squares of the strain
       }
       for (int c = 0; c < 6; ++c) {
         const bool plane = lattice.dim == 2 && (c == 2 || c > 3);

@@ -57,7 +57,7 @@ Outcome run(const ExplicitModel& model, const ExplicitOptions& options, std::siz
 
 void expect_the_same(const Outcome& found, const Outcome& alone, const ExplicitModel& model) {
   EXPECT_EQ(found.watcher.ends, 1);
-  EXPECT_EQ(found.result.ending, alone.result.ending) << found.result.reason;
+  EXPECT_EQ(found.result.termination, alone.result.termination) << found.result.reason;
   EXPECT_EQ(found.result.peak_load, alone.result.peak_load);
   EXPECT_EQ(found.result.peak_displacement, alone.result.peak_displacement);
   ASSERT_EQ(found.watcher.rows.size(), alone.watcher.rows.size());

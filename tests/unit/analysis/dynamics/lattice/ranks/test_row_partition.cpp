@@ -80,14 +80,14 @@ TEST(RowPartition, PartsKeepTheirBondsAndConditionsOnTheWay) {
   const ExplicitState own_state(part), whole_state(model);
   Index count = 0;
   for_each_particle(lattice, [&](Index row, Index slot) {
-    const auto family = own.family(own_state, row, slot);
-    const auto wanted = whole.family(whole_state, row + rows.begin, slot + shift);
-    EXPECT_EQ(family.mask, wanted.mask);
+    const auto neighbourhood = own.neighbourhood(own_state, row, slot);
+    const auto wanted = whole.neighbourhood(whole_state, row + rows.begin, slot + shift);
+    EXPECT_EQ(neighbourhood.mask, wanted.mask);
     EXPECT_EQ(own.is_near_face(slot), whole.is_near_face(slot + shift));
-    for (int j = 0; j < family.bonds; ++j) {
-      EXPECT_EQ(family.partner[j] + shift, wanted.partner[j]);
-      ASSERT_GE(family.partner[j], 0);
-      ASSERT_LT(family.partner[j], lattice.slots);
+    for (int j = 0; j < neighbourhood.bonds; ++j) {
+      EXPECT_EQ(neighbourhood.partner[j] + shift, wanted.partner[j]);
+      ASSERT_GE(neighbourhood.partner[j], 0);
+      ASSERT_LT(neighbourhood.partner[j], lattice.slots);
     }
     EXPECT_EQ(part.inverse_mass[slot], model.inverse_mass[slot + shift]);
     EXPECT_EQ(part.volume[slot], model.volume[slot + shift]);

@@ -106,12 +106,13 @@ TEST(ExplicitFlowRows, SumsTakeTheParticlesOwnHalvesWithTheirWeights) {
     for (Index n = 0; n < lattice.rows[r].size; ++n) {
       const Index slot = lattice.rows[r].first + n;
       if (model.inverse_mass[slot] == 0.0) continue;
-      const auto family = particles.family(state, r, slot);
+      const auto neighbourhood = particles.neighbourhood(state, r, slot);
       double expected = 0.0;
-      for (int j = 0; j < family.bonds; ++j) {
-        if (!family.has(j)) continue;
-        const Index at = family.at[j];
-        const double stretch = state.now.stretch[family.now_at[j]], side = family.side(j);
+      for (int j = 0; j < neighbourhood.bonds; ++j) {
+        if (!neighbourhood.has(j)) continue;
+        const Index at = neighbourhood.at[j];
+        const double stretch = state.now.stretch[neighbourhood.now_at[j]],
+                     side = neighbourhood.side(j);
         const auto weight = [&](bool tension) {
           const double share = (tension ? state.share_tension : state.share_compression)[at];
           return (side > 0.0 ? share : 2.0 - share) *
@@ -119,7 +120,7 @@ TEST(ExplicitFlowRows, SumsTakeTheParticlesOwnHalvesWithTheirWeights) {
         };
         expected += weight(stretch >= 0.0) * stretch + weight(true) * side * state.flow.half[at];
       }
-      EXPECT_NEAR(state.now.sum[family.now], expected, 1e-17);
+      EXPECT_NEAR(state.now.sum[neighbourhood.now], expected, 1e-17);
       EXPECT_GT(std::abs(expected), 1e-15);
     }
   }
@@ -151,7 +152,8 @@ TEST(ExplicitFlowRows, EqualStressesEndOnASteeplyFallingSurface) {
     for (Index slot = row.first; slot < row.first + row.size; ++slot) {
       if (lattice.bond_count[slot] < 6) continue;
       ++interior;
-      const double mises = mises_stress(particles.stress(state, particles.family(state, r, slot)));
+      const double mises =
+          mises_stress(particles.stress(state, particles.neighbourhood(state, r, slot)));
       EXPECT_NEAR(mises, state.flow.yield[slot], 1e-9 * model.material.yielding.yield);
     }
   }

@@ -260,7 +260,7 @@ TEST(ExplicitKernels, HalvesThatFlowedWeighWithTheFactorOfTheirBond) {
 
 TEST(ExplicitKernels, PrescribedMotionsAreMetExactly) {
   ExplicitModel model = plane_model(rectangle(0.05, 0.05, 0.01, 0.0), elastic_concrete());
-  grip_ends(model, 0.005, 1e-5);
+  clamped_ends(model, 0.005, 1e-5);
   ExplicitState state(model);
   const auto rows = static_cast<Index>(model.lattice.rows.size());
   evaluate(model, state);

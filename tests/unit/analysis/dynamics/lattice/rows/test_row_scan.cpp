@@ -81,7 +81,8 @@ void expect_due_particles(const ExplicitModel& model, Past past) {
     const LatticeRow& slots = model.lattice.rows[r];
     for (Index slot = slots.first; slot < slots.first + slots.size; ++slot) {
       if (model.inverse_mass[slot] == 0.0) continue;
-      const SymmetricTensor stress = particles.stress(state, particles.family(state, row, slot));
+      const SymmetricTensor stress =
+          particles.stress(state, particles.neighbourhood(state, row, slot));
       const bool cracked = principal_values(stress, model.lattice.dim).first > state.crack_at[slot];
       const bool flowed = mises_stress(stress) > state.flow.look_at[slot];
       (cracked ? above : below) += 1;

@@ -35,13 +35,13 @@ struct Record {
     return std::tuple{RowStage{0, 0, [&](Index r) { work(0, r, 0, 0); }},
                       RowStage{reach, 0, [&](Index r) { work(1, r, reach, 0); }}};
   }
-  auto late_stages() {
+  auto missed_stages() {
     return std::tuple{RowStage{0, reach, [&](Index r) { work(2, r, 0, reach); }},
                       RowStage{reach, reach, [&](Index r) { work(3, r, reach, reach); }}};
   }
   void sweep(int threads, const SweptRows& swept) {
 #pragma omp parallel num_threads(threads)
-    sweep_rows(swept, std::tuple_cat(early_stages(), late_stages()));
+    sweep_rows(swept, std::tuple_cat(early_stages(), missed_stages()));
   }
 };
 
@@ -73,7 +73,7 @@ TEST(RowSweep, LeavesOutWhatNeedsRowsBeyondACut) {
         record.sweep(1, swept);
       } else {
         sweep_rows(swept, record.early_stages());
-        sweep_rows(swept.after(reach_of(record.early_stages())), record.late_stages());
+        sweep_rows(swept.after(reach_of(record.early_stages())), record.missed_stages());
       }
       EXPECT_EQ(std::count(record.early.begin(), record.early.end(), 0), rows);
       for (Index r = 0; r < rows; ++r) {

@@ -1,0 +1,73 @@
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/quasistatic/event_run.hpp"
+
+namespace perilink {
+namespace {
+
+/// What has come to this part of the alert that comes first is converted with it.
+constexpr double as_near = 0.9;
+
+}  // namespace
+
+/// Whether the event is not one yet: finite elements let go of particles first. Those that carry
+/// the bond that comes next, with all whose bonds are as near, or those that are strained the most.
+/// \param most  load factor up to which anything happens
+bool EventRun::converts(const Event& event, double sense, double most) {
+  if (!host_release_ || event.changes_side) return false;
+  const bool fails = event.element != no_index && event.load_factor <= most;
+  if (host_release_->strains()) {
+    const auto [flags, load_factor] =
+        host_release_->strained(engine_->where_elements_fail(), as_near);
+    const double next = fails ? event.load_factor : most;
+    if (std::isfinite(load_factor) && load_factor <= next) {
+      take_over(host_release_->convert(flags), load_factor);
+      return true;
+    }
+  }
+  if (!fails) return false;
+  std::vector<Index> failing = event.others;
+  failing.push_back(event.element);
+  const auto is_embedded = [&](Index element) { return host_release_->is_embedded(element); };
+  if (std::ranges::none_of(failing, is_embedded)) {
+    note_missed_releases(event, sense);
+    return false;
+  }
+  std::vector<Index> near = engine_->near_events(event, as_near);
+  near.insert(near.end(), failing.begin(), failing.end());
+  take_over(host_release_->convert(host_release_->hosts_of(near)), event.load_factor);
+  return true;
+}
+
+/// The motion after a conversion.
+/// \param load_factor  at which the alert came
+void EventRun::take_over(const Unknowns& unknowns, double load_factor) {
+  adopt(unknowns);
+  engine_->set_release_threshold(host_release_->freed(), 1.0);
+  freed_.emplace_back(host_release_->freed(), load_factor);
+  ++result_.conversions;
+  result_.unknowns = unknowns.count;
+  result_.elements = host_release_->num_whole();
+}
+
+/// A freed bond that fails before the load factor at which the alert came was beyond its limit by
+/// more than the alert allows for.
+void EventRun::note_missed_releases(const Event& event, double sense) {
+  for (const auto& [bonds, release_threshold] : freed_) {
+    const auto is_freed = [&](Index element) {
+      return std::binary_search(bonds.begin(), bonds.end(), element);
+    };
+    const bool freed = is_freed(event.element) || std::ranges::any_of(event.others, is_freed);
+    const double near = std::max(tie_tolerance, options_.engine.event_tolerance);
+    const bool earlier = event.at_constant_load || sense * (release_threshold - event.load_factor) >
+                                                       near * std::abs(release_threshold);
+    const bool begins = row_.step == 0 && events_ == 0;  // nothing has happened by then
+    if (begins || !freed || !earlier) continue;
+    if (options_.begins_again) throw MissedRelease{host_release_->whole()};
+    ++result_.missed_releases;
+  }
+  freed_.clear();
+}
+
+}  // namespace perilink

@@ -1,0 +1,59 @@
+#include "discretization/embedded_points.hpp"
+
+#include <Eigen/Dense>
+
+#include <cmath>
+
+namespace perilink {
+namespace {
+
+/// Radius in which particles count first, in spacings, and its growth where they are too few.
+constexpr double first_reach = 1.75;
+constexpr double growth = 1.1;
+
+/// Least eigenvalue of the moments of enough particles, over the largest one.
+constexpr double least_spread = 0.02;
+
+/// One, and the way to a particle in spacings.
+template <int Dim>
+using Basis = Eigen::Matrix<double, Dim + 1, 1>;
+
+/// Falls smoothly from one to zero at the radius.
+template <int Dim>
+double kernel(const Basis<Dim>& basis, double reach) {
+  const double square = (basis.squaredNorm() - 1.0) / (reach * reach);
+  return square < 1.0 ? (1.0 - square) * (1.0 - square) : 0.0;
+}
+
+template <int Dim>
+std::vector<double> weights_of(std::span<const double> arms, double spacing) {
+  std::vector<Basis<Dim>> bases;
+  for (std::size_t k = 0; k < arms.size(); k += Dim) {
+    bases.emplace_back()[0] = 1.0;
+    for (int a = 0; a < Dim; ++a) bases.back()[a + 1] = arms[k + a] / spacing;
+  }
+  for (double reach = first_reach; reach < embedded_point_reach * (1.0 + 1e-9); reach *= growth) {
+    using Moments = Eigen::Matrix<double, Dim + 1, Dim + 1>;
+    Moments moments = Moments::Zero();
+    for (const auto& basis : bases) {
+      moments += kernel<Dim>(basis, reach) * basis * basis.transpose();
+    }
+    const Eigen::SelfAdjointEigenSolver<Moments> solver(moments);
+    if (!(solver.eigenvalues()[0] > least_spread * solver.eigenvalues()[Dim])) continue;
+    const Basis<Dim> factors = moments.ldlt().solve(Basis<Dim>::Unit(0));
+    std::vector<double> weights;
+    for (const auto& basis : bases) {
+      weights.push_back(kernel<Dim>(basis, reach) * factors.dot(basis));
+    }
+    return weights;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<double> linear_weights(std::span<const double> arms, int dim, double spacing) {
+  return dim == 2 ? weights_of<2>(arms, spacing) : weights_of<3>(arms, spacing);
+}
+
+}  // namespace perilink
