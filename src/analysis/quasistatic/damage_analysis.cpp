@@ -14,8 +14,7 @@
 namespace perilink {
 namespace {
 
-/// A row whose energies are this far from balance, over the work, is none: the solver has lost the
-/// body, and what it would write were noise.
+/// Energy imbalance over the work above which a row is noise: the equilibrium is lost [-].
 constexpr double lost_row = 1e-2;
 
 }  // namespace
@@ -56,7 +55,7 @@ std::unique_ptr<EventEngine> EventRun::make_engine() {
   return engine;
 }
 
-/// Refuses loads that do no work.
+/// \throws SolverError if the loads do no work on the body
 LoadWork EventRun::begin_work() {
   const LoadWork work = engine_->load_work();
   const double whole = work.forces + work.supports;
@@ -66,8 +65,8 @@ LoadWork EventRun::begin_work() {
   return work;
 }
 
-/// A solver that cannot go on, no memory or a full disk of an observer end the run like any other
-/// ending: with all that was found so far.
+/// Runs the analysis. If the solver fails, memory runs out or an observer's disk is full, the
+/// result holds everything found so far.
 DamageResult EventRun::go() {
   try {
     return staged_ != nullptr              ? by_stages()
@@ -84,8 +83,7 @@ DamageResult EventRun::go() {
   return result_;
 }
 
-/// The residual and, where it was summed over the elements, the stored energy of the present
-/// equilibrium.
+/// Records the residual and, if it was summed over the elements, the stored energy.
 void EventRun::take_note_of(const Balance& balance) {
   row_.residual = balance.residual;
   stored_by_elements_ = balance.stored_energy;
@@ -94,8 +92,8 @@ void EventRun::take_note_of(const Balance& balance) {
   if (!std::isnan(balance.stored_energy)) checked_compliance_ = compliance_;
 }
 
-/// The whole equilibrium is measured where it may have suffered, and at every tenth look; otherwise
-/// a glance is enough.
+/// Makes a full residual check after events that may harm the accuracy. Every tenth scheduled check
+/// is full, the others are cheap.
 void EventRun::look_after(const EventOutcome& outcome) {
   if (outcome.pivot < 1e-3 || residual_may_be_large()) {
     check();
@@ -104,7 +102,7 @@ void EventRun::look_after(const EventOutcome& outcome) {
   }
 }
 
-/// Particles that an element carried may have become free.
+/// Adopts new unknowns if the options supply them.
 void EventRun::follow_motion() {
   if (!options_.new_motion) return;
   const Unknowns* unknowns = options_.new_motion(state_);
@@ -120,28 +118,29 @@ void EventRun::adopt(const Unknowns& unknowns) {
   check();
 }
 
-/// What round-off leaves grows in proportion to the displacements, which forces make without bound
-/// as a body comes apart (driven displacements do not: their compliance is negative). Looking again
-/// pays when it has grown by a tenth.
+/// Returns whether the compliance has grown by a tenth since the last full residual check.
+/// Round-off grows with the displacements, which are unbounded as a body separates under forces.
+/// Prescribed displacements are bounded, and their compliance is negative.
 bool EventRun::residual_may_be_large() const {
   return checked_compliance_ > 0.0 && compliance_ > 1.1 * checked_compliance_;
 }
 
-/// Whether bonds are too short for small strains.
+/// Returns whether bonds have shortened beyond small strains.
 bool EventRun::is_beyond_small_strains(double load_factor) {
   return staged_ != nullptr
              ? strains_.is_beyond(staged_->displacement(), 1.0, engine_->secants())
              : strains_.is_beyond(engine_->where_elements_fail(), load_factor, engine_->secants());
 }
 
-/// The end came while a load was to stay.
+/// Adds the prescribed load factor to the reason of a collapse under forces.
 void EventRun::note_overload(double load_factor) {
   if (reference_->driven || result_.termination != Termination::collapsed) return;
   result_.reason =
       fmt::format("the body does not bear the load factor {:.6g}: {}", load_factor, result_.reason);
 }
 
-/// Whether the next event comes so late that it means nothing: then the run ends.
+/// Ends the run if bonds would leave small strains before the next event.
+/// \return whether the run has ended
 bool EventRun::leaves_small_strains(const Event& event) {
   const double motion = reference_->driven ? event.load_factor : event.load_factor * compliance_;
   if (!strains_.is_due(motion) || !is_beyond_small_strains(event.load_factor)) return false;
@@ -159,7 +158,7 @@ bool EventRun::leaves_small_strains(const Event& event) {
   return true;
 }
 
-/// Events between looks at the residual.
+/// Returns the number of events between residual checks.
 int EventRun::check_interval() const {
   return meets_tolerance() ? options_.check_interval : std::max(1, options_.check_interval / 10);
 }
@@ -226,14 +225,15 @@ void EventRun::note_peaks() {
   if (options_.load_factors.empty() && counts) rows_.push_back(row_);
 }
 
-/// Lets the element fail. \return false when that separates the body
+/// Applies an event.
+/// \return false if the body separates or forms a mechanism
 bool EventRun::pass(const Event& event) {
   const EventOutcome outcome = engine_->apply(event);
-  // Driven bodies tell so themselves, when their work is summed.
+  // Under prescribed displacements the sum of the work shows a separation.
   const bool separates = !reference_->driven && staged_ == nullptr &&
                          outcome.compliance_growth > next_to_infinite * compliance_;
   if (outcome.mechanism || separates) {
-    result_.broken_bonds = outcome.broken;  // beyond those of the last row
+    result_.broken_bonds = outcome.broken;  // in addition to those of the last row
     end(Termination::collapsed,
         event.changes_side
             ? fmt::format("a mechanism: once the closed element {} has opened, a piece of the body "
@@ -248,12 +248,12 @@ bool EventRun::pass(const Event& event) {
   yield_events_ += outcome.yielded;
   energy_.add_event(outcome);
   following_.add_event(outcome);
-  stored_by_elements_ = std::numeric_limits<double>::quiet_NaN();  // the old value no longer holds
+  stored_by_elements_ = std::numeric_limits<double>::quiet_NaN();  // no longer current
   compliance_ += outcome.compliance_growth;
   ++events_;
   look_after(outcome);
   if (outcome.exhausted != no_index) {
-    // It no longer limits anything: the bars and the body form a mechanism.
+    // A bar without further limits forms a mechanism with the body.
     end(Termination::collapsed,
         network_.is_segment(outcome.exhausted)
             ? fmt::format("a bar stretched to {:.0f} times its yield strain: a plastic mechanism",
@@ -282,13 +282,13 @@ bool EventRun::stop_rule_met() {
   return true;
 }
 
-/// The driven body lies in two: the last row shows that it no longer resists.
+/// Records a last row in which the body no longer resists the prescribed displacements.
 void EventRun::record_separated(double load_factor, const LoadWork& work) {
   end(Termination::collapsed, "the body no longer resists the displacements");
   record(load_factor, work, {});
 }
 
-/// From event to event: the load factor follows the body, up or down.
+/// Runs from event to event; the load factor rises or falls to that of each event.
 DamageResult EventRun::by_events() {
   check();
   while (true) {
@@ -311,19 +311,18 @@ DamageResult EventRun::by_events() {
   return finish();
 }
 
-/// A run that ends within a load step reports the last equilibrium, at the load at which its next
-/// element fails.
-/// Loads that stay while a body comes apart do work without bound: the energies are those of loads
-/// that follow the body from the last step on.
+/// Ends a run within a load step with the last equilibrium, at the load factor of the next event.
+/// Constant loads do unbounded work on a separating body. The energies are therefore those of a
+/// load that followed the events since the last step.
 DamageResult EventRun::end_within_step(const Event& event) {
   energy_ = following_;
   record(event.load_factor, engine_->load_work(), event);
   return finish();
 }
 
-/// At prescribed load factors: the worst element fails, and the next, until none exceeds its limit.
-/// Within a step only two stop rules are looked at, the number of broken bonds and the signal; the
-/// others ask for equilibrium at the end of the step.
+/// Runs through prescribed load factors. At each one elements fail, the worst first, until none
+/// exceeds its limit. Within a step, only the number of broken bonds and signals can stop the run.
+/// The other stop rules need equilibrium at the end of a step.
 DamageResult EventRun::by_steps() {
   check();
   for (const double load_factor : options_.load_factors) {
@@ -356,7 +355,7 @@ DamageResult EventRun::by_steps() {
       event = engine_->next_event_below(load_factor);
       while (converts(event, 1.0, load_factor)) event = engine_->next_event_below(load_factor);
     }
-    // These loads are asked for: they get a doubt.
+    // Prescribed loads stay in the result, with a warning.
     result_.beyond_small_strains |= is_beyond_small_strains(load_factor);
     record(load_factor, engine_->load_work(), {last});
     if (stop_rule_met()) return finish();

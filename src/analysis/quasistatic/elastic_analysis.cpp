@@ -21,14 +21,14 @@
 namespace perilink {
 namespace {
 
-/// Further from balance than this, over the work, an answer is none: so much of it is round-off.
+/// Energy imbalance over the work above which an answer is mostly round-off [-].
 constexpr double lost_solution = 1e-2;
 
-/// Energies below this part of the sum of the sizes of loads times displacements are round-off
-/// squared: the body moves as a whole, without stress.
+/// Energies below this fraction of the sum of |load times displacement| are squared round-off. The
+/// body then moves as a whole, without stress.
 constexpr double no_energy = 1e-24;
 
-/// Takes from a displacement the rigid-body motion that is nearest to that of the supports.
+/// Subtracts the rigid-body motion that fits the displacements of the supports best.
 void take_settlement(const Network& network, const Unknowns& unknowns,
                      std::vector<double>& displacement) {
   Fragment whole;
@@ -56,10 +56,10 @@ void take_settlement(const Network& network, const Unknowns& unknowns,
   }
 }
 
-/// Work of loads and reactions: the energy, and what the forces that are out of balance add. On a
-/// rigid-body motion of the supports forces in balance do no work; round-off in them would, and is
-/// no error of the answer.
-/// \param network  null: such motions count
+/// Returns the work of loads and reactions: the energy plus the work of the residual. Forces in
+/// balance do no work on a rigid-body motion of the supports. Round-off in them would, so this
+/// motion is subtracted first.
+/// \param network  null: rigid-body motions are not subtracted
 double work_of(const ElasticResult& result, const Network* network, const Unknowns& unknowns,
                std::span<const double> solution, std::span<const double> load,
                std::span<const double> missing) {
@@ -93,8 +93,10 @@ void refuse_lost_balance(const ElasticResult& result) {
       result.subdomains > 0 ? "" : "; conjugate gradients (solver = \"iterative\") lose less"));
 }
 
+/// Solves for the displacements and refines them once.
 /// \param network  null: there are no bonds
-/// \param prepare  makes what solves K x = f: solve(f, x), where both may be the same memory
+/// \param prepare  returns the solver of K x = f as solve(f, x), where f and x may be the same
+///                 memory
 template <class Prepare>
 ElasticResult solve_elastic(const Network* network, const Unknowns& unknowns, const Loads& loads,
                             Prepare prepare, const InternalForceOf& internal_of) {
@@ -134,7 +136,7 @@ ElasticResult solve_elastic(const Network* network, const Unknowns& unknowns, co
   return result;
 }
 
-/// By a factor of the matrix that assemble() gives.
+/// Makes a solver from the factor of the matrix that assemble() returns.
 template <class Assemble>
 auto by_factor(const Unknowns& unknowns, const Particles* particles, int threads, Assemble assemble,
                const InternalForceOf& internal_of) {
@@ -153,7 +155,8 @@ auto by_factor(const Unknowns& unknowns, const Particles* particles, int threads
   };
 }
 
-/// \param make  makes the solver, a shared_ptr
+/// Makes a solver by conjugate gradients.
+/// \param make  returns the SubdomainSolver as a shared_ptr
 template <class Make>
 auto by_subdomains(Make make) {
   return [make](ElasticResult& result) {
@@ -161,7 +164,7 @@ auto by_subdomains(Make make) {
     const std::shared_ptr<SubdomainSolver> solver = make();
     result.seconds.factorization += timer.seconds();
     result.factor = solver->coarse();
-    result.factor.factorizations = 0;  // none of the stiffness
+    result.factor.factorizations = 0;  // the stiffness is not factorised
     result.subdomains = solver->num_subdomains();
     result.factor.ranks = solver->num_ranks();
     return [solver, &result](std::span<const double> right, std::span<double> solution) {

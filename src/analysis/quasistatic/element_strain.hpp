@@ -7,16 +7,16 @@
 
 namespace perilink {
 
-/// Mean strain of an element that carries particles: that of the linear motion nearest to theirs,
-/// by least squares. Particles in one line or plane tell the strain in it alone.
+/// Mean strain of a host: strain of the linear motion that fits its particles best, by least
+/// squares. Particles on one line or plane give the strain within it only.
 class ElementStrain {
  public:
-  /// \param inside  particles of the element that count
+  /// \param inside  particles of the element that enter the fit
   ElementStrain(const Particles& particles, Index number, std::span<const Index> inside);
 
   Index number() const { return number_; }
 
-  /// Its largest principal value [-].
+  /// Returns the largest principal strain [-].
   /// \param motion  shape (particles, width)
   double principal(std::span<const double> motion, int width) const;
 
@@ -24,7 +24,8 @@ class ElementStrain {
   int dim_;
   Index number_;
   std::vector<Index> inside_;
-  std::vector<double> gradient_;  ///< that each particle adds by its motion, shape (inside, dim)
+  /// Weight of each particle's motion in the displacement gradient, shape (inside, dim)
+  std::vector<double> gradient_;
 };
 
 }  // namespace perilink

@@ -15,12 +15,12 @@
 #include "base/timer.hpp"
 
 /// \file
-/// The loop of the damage analysis: by events and by steps in damage_analysis.cpp, by stages in
-/// staged_run.cpp.
+/// Loop of the damage analysis. Control by events and by steps is in damage_analysis.cpp, control
+/// by stages in staged_run.cpp.
 
 namespace perilink {
 
-/// Lets observers look at the equilibrium of the engine.
+/// Gives observers the equilibrium of the engine.
 class EngineState final : public StateSource {
  public:
   EngineState(const Network& network, EventEngine& engine) : network_(network), engine_(engine) {}
@@ -29,22 +29,24 @@ class EngineState final : public StateSource {
             elements != nullptr ? elements->whole() : std::span<const std::uint8_t>()};
   }
   Secants secants() override { return engine_.secants(); }
-  const HostRelease* elements = nullptr;  ///< that carry particles
+  const HostRelease* elements = nullptr;  ///< hosts of embedded particles, or null
 
  private:
   const Network& network_;
   EventEngine& engine_;
 };
 
-/// The run as it goes on: engine, path energies, the row being written and the result.
+/// A damage analysis in progress: engine, path energies, present row and result.
 class EventRun {
  public:
   EventRun(const LoadedNetwork& problem, const DamageOptions& options, StepObserver& observer);
   EventRun(const EventRun&) = delete;
 
-  /// \throws LateConversion  if the options want it
+  /// Runs the analysis to its end.
+  /// \throws MissedRelease if DamageOptions::begins_again and a host release was missed
   DamageResult go();
-  /// \throws SolverError where the body as it is at first finds none
+  /// Checks the equilibrium of the initial body.
+  /// \throws SolverError if there is none
   void require_equilibrium() { check(); }
 
  private:
@@ -53,7 +55,7 @@ class EventRun {
   DamageResult by_events();
   DamageResult by_steps();
   DamageResult end_within_step(const Event& event);
-  // By stages: staged_run.cpp.
+  // Control by stages: staged_run.cpp.
   DamageResult by_stages();
   void begin_stage(std::size_t number);
   void end_stage();
@@ -67,7 +69,7 @@ class EventRun {
   void look_after(const EventOutcome& outcome);
   void follow_motion();
   void adopt(const Unknowns& unknowns);
-  // Finite elements that let go of particles: releasing_run.cpp.
+  // Host releases: releasing_run.cpp.
   bool converts(const Event& event, double sense = 1.0,
                 double most = std::numeric_limits<double>::infinity());
   void take_over(const Unknowns& unknowns, double load_factor);
@@ -88,33 +90,33 @@ class EventRun {
   DamageResult finish();
 
   const Network& network_;
-  const ReferenceLoad* reference_;  ///< those of the present stage, if any
+  const ReferenceLoad* reference_;  ///< reference load of the present stage or run
   const DamageOptions& options_;
-  const StopRules* stop_;  ///< those of the present stage, if any
+  const StopRules* stop_;  ///< stop rules of the present stage or run
   StepObserver& observer_;
   const LoadedNetwork& problem_;
-  StagedEngine* staged_ = nullptr;  ///< the engine, where there are stages
+  StagedEngine* staged_ = nullptr;  ///< the engine if the run has stages, or null
   std::unique_ptr<EventEngine> engine_;
   EngineState state_;
-  std::optional<HostRelease> host_release_;  ///< where finite elements carry particles
-  /// Bonds that conversions have freed since the last event, with the load factor of the alert.
+  std::optional<HostRelease> host_release_;  ///< present if particles are embedded
+  /// Bonds that host releases freed since the last event, with the load factor of each release.
   std::vector<std::pair<std::vector<Index>, double>> freed_;
   PathEnergy energy_;
-  PathEnergy following_;  ///< within a load step: where the load follows the body, as by events
+  PathEnergy following_;  ///< within a load step: energies of a load that follows the events
   StrainWatch strains_;
   Timer timer_;
-  double compliance_ = 0.0;          ///< f'u - R'd at load factor 1 ...
-  double checked_compliance_ = 0.0;  ///< ... when the residual was last measured
+  double compliance_ = 0.0;          ///< f'u - R'd at load factor 1 [force length]
+  double checked_compliance_ = 0.0;  ///< compliance_ at the last full residual check
   double stored_by_elements_ = std::numeric_limits<double>::quiet_NaN();
-  Beside stored_by_permanent_;  ///< where that was measured
-  double most_work_ = 0.0;      ///< largest of the work and the energies so far, of stages
+  Beside stored_by_permanent_;  ///< contribution of permanent loads to the stored energy
+  double most_work_ = 0.0;      ///< largest work or energy so far, for stages [force length]
   int events_ = 0;
-  int looks_ = 0;       ///< at the residual, that nothing else asked for
+  int looks_ = 0;       ///< scheduled residual checks so far
   int rows_below_ = 0;  ///< successive rows below the load fraction of the stop rule
   Index broken_bonds_ = 0;
   Index yield_events_ = 0;
   StepRecord row_;
-  std::vector<StepRecord> rows_;  ///< rows of the present loads, under control by events
+  std::vector<StepRecord> rows_;  ///< rows of the present load case; empty under control by steps
   DamageResult result_;
 };
 

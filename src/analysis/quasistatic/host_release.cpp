@@ -46,7 +46,7 @@ bool HostRelease::is_near(Index element, Index other) const {
   return square <= body_.buffer_zone * body_.buffer_zone;
 }
 
-/// These elements and the whole ones around them.
+/// Returns these elements and the active hosts in the buffer zone around them.
 std::vector<std::uint8_t> HostRelease::with_buffer_zone(
     const std::vector<std::uint8_t>& alarmed) const {
   const auto lower = [&](Index e) {

@@ -5,15 +5,17 @@
 namespace perilink {
 namespace {
 
-/// Relative; histories hold all digits, but solutions only those that their residual leaves.
+/// Relative round-off of loads and displacements: histories hold all digits, but solutions have a
+/// residual [-].
 constexpr double factor_round_off = 1e-9;
 
-/// By which the envelope has to fall behind a first peak [-]: single events fall by more.
+/// Fraction of the first peak by which the envelope must fall [-]. Single events fall by more.
 constexpr double fallen = 0.02;
 
 Index events_before(const StepRecord& record) { return record.broken_bonds + record.yield_events; }
 
-/// Whether load and displacement take up all energy, as under forces or driven displacements alone.
+/// Returns whether load times displacement is twice the stored energy, as under forces only or
+/// prescribed displacements only.
 bool axes_hold_all_energy(const StepRecord& record) {
   const double stored = 2.0 * record.strain_energy;
   return std::abs(record.load * record.displacement - stored) <=
@@ -22,9 +24,9 @@ bool axes_hold_all_energy(const StepRecord& record) {
 
 double compliance(const CurvePoint& point) { return point.displacement / point.load; }
 
-using Window = std::span<const CurvePoint>;  // successive rows; neighbours share one
+using Window = std::span<const CurvePoint>;  // successive rows; neighbours share one row
 
-/// About `events` of each; none of a path without events.
+/// Splits a path into windows of about `events` events; none for a path without events.
 std::vector<Window> windows_of(Window path, std::size_t events) {
   std::vector<Window> windows;
   if (path.size() < 2) return windows;
@@ -36,7 +38,7 @@ std::vector<Window> windows_of(Window path, std::size_t events) {
   return windows;
 }
 
-/// The point of the envelope for a window, none where the compliance grows by round-off only.
+/// Returns the envelope point of a window; none if the compliance grows by round-off only.
 std::optional<CurvePoint> smooth_point(Window rows) {
   double growth = 0.0, squares = 0.0;
   for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
@@ -50,7 +52,7 @@ std::optional<CurvePoint> smooth_point(Window rows) {
   return CurvePoint{load * std::sqrt(before * after), load};
 }
 
-/// Rows up to the lowest window behind the first peak of the envelope that a later one exceeds.
+/// Returns the rows up to the lowest window after the first envelope peak that a later one exceeds.
 std::size_t rows_before_climb(Window path) {
   struct Fall {
     double peak = 0.0, lowest = 0.0;  // |load|
@@ -78,7 +80,7 @@ std::size_t rows_before_climb(Window path) {
 std::vector<CurvePoint> event_path(std::span<const StepRecord> records) {
   std::vector<CurvePoint> path;
   double highest = 0.0;
-  double freed = 0.0;  // compliance that conversions brought, and no event
+  double freed = 0.0;  // compliance that host releases added
   for (std::size_t k = 0; k < records.size(); ++k) {
     const StepRecord& record = records[k];
     highest = std::max(highest, std::abs(record.load));
@@ -156,7 +158,7 @@ void PeakWatch::add(const CurvePoint& row, bool intact) {
   const double at = std::abs(row.displacement), before = std::abs(last_.displacement);
   if (at > reached_) {
     double lowest = std::abs(row.load);
-    if (rows_ == 1) {  // where the path snapped back it comes back with less than it left with
+    if (rows_ == 1) {  // after a snap-back the path returns with a smaller load
       const double share = (reached_ - before) / (at - before);
       lowest = std::min(lowest, std::abs(last_.load + share * (row.load - last_.load)));
     }

@@ -8,7 +8,7 @@
 #include "analysis/quasistatic/observer.hpp"
 
 /// \file
-/// What load–displacement curves tell: peaks, and the smooth curve through saw-teeth.
+/// Peaks of load–displacement curves, and the smooth curve through their saw-teeth.
 
 namespace perilink {
 
@@ -18,80 +18,80 @@ struct CurvePoint {
   double load = 0.0;
 };
 
-/// The rows of a history as a path of single events whose area is the energy that it dissipates,
-/// without a last row that resists nothing. What conversions of finite elements freed is no part of
-/// it: displacements are those without. Empty where the rows are no such path: load steps, rows
-/// in time, and events under forces beside driven displacements, whose work the two axes miss.
+/// Returns the rows of a history as a path of single events. Its area is the energy that the events
+/// dissipate. The path leaves out a last row without resistance and the compliance that host
+/// releases added. It is empty for load steps, rows in time, and forces combined with prescribed
+/// displacements: the two axes do not hold their work.
 std::vector<CurvePoint> event_path(std::span<const StepRecord> records);
 
-/// Smooth curve through the saw-teeth of an event path that dissipates as much energy: a point for
-/// every `window` events or somewhat more. The event from (u, P) to (u', P') dissipates
-/// (P u' − P' u) / 2. With the sum D of a window and dC the growth of u / P in it, the point has
-/// load² = 2 D / dC and displacement² = 2 D / (fall of P / u): means of the loads and displacements
-/// of the window, beyond none of them. Windows in which u / P grows by round-off only have none.
+/// Returns a smooth curve through the saw-teeth of an event path that dissipates the same energy.
+/// It has one point for every `window` events or slightly more. The event from (u, P) to (u', P')
+/// dissipates (P u' − P' u) / 2. In a window that dissipates D, u / P grows by dC and P / u falls
+/// by dK. Its point has load² = 2 D / dC and displacement² = 2 D / dK. Both are means of the window
+/// and lie within its range. Windows whose u / P grows by round-off only have no point.
 std::vector<CurvePoint> smooth_envelope(std::span<const CurvePoint> path, std::size_t window);
 
-/// Number of events per window that leaves about 120 points, at least 10.
+/// Returns the number of events per window that gives about 120 points, at least 10.
 std::size_t envelope_window(std::size_t events);
 
-/// The rows of one stage, whose growing loads have constant ones beside them, as a path of events:
-/// each event that dissipates D between loads P and P', which are not zero, adds the compliance
-/// 2 D / (P P'). Loads are those of the rows; displacements are equivalent ones, for
-/// smooth_envelope() alone.
+/// Returns the rows of one stage, with constant and growing loads, as a path of events. An event
+/// that dissipates D between nonzero loads P and P' adds the compliance 2 D / (P P'). The
+/// displacements are equivalent ones, for smooth_envelope() only.
 std::vector<CurvePoint> stage_path(std::span<const StepRecord> records);
 
-/// Largest load of the envelope, with its sign [force]; none of fewer than two windows, and none
-/// where a window without a point holds a larger load (on weak springs the body's own compliance is
-/// round-off of theirs).
+/// Returns the largest load of the envelope, with its sign [force]. It is absent for fewer than two
+/// windows, and if a window without a point holds a larger load. The latter happens on weak
+/// springs, whose round-off hides the compliance of the body.
 std::optional<double> smoothed_peak(std::span<const CurvePoint> path);
 
-/// By which a load exceeds a first peak where it is residual strength [-].
+/// Fraction by which a load exceeds the first peak if it is residual strength [-].
 inline constexpr double residual_climb = 0.1;
 
-/// Number of rows before the residual strength of a body that has failed: up to the lowest point of
-/// the envelope between its first peak and a larger one, or to the row with which the body gave way
-/// (PeakWatch) where the load climbed again after it; all rows where neither is the case.
-/// \param bars  reinforcing bars carry the load on where the solid cracks: falls of the envelope do
+/// Returns the number of rows before the residual strength of a failed body. They end at the lowest
+/// point of the envelope between its first peak and a larger one. They end no later than where the
+/// body gave way (PeakWatch) if the load climbed again after it. Otherwise all rows count.
+/// \param bars  reinforcing bars carry the load after the solid cracks: falls of the envelope do
 ///              not count
 std::size_t rows_before_residual(std::span<const CurvePoint> path, bool bars);
 
-/// Below this part of an earlier peak a body has given way.
+/// Fraction of an earlier peak load below which a body has given way [-].
 inline constexpr double collapsed_part = 0.5;
 
-/// Rows of explicit runs, whose loads vibrate, that have to lie below it.
+/// Successive rows that must lie below collapsed_part in explicit runs, whose loads vibrate.
 inline constexpr int vibrating_rows = 10;
 
-/// Follows the peaks of a curve, row after row, as a test sees them whose displacement only grows:
-/// what the path does at smaller displacements than it has reached is passed over. The body has
-/// given way where the load falls below collapsed_part of its peak so far.
+/// Follows the peaks of a curve row by row, as in a test with growing displacement. Rows at smaller
+/// displacements than the largest so far are skipped. The body has given way once the load falls
+/// below collapsed_part of its peak so far.
 class PeakWatch {
  public:
   PeakWatch() = default;
-  /// \param rows  successive ones that have to lie below; more than one where loads vibrate
+  /// \param rows  successive rows that must lie below collapsed_part; more than one if loads
+  ///              vibrate
   explicit PeakWatch(int rows) : rows_(rows) {}
 
-  /// \param intact  nothing is damaged yet: whatever the load does the body has not given way
+  /// \param intact  nothing is damaged yet: the body has not given way, whatever the load
   void add(const CurvePoint& row, bool intact = false);
 
-  /// Ends the search for the first peak: later loads are residual strength.
+  /// Sets the first peak; later loads are residual strength.
   void end_with(const CurvePoint& first) {
     gave_way_ = true;
     first_ = first;
   }
 
-  /// Largest |load|, with its sign.
+  /// Returns the row with the largest |load|.
   const CurvePoint& highest() const { return highest_; }
-  /// The largest before the body gave way.
+  /// Returns the row with the largest |load| before the body gave way.
   const CurvePoint& first() const { return gave_way_ ? first_ : highest_; }
   bool gave_way() const { return gave_way_; }
-  /// The load exceeded its first peak after the body gave way.
+  /// Returns whether the load exceeded its first peak after the body gave way.
   bool climbed_again() const { return std::abs(highest_.load) > std::abs(first().load); }
 
  private:
   int rows_ = 1;
   int below_ = 0;
   bool gave_way_ = false;
-  double reached_ = 0.0;  ///< largest |displacement|
+  double reached_ = 0.0;  ///< largest |displacement| so far
   CurvePoint last_, highest_, first_;
 };
 

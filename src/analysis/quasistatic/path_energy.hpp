@@ -4,13 +4,12 @@
 
 namespace perilink {
 
-/// Energies along the path drawn by straight lines through the rows of a history. Between two rows
-/// with load factors lambda_k and lambda_(k+1) the loads do the work of trapezoids; the event
-/// between them dissipates lambda_k lambda_(k+1) (C_(k+1) - C_k) / 2, C the compliance f'u - R'd at
-/// load factor 1, and work = stored + dissipated holds exactly. Where particles become freer
-/// without an event, by unknowns of their own, C grows too; what that takes from the stored energy
-/// is no dissipation but an error of the unknowns before, and kept apart: work = stored +
-/// dissipated + freed.
+/// Energies along straight lines between the rows of a history. Between load factors lambda_k and
+/// lambda_(k+1) the work of the loads is a sum of trapezoids. The event between them dissipates
+/// lambda_k lambda_(k+1) (C_(k+1) - C_k) / 2, where C is the compliance f'u - R'd at load factor 1.
+/// Then work = stored + dissipated holds exactly. C also grows without an event when new unknowns
+/// make particles freer. The stored energy then falls by the constraint energy, an error of the
+/// former unknowns. It is kept apart: work = stored + dissipated + freed.
 class PathEnergy {
  public:
   /// Moves along the path to the next row.
@@ -28,8 +27,8 @@ class PathEnergy {
     work_ = work;
   }
 
-  /// Other loads grow from here on, from a load factor of their own. The equilibrium stays.
-  /// \param flowed  what flow left behind is no longer stored, but dissipated
+  /// Starts a stage: another load case grows, from its own load factor. The equilibrium stays.
+  /// \param flowed  bars have flowed: the fall of the stored energy is dissipated
   void begin_stage(double load_factor, const LoadWork& work, bool flowed = false) {
     const double before = stored();
     load_factor_ = load_factor;
@@ -37,7 +36,7 @@ class PathEnergy {
     if (flowed) dissipated_ += before - stored();
   }
 
-  /// An event at the present row.
+  /// Adds an event at the present row.
   void add_event(const EventOutcome& outcome) {
     growth_ += outcome.compliance_growth;
     permanent_growth_ += outcome.permanent_growth;
@@ -45,7 +44,7 @@ class PathEnergy {
     released_ += outcome.released_by_permanent.at(load_factor_);
   }
 
-  /// The compliance grew at the present row as particles became freer.
+  /// Adds the growth of the compliance at the present row as particles became freer.
   void add_freedom(const Freedom& freedom) {
     freedom_.growth += freedom.growth;
     freedom_.beside += freedom.beside;
@@ -64,7 +63,8 @@ class PathEnergy {
   }
 
  private:
-  /// What constant loads add: their own work, and that of the others on what they cause.
+  /// Adds the contribution of permanent loads: their work, and that of growing loads on the
+  /// displacements they cause.
   void advance_permanent(double load_factor, const ConstantWork& after) {
     const ConstantWork& before = work_.constant;
     const double both = load_factor_ + load_factor;
@@ -80,8 +80,8 @@ class PathEnergy {
 
   double load_factor_ = 0.0;
   LoadWork work_;
-  double growth_ = 0.0;  ///< since the present row
-  Freedom freedom_;      ///< the same
+  double growth_ = 0.0;  ///< growth of the compliance since the present row
+  Freedom freedom_;  ///< growth of the compliance since the present row, as particles became freer
   Beside permanent_growth_;
   double external_ = 0.0;
   double dissipated_ = 0.0;

@@ -6,14 +6,16 @@
 namespace perilink {
 namespace {
 
-/// What has come to this part of the alert that comes first is converted with it.
+/// Hosts at this fraction of the bond or strain that triggers a release are released too [-].
 constexpr double as_near = 0.9;
 
 }  // namespace
 
-/// Whether the event is not one yet: finite elements let go of particles first. Those that carry
-/// the bond that comes next, with all whose bonds are as near, or those that are strained the most.
-/// \param most  load factor up to which anything happens
+/// Releases hosts if that comes before the event. They are the hosts of the next bond and of bonds
+/// nearly as close to their limits, or the most strained hosts.
+/// \param sense  1 if the load factor grows, -1 if it falls
+/// \param most   load factor up to which events and releases count
+/// \return whether hosts were released; then the event must be searched for again
 bool EventRun::converts(const Event& event, double sense, double most) {
   if (!host_release_ || event.changes_side) return false;
   const bool fails = event.element != no_index && event.load_factor <= most;
@@ -40,8 +42,8 @@ bool EventRun::converts(const Event& event, double sense, double most) {
   return true;
 }
 
-/// The motion after a conversion.
-/// \param load_factor  at which the alert came
+/// Adopts the motion after a host release.
+/// \param load_factor  at which the release was triggered
 void EventRun::take_over(const Unknowns& unknowns, double load_factor) {
   adopt(unknowns);
   engine_->set_release_threshold(host_release_->freed(), 1.0);
@@ -51,8 +53,9 @@ void EventRun::take_over(const Unknowns& unknowns, double load_factor) {
   result_.elements = host_release_->num_whole();
 }
 
-/// A freed bond that fails before the load factor at which the alert came was beyond its limit by
-/// more than the alert allows for.
+/// Records missed releases. A freed bond that fails before the load factor of its release exceeded
+/// its limit by more than the release threshold allows.
+/// \throws MissedRelease if DamageOptions::begins_again
 void EventRun::note_missed_releases(const Event& event, double sense) {
   for (const auto& [bonds, release_threshold] : freed_) {
     const auto is_freed = [&](Index element) {
@@ -62,7 +65,7 @@ void EventRun::note_missed_releases(const Event& event, double sense) {
     const double near = std::max(tie_tolerance, options_.engine.event_tolerance);
     const bool earlier = event.at_constant_load || sense * (release_threshold - event.load_factor) >
                                                        near * std::abs(release_threshold);
-    const bool begins = row_.step == 0 && events_ == 0;  // nothing has happened by then
+    const bool begins = row_.step == 0 && events_ == 0;  // no event by then
     if (begins || !freed || !earlier) continue;
     if (options_.begins_again) throw MissedRelease{host_release_->whole()};
     ++result_.missed_releases;

@@ -9,7 +9,7 @@
 namespace perilink {
 namespace {
 
-/// Events in tension after which the force of a bond stays below half of its largest.
+/// Returns the events in tension after which a bond carries less than half of its largest force.
 int events_to_crack(const BondLaw& law) {
   const double half = 0.5 * law.segment(0).limit;
   int events = 1;
@@ -19,7 +19,7 @@ int events_to_crack(const BondLaw& law) {
   return events;
 }
 
-/// Sets of particles that cracked bonds join, each with the box around the middles of its bonds.
+/// Sets of particles joined by cracked bonds, each with the bounding box of the bonds' midpoints.
 class Cracks {
  public:
   explicit Cracks(const Network& network)
@@ -40,7 +40,8 @@ class Cracks {
     }
   }
 
-  /// \return whether the crack of the bond goes through the body
+  /// Adds a cracked bond.
+  /// \return whether its crack goes through the body
   bool add(Index bond) {
     constexpr double through = 0.8;
     const Index first = network_.bonds.first[bond], second = network_.bonds.second[bond];
@@ -107,8 +108,8 @@ void find_peaks(const Network& network, std::span<const StepRecord> rows, Damage
   const bool stages = !rows.empty() && rows.front().stage > 0;
   const std::vector<CurvePoint> path = stages ? stage_path(rows) : event_path(rows);
   PeakWatch& peaks = result.peaks;
-  // Bars carry the load on where the solid cracks, bonds that crush where others split; a beam of
-  // brittle bonds may lose its outer ones before its section fails.
+  // Bars carry the load after the solid cracks, and crushing bonds after others split. A beam of
+  // brittle bonds may lose its outer bonds before its section fails.
   const bool goes_on =
       bars || network.has_crushing() || std::ranges::all_of(network.laws, &BondLaw::is_brittle);
   std::size_t before = rows_before_residual(path, goes_on);

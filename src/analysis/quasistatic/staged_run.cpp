@@ -9,7 +9,7 @@
 
 namespace perilink {
 
-/// Stage after stage, until one ends the run: with the last one, a collapse, or a signal.
+/// Runs stage after stage until the last one is done, the body collapses or a signal stops the run.
 DamageResult EventRun::by_stages() {
   if (options_.new_motion) throw SolverError("particles stay as they are in a run by stages");
   for (std::size_t k = 0; k < options_.stages.size(); ++k) {
@@ -21,7 +21,7 @@ DamageResult EventRun::by_stages() {
   return finish();
 }
 
-/// The equilibrium stays; what grows and what is constant change.
+/// Starts a stage: the growing and the constant loads change, the equilibrium stays.
 void EventRun::begin_stage(std::size_t number) {
   const StageRules& stage = options_.stages[number];
   const bool others = number == 0 || stage.set != options_.stages[number - 1].set;
@@ -56,7 +56,7 @@ void EventRun::end_stage() {
   stage.smoothed_peak_load = result_.smoothed_peak_load;
 }
 
-/// The load factor at which a stage ends, as long as nothing fails; none: by events.
+/// Returns the load factor at which a stage ends if nothing fails; none for a stage by events.
 std::optional<double> EventRun::end_of(const StageRules& stage, const LoadWork& work) const {
   if (!stage.to_load) return stage.to;
   const double reference = reference_->value;
@@ -65,13 +65,14 @@ std::optional<double> EventRun::end_of(const StageRules& stage, const LoadWork& 
   return (*stage.to_load * reference - constant) / work.supports;
 }
 
+/// Runs a stage.
 /// \return whether the run goes on after it
 bool EventRun::follow_stage(const StageRules& stage) {
   while (true) {
     const LoadWork work = engine_->load_work();
     if (work.separated) {
       record_separated(staged_->load_factor(), work);
-      // A block that rocks under its weight keeps its load.
+      // A block that rocks under its weight still carries a load.
       constexpr double round_off = 1e-9;
       if (std::abs(row_.load) > round_off * std::abs(result_.peak_load)) {
         end(Termination::collapsed,
@@ -98,7 +99,7 @@ bool EventRun::follow_stage(const StageRules& stage) {
     const double before = staged_->load_factor();
     staged_->move_to(load_factor);
     if (arrived) {
-      // This load is asked for: it gets a doubt.
+      // A prescribed load stays in the result, with a warning.
       result_.beyond_small_strains |= is_beyond_small_strains(load_factor);
     } else if (leaves_small_strains(event)) {
       staged_->move_to(before);
@@ -121,7 +122,7 @@ bool EventRun::follow_stage(const StageRules& stage) {
   }
 }
 
-/// The axes of a row, and its energies, with what constant loads add.
+/// Adds the contribution of permanent loads to the axes and the largest energy of a row.
 void EventRun::measure_permanent(const LoadWork& work) {
   const double growing = row_.load_factor * work.forces + work.constant.growing_forces;
   if (reference_->driven) {

@@ -17,7 +17,7 @@ bool StrainWatch::is_due(double motion) {
 
 bool StrainWatch::is_beyond(std::span<const double> motion, double factor, const Secants& secants) {
   const auto width = static_cast<std::size_t>(network_.width());
-  double largest = 0.0;  // shortening over what is small
+  double largest = 0.0;  // shortening over its limit
   for (Index e = 0; e < network_.first_slip_spring; ++e) {
     if (!network_.can_break(e) || network_.law(e).crushes() || !(secants.axial(e) > 0.0)) continue;
     const double* const from = motion.data() + width * network_.bonds.first[e];

@@ -7,31 +7,32 @@
 
 namespace perilink {
 
-/// Tells when a body that can only be compressed, as one that is crushed between closed bonds, has
-/// left the small strains that the analysis stands on.
+/// Detects a body that leaves small strains in compression, for example when it is crushed between
+/// closed bonds.
 class StrainWatch {
  public:
   explicit StrainWatch(const Network& network) : network_(network) {}
 
-  /// Whether to look, which costs a pass over the bonds: where the motion is twice as large as at
-  /// the last look, or could bring the shortest bond to its limit, and at every hundredth event.
-  /// \param motion  load factor or displacement: what grows with the motion of the body
+  /// Returns whether is_beyond(), a pass over the bonds, is due. It is due if the motion has
+  /// doubled since the last pass, could bring the shortest bond to its limit, and at every
+  /// hundredth event.
+  /// \param motion  load factor or displacement that grows with the motion of the body
   bool is_due(double motion);
 
-  /// Other loads grow from now on.
+  /// Restarts for another load case.
   void restart() { looked_at_ = 0.0; }
 
-  /// Whether a bond of the solid that holds, and breaks by tension alone, is shorter by more than a
-  /// tenth, or by ten times the stretch at which it begins to fail where that is more.
+  /// Returns whether a bond of the solid has shortened by more than a tenth, or by ten times its
+  /// critical stretch if that is larger. Only unbroken bonds without a law in compression count.
   /// \param motion  shape (particles, width)
-  /// \param factor  by which it counts
+  /// \param factor  scales the motion
   bool is_beyond(std::span<const double> motion, double factor, const Secants& secants);
 
  private:
   const Network& network_;
   double looked_at_ = 0.0;
-  double due_at_ = 0.0;  ///< size of the motion at which to look next
-  int events_ = 0;       ///< since the last look
+  double due_at_ = 0.0;  ///< size of the motion at which the next pass is due
+  int events_ = 0;       ///< since the last pass
 };
 
 }  // namespace perilink
