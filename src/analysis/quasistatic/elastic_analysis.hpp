@@ -44,7 +44,7 @@ struct ElasticResult {
   int iterations = 0;                  ///< conjugate-gradient iterations
   double error = 0.0;                  ///< relative error of conjugate gradients in the energy norm
   ElasticSeconds seconds;
-  /// Communicator of the ranks that built the body, or null
+  /// Communicator of the ranks that built the body, or null.
   std::shared_ptr<const Team> team = {};
 };
 

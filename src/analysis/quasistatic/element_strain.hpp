@@ -24,7 +24,7 @@ class ElementStrain {
   int dim_;
   Index number_;
   std::vector<Index> inside_;
-  /// Weight of each particle's motion in the displacement gradient, shape (inside, dim)
+  /// Weight of each particle's motion in the displacement gradient, shape (inside, dim).
   std::vector<double> gradient_;
 };
 

@@ -77,7 +77,7 @@ class HostRelease {
   std::vector<Index> by_lower_x_;  ///< elements sorted by their lower ends along x
   double widest_ = 0.0;            ///< largest width of an element along x [length]
   std::vector<Index> freed_;
-  /// Hosts with bonds that can fail; made at first use
+  /// Hosts with bonds that can fail; made at first use.
   std::optional<std::vector<ElementStrain>> strains_;
   std::unique_ptr<Unknowns> present_, former_;
 };

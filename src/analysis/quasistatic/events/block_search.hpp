@@ -10,28 +10,30 @@
 
 namespace perilink {
 
-/// Elements that a search looks at in one go.
+/// Number of elements that a search processes at once.
 inline constexpr Index search_block_size = 512;
 
 inline std::size_t num_search_blocks(std::size_t num_elements) {
   return (num_elements + search_block_size - 1) / search_block_size;
 }
 
-/// What is left of zero times all values of a block: zero, or not a number where one of them is not
-/// finite. Comparisons alone would pass over it.
+/// Returns the largest value of a block, or not-a-number if one of its values is not finite.
+/// Comparisons skip such values.
+/// \param zero_times_all  sum of zero times every value
 inline double largest_or_nan(double largest, double zero_times_all) {
   return zero_times_all == 0.0 ? largest : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// The largest positive value; of those above `share` of it the first. Two passes: the largest of
-/// every block, in parallel, then the first element among the blocks that reach the threshold. The
-/// answer does not depend on the number of threads.
-/// \param elements          those to search
-/// \param block_largest     work space, one per block
-/// \param fewest_parallel   blocks from which on several threads are faster than one
-/// \param largest_in        largest value in the positions [begin, end), see largest_or_nan()
-/// \param value_at          value at one position
-/// \throws SolverError where a value is not finite
+/// Finds the first element whose value reaches `share` of the largest positive value. A first pass
+/// finds the largest value of every block, in parallel. A second one finds the first element in
+/// blocks that reach the threshold. The result does not depend on the number of threads.
+/// \param elements          element of each position
+/// \param block_largest     work space, one entry per block
+/// \param fewest_parallel   number of blocks above which several threads are faster than one
+/// \param largest_in        returns the largest value of positions [begin, end), see
+///                          largest_or_nan()
+/// \param value_at          returns the value of one position
+/// \throws SolverError if a value is not finite
 template <typename LargestIn, typename ValueAt>
 BreakSearch::Hit find_first_largest(const std::vector<Index>& elements,
                                     std::vector<double>& block_largest, double share, int threads,
@@ -57,7 +59,7 @@ BreakSearch::Hit find_first_largest(const std::vector<Index>& elements,
     largest = std::max(largest, block_largest[b]);
   }
   if (largest <= 0.0) return {};
-  // The two passes may be rounded differently.
+  // The two passes may round differently.
   const double threshold = largest * share * (1.0 - 1e-14);
   for (Index b = 0; b < blocks; ++b) {
     if (block_largest[b] < threshold) continue;

@@ -13,7 +13,7 @@
 
 namespace perilink {
 
-/// Finds the element that is nearest to the limit of its law.
+/// Finds the element closest to the limit of its law.
 class BreakSearch {
  public:
   virtual ~BreakSearch() = default;
@@ -23,25 +23,26 @@ class BreakSearch {
     double ratio = 0.0;  ///< stretch over its limit at load factor 1
   };
 
-  /// Largest positive ratio; of those within `tolerance` of it the lowest element.
+  /// Finds the largest positive ratio. Among elements within `tolerance` of it, the lowest number
+  /// wins.
   /// \param displacement  shape (particles, width)
-  /// \throws SolverError where the ratio of a bond is not a finite number
+  /// \throws SolverError if the ratio of an element is not finite
   virtual Hit find(std::span<const double> displacement, double tolerance, int threads) = 0;
 
-  /// Every element whose ratio is at least `least`, in the order of their numbers.
+  /// Returns every element whose ratio is at least `least`, ascending.
   virtual std::vector<Hit> list(std::span<const double> displacement, double least) const = 0;
 
-  /// The stretch at which the element has its next event; infinity: there is none, as when it is
-  /// broken. Elements that stay elastic from the start are not in the search: nothing happens.
+  /// Sets the stretch of an element's next event; infinity if there is none, as after it breaks.
+  /// Elements that stay elastic from the start are not in the search and are ignored.
   virtual void set_limit(Index element, double limit) = 0;
 
-  /// The same of an element with teeth in compression of its own.
+  /// Sets the next limits of an element that has its own segments in compression.
   virtual void set_limits(Index element, double tension, double compression) = 0;
 };
 
-/// The ratio of an element's measure to its limit. One that is not a number compares as nothing and
-/// would look like an element that never fails.
-/// \throws SolverError where it is not finite
+/// Returns the ratio of an element's stretch to its limit. Comparisons would treat not-a-number as
+/// an element that never fails.
+/// \throws SolverError if the ratio is not finite
 inline double finite_ratio(Index element, double ratio) {
   if (std::isfinite(ratio)) return ratio;
   throw SolverError("the stretch of element " + std::to_string(element) +
@@ -49,7 +50,7 @@ inline double finite_ratio(Index element, double ratio) {
                     "finite, and no figure that follows would mean anything");
 }
 
-/// The search for the elements of a network, intact: trusses or frames.
+/// Makes the search for the intact elements of a network, trusses or frames.
 std::unique_ptr<BreakSearch> make_break_search(const Network& network);
 
 }  // namespace perilink

@@ -12,17 +12,17 @@
 namespace perilink {
 namespace {
 
-/// A bond that bends counts as stretched from this axial stretch on, over its limit, as round-off
-/// must not decide where symmetry keeps its length.
+/// Axial stretch over its limit above which a bond that bends counts as stretched [-]. Where
+/// symmetry keeps its length, round-off must not decide.
 constexpr double least_stretch = 1e-6;
 
-/// The part of the motion of its ends that is nothing but round-off in an extension.
+/// Fraction of the ends' motion below which an extension is round-off [-].
 constexpr double motion_round_off = 1e-12;
 
-/// Fewer blocks than this are searched faster by one thread.
+/// Number of blocks below which one thread is faster.
 constexpr Index fewest_parallel_crossings = 100;
 
-/// The parts of the stretch over its limit whose squares add up, the axial one first.
+/// Parts of the stretch over its limit whose squares add up, the axial part first.
 template <int Dim, bool Turns>
 struct Measure {
   static constexpr int size = !Turns ? 1 : Dim == 2 ? 3 : 8;
@@ -49,7 +49,7 @@ CrossingSearch::Query::Query(std::span<const double> present, std::span<const do
   noise = 6.0 * motion_round_off * most;  // two ends, three components
 }
 
-/// Whether what is asked for may lie at the low end of the interval.
+/// Returns whether the low end of the interval may be the answer.
 bool CrossingSearch::Query::asks_for(const Interval& interval) const {
   if (interval.low == -infinity) return false;
   return largest ? interval.high == infinity : interval.low >= -interval.margin;
@@ -144,7 +144,7 @@ void CrossingSearch::visit(const Element& element, const Query& query, Sink&& si
   const double margin = rate > 0.0 ? query.tolerance / std::sqrt(rate) : 0.0;
   const double stretch = now.part[0], stretching = growing.part[0];
   double low = -infinity, high = infinity;  // between them the element is within its limit
-  bool never = false;                       // or nowhere
+  bool never = false;                       // never within its limit
   if (rate == 0.0) {
     never = square > 1.0 + 2.0 * query.tolerance;
   } else if constexpr (!Turns) {
@@ -158,7 +158,7 @@ void CrossingSearch::visit(const Element& element, const Query& query, Sink&& si
     const double sum = half >= 0.0 ? -(half + std::sqrt(rest)) : std::sqrt(rest) - half;
     if (!never) std::tie(low, high) = std::minmax({sum / rate, (square - 1.0) / sum});
   }
-  // Where the element is stretched, if it fails in tension alone.
+  // Interval in which the element is stretched, if it fails in tension only.
   double from = -infinity, to = infinity;
   if (!element.both) {
     const double least = Turns ? least_stretch : 0.0;
@@ -219,7 +219,7 @@ auto CrossingSearch::find(const Query& query, int threads) -> Found {
   return all;
 }
 
-/// The lowest element that passes its limit at d, or comes near it.
+/// Returns the lowest element that passes its limit at d, or comes within its margin.
 Index CrossingSearch::element_at(double distance, const Query& query) const {
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     if (blocks_[b].early > distance) continue;

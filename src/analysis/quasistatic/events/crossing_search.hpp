@@ -9,49 +9,51 @@
 
 namespace perilink {
 
-/// Search for load factors at which elements pass their limits. The displacements are u + d v, the
-/// present ones and d times those by loads that grow. The stretch over its limit of a truss is
-/// linear in d, the square of the equivalent one of a micropolar bond (FrameLimitSearch) quadratic.
-/// An element fails in one or two open intervals of d. Extensions that are nothing but round-off of
-/// the motion of their ends do not grow.
+/// Finds load factors at which elements pass their limits. The displacements are u + d v: the
+/// present ones plus d times those of growing loads. The stretch over its limit of a truss is
+/// linear in d. The squared equivalent stretch of a micropolar bond (FrameLimitSearch) is quadratic
+/// in d. An element fails in one or two open intervals of d. Extensions within the round-off of the
+/// ends' motion count as constant.
 class CrossingSearch {
  public:
   explicit CrossingSearch(const Network& network);
 
-  /// The end of an interval: where an element passes its limit as d moves on.
+  /// End of an interval: an element passes its limit there as d changes.
   struct Crossing {
-    Index element = no_index;          ///< no_index: there is none
-    double distance = 0.0;             ///< d
-    std::vector<Index> conflict = {};  ///< where no d lets all hold: elements that shut them out
+    Index element = no_index;  ///< no_index: there is none
+    double distance = 0.0;     ///< d
+    /// Elements whose limits exclude each other if no d satisfies all.
+    std::vector<Index> conflict = {};
   };
 
-  /// From u onwards the first at which an element begins to fail; of those that do within
-  /// `tolerance` of their limits the lowest element. Those that fail in u already are passed over.
-  /// \param sense  1: d grows, -1: it falls; `distance` has this sign
+  /// Finds the first d from u onwards at which an element begins to fail. Among elements within
+  /// `tolerance` of their limits, the lowest number wins. Elements that already fail at u are
+  /// skipped.
+  /// \param sense  1: d grows, -1: d falls; `distance` has this sign
   Crossing ahead(std::span<const double> now, std::span<const double> growing, int sense,
                  double tolerance, int threads);
 
-  /// The largest d at which no element fails, with the element that fails beyond it. Infinite
-  /// without an element: none fails however large it is. Minus infinity without: there is no such
-  /// d.
+  /// Finds the largest d at which no element fails, and the element that fails beyond it. Without
+  /// an element, `distance` is infinite if no element ever fails. It is minus infinity if no such d
+  /// exists.
   Crossing largest(std::span<const double> now, std::span<const double> growing, double tolerance,
                    int threads);
 
-  /// BreakSearch::set_limit().
+  /// See BreakSearch::set_limit().
   void set_limit(Index element, double limit);
 
  private:
   struct Element {
-    Index number, first, second;  ///< particles times width
+    Index number, first, second;  ///< element, and offsets of its ends (particle times width)
     double n[3];
-    double first_arm, second_arm;        ///< from the ends to the inflection [length]
-    double shear_share, rotation_share;  ///< as FrameLimitSearch::Bond has them
+    double first_arm, second_arm;        ///< distances from the ends to the inflection [length]
+    double shear_share, rotation_share;  ///< square roots of the shares in FrameLimitSearch::Bond
     double length;                       ///< [length]
-    double inverse;                      ///< 1 / (xi s) of the limit s; zero without
-    bool both;                           ///< Sense::both
+    double inverse;                      ///< 1 / (xi s) for the limit s; zero without a limit
+    bool both;                           ///< the law has Sense::both
   };
-  /// Values of d between which an element fails; it is within the tolerance of its limit as far as
-  /// `margin` outside.
+  /// Values of d between which an element fails. Up to `margin` outside, it is within the tolerance
+  /// of its limit.
   struct Interval {
     double low, high, margin;
   };
@@ -59,10 +61,10 @@ class CrossingSearch {
   struct Query {
     const double* now;
     const double* growing;
-    double sense;  ///< 1 or -1: of the growing displacements
+    double sense;  ///< 1 or -1: sign of the growing displacements
     double tolerance;
-    bool largest;  ///< what is asked for is largest(), not ahead()
-    double noise;  ///< growing extensions above this are no round-off [length]
+    bool largest;  ///< the query is largest(), not ahead()
+    double noise;  ///< growing extensions above this are not round-off [length]
 
     Query(std::span<const double> now, std::span<const double> growing, double sense,
           double tolerance, bool largest);
@@ -70,13 +72,14 @@ class CrossingSearch {
     bool asks_for(const Interval& interval) const;
   };
 
-  /// What is found in a block of elements, or in all.
+  /// Result of a search in one block of elements, or in all.
   struct Found {
-    double low = infinity;      ///< least low end of the intervals that are asked for ...
-    double early = infinity;    ///< ... less the margin
-    double needed = -infinity;  ///< below this d an element fails, whatever comes ...
-    Index needing = no_index;   ///< ... this one
-    Index lost = std::numeric_limits<Index>::max();  ///< lowest element whose stretch is no number
+    double low = infinity;      ///< least low end of the intervals asked for
+    double early = infinity;    ///< least low end less its margin
+    double needed = -infinity;  ///< an element fails at every d below this
+    Index needing = no_index;   ///< the element that fails below `needed`
+    /// Lowest element whose stretch is not a number.
+    Index lost = std::numeric_limits<Index>::max();
     struct Island {
       Interval interval;
       Index element;

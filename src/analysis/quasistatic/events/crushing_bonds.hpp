@@ -9,14 +9,15 @@
 
 namespace perilink {
 
-/// Bonds whose teeth in compression sleep until a bond of that kind at one of their particles has
-/// had its first event in tension. They wake for good: the law is for loads that grow.
+/// Activates the compressive branch of bonds. It is inactive until such a bond at one of their
+/// particles has its first event in tension. It then stays active: the law is for growing loads.
 class CrushingBonds {
  public:
   explicit CrushingBonds(const Network& network);
 
+  /// Activates the bonds at both ends of a bond.
   /// \param stretched  a bond that had its first event in tension
-  /// \return bonds that wake by it, in the order of the particles; may hold one twice
+  /// \return activated bonds, particle by particle; a bond may occur twice
   std::vector<Index> wake(Index stretched);
   bool is_active(Index bond) const {
     return awake_[network_.bonds.first[bond]] != 0 || awake_[network_.bonds.second[bond]] != 0;
@@ -26,10 +27,10 @@ class CrushingBonds {
   const Network& network_;
   std::vector<std::size_t> begin_;  ///< into bonds_, per particle, with the end
   std::vector<Index> bonds_;
-  std::vector<std::uint8_t> awake_;  ///< per particle
+  std::vector<std::uint8_t> awake_;  ///< flag per particle
 };
 
-/// Whether the distance between the ends of an element falls by a motion.
+/// Returns whether a motion shortens an element.
 /// \param motion  shape (particles, width)
 bool is_shorter(const Network& network, Index element, std::span<const double> motion);
 

@@ -10,68 +10,70 @@
 
 namespace perilink {
 
-/// The next thing that happens under a growing load.
+/// The next event under a growing load.
 struct Event {
-  Index element = no_index;       ///< it breaks or yields; no_index: nothing can break any more
-  double load_factor = 0.0;       ///< when it happens
-  bool at_constant_load = false;  ///< the element is beyond its limit, at a load that does not move
-  bool changes_side = false;      ///< a damaged bond closes or opens, and nothing fails
-  std::vector<Index> others = {};  ///< elements that fail with it, within the tolerance of events
+  Index element = no_index;        ///< breaks or yields; no_index: there are no more events
+  double load_factor = 0.0;        ///< load factor of the event
+  bool at_constant_load = false;   ///< the element is beyond its limit at a constant load
+  bool changes_side = false;       ///< a damaged bond closes or opens, and nothing fails
+  std::vector<Index> others = {};  ///< elements that fail with it, within the event tolerance
 };
 
-/// Moves a network from event to event at unit load factor. The damage analysis sees no more of the
-/// solver than this, so that a faster engine can take this one's place.
+/// Moves a network from event to event at unit load factor. The damage analysis uses the solver
+/// through this interface only, so that engines can be exchanged.
 class EventEngine {
  public:
   virtual ~EventEngine() = default;
 
-  /// The element that reaches its limit first as the load grows from zero. Ties within
-  /// `tie_tolerance` of the load factor go to the element with the lowest number, so that no route
-  /// and no number of threads decides by round-off. Under an event tolerance the load factor is the
-  /// middle of those of all that fail together.
-  /// \param most  load factor of a step: all that reach their limits below it fail together
+  /// Finds the element that reaches its limit first as the load grows from zero. Among load factors
+  /// within `tie_tolerance` the lowest element wins, so that round-off and threads do not decide.
+  /// With an event tolerance, the load factor is the middle of those of all elements that fail
+  /// together.
+  /// \param most  load factor of a step: elements that reach their limits above it do not fail with
+  ///              it
   virtual Event next_event_below(double most) = 0;
   Event next_event() { return next_event_below(std::numeric_limits<double>::infinity()); }
 
-  /// Lets the elements pass their limits: broken, or on the next secants of their laws.
+  /// Weakens the elements of the event: they break, or take the next secants of their laws.
   virtual EventOutcome apply(const Event& event) = 0;
 
-  /// Displacement of all particles at load factor 1, rotations included; shape (particles,
-  /// width), prescribed ones and all: equilibrium of the network as it stands.
+  /// Returns the displacements of all particles in equilibrium at load factor 1, shape (particles,
+  /// width). They include rotations and prescribed displacements.
   virtual std::span<const double> displacement() = 0;
 
-  /// Those that are right wherever an element can fail, and cost no solution.
+  /// Returns displacements that are current wherever an element can fail, without a solve.
   virtual std::span<const double> where_elements_fail() = 0;
 
   virtual LoadWork load_work() = 0;
 
-  /// Present stiffness of every element as a fraction of the intact one.
+  /// Returns the present stiffness of every element over its intact stiffness.
   virtual Secants secants() const = 0;
 
-  /// Equilibrium::check() and Equilibrium::glance().
+  /// See Equilibrium::check() and Equilibrium::check_cheaply().
   virtual Balance check_equilibrium() = 0;
   virtual Balance check_cheaply() = 0;
 
-  /// Equilibrium::change_motion().
+  /// See Equilibrium::change_motion().
   virtual Freedom change_motion(const Unknowns& unknowns) = 0;
 
-  /// From now on the elements have their next event at this fraction of its limit.
+  /// Moves the next events of elements to this fraction of their limits.
   virtual void set_release_threshold(std::span<const Index> elements, double fraction) = 0;
 
-  /// Elements that are within this fraction of their next event as the element of an event is at
-  /// its load factor, ascending.
+  /// Returns the elements whose ratio at the load factor of the event is at least `fraction`,
+  /// ascending.
   virtual std::vector<Index> near_events(const Event& event, double fraction) = 0;
 
-  /// Numerical factorisations so far.
+  /// Returns the number of numerical factorisations so far.
   virtual int factorizations() const = 0;
 
   virtual FactorStatistics factor_statistics() const = 0;
 };
 
-/// Relative width within which load factors count as equal.
+/// Relative difference within which load factors count as equal.
 inline constexpr double tie_tolerance = 1e-10;
 
-/// \throws SolverError when the stiffness matrix is not positive definite
+/// Makes the engine of a run without stages.
+/// \throws SolverError if the stiffness matrix is not positive definite
 std::unique_ptr<EventEngine> make_event_engine(const LoadedNetwork& problem,
                                                const EquilibriumOptions& options);
 

@@ -10,11 +10,11 @@
 namespace perilink {
 namespace {
 
-/// Fewer blocks than this are searched faster by one thread.
+/// Number of blocks below which one thread is faster.
 constexpr Index fewest_parallel_frames = 100;
 
-/// A bond counts as stretched when the square of its axial stretch is at least this share of that
-/// of its equivalent stretch. Where symmetry keeps its length, round-off must not decide.
+/// Share of the squared equivalent stretch that the squared axial stretch needs in tension [-].
+/// Where symmetry keeps the length, round-off must not decide.
 constexpr double least_tension = 1e-12;
 
 }  // namespace
@@ -72,12 +72,12 @@ double FrameLimitSearch::squared_ratio(const Bond& bond, const double* u, bool e
   }
   square += d.extension * d.extension;
   const bool stretched = d.extension > 0.0 && d.extension * d.extension > least_tension * square;
-  // Not a number where the square is none.
+  // Not-a-number if the square is not a number.
   if (either_way) return square * std::max(bond.inverse, bond.compressed);
   return square * (stretched ? bond.inverse : bond.compressed);
 }
 
-/// The same of a bond of a shell or a beam, which is in tension where one of its faces is.
+/// Returns the squared ratio of a shell or beam bond, which is in tension if one of its faces is.
 template <int Dim>
 double FrameLimitSearch::section_ratio(Index k, const double* u) const {
   const Bond& bond = bonds_[k];
@@ -86,7 +86,7 @@ double FrameLimitSearch::section_ratio(Index k, const double* u) const {
                               u + bond.second);
   const double square = d.extension * d.extension + bond.bending_share * d.shear[0] * d.shear[0] +
                         bond.rotation_share * d.bend[0] * d.bend[0];
-  // Moments at the ends differ by that of the shear force.
+  // The shear force makes the moments at the ends differ.
   const double turn =
       std::abs(d.bend[0]) + 6.0 * std::abs(d.shear[0]) / (bond.first_arm + bond.second_arm);
   const double stretch = d.extension + network_.half_height[elements_[k]] * turn;
@@ -101,7 +101,7 @@ double FrameLimitSearch::shell_bond_ratio(Index element, const Bond& bond, const
   double square = 0.0, stretch = 0.0;
   for (int m = 0; m < FrameModes<3>::count; ++m) {
     const double deformation = modes.deformation(m, u + bond.first, u + bond.second);
-    const bool of_shear = m == 1 || m > 3;  // stiffnesses that grow with kb
+    const bool of_shear = m == 1 || m > 3;  // stiffness proportional to kb
     const double share = !of_shear        ? modes.stiffness[m]
                          : calibrated > 0 ? modes.stiffness[m] * ratio / calibrated
                                           : 0.0;

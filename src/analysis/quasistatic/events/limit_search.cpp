@@ -9,7 +9,7 @@
 namespace perilink {
 namespace {
 
-/// Fewer blocks than this are searched faster by one thread.
+/// Number of blocks below which one thread is faster.
 constexpr Index fewest_parallel_bonds = 400;
 
 constexpr const char* no_crushing =
@@ -37,7 +37,7 @@ void LimitSearch::add(Index element, Group& group) {
                network_.critical_stretch[element] * network_.law(element).segment(0).limit);
 }
 
-/// Zero without a limit.
+/// Sets the gradient of an element; zero without a limit.
 void LimitSearch::set_gradient(Group& group, std::size_t place, double limit) {
   const Index element = group.elements[place];
   const std::span<const double> n = network_.bonds.direction(element);
@@ -94,7 +94,7 @@ LimitSearch::Hit LimitSearch::find_in_all(const double* u, double tolerance, int
   const Hit& larger = pulled.ratio > strained.ratio ? pulled : strained;
   const double apart = std::abs(pulled.ratio - strained.ratio);
   if (larger.element == no_index || apart > 2.0 * tolerance * larger.ratio) return larger;
-  // A tie across the groups: one threshold for both.
+  // The groups tie: one threshold serves both.
   const std::span<const double> all(u, network_.particles.positions.size());
   const std::vector<Hit> hits = list(all, larger.ratio * (1.0 - 2.0 * tolerance));
   double largest = 0.0;

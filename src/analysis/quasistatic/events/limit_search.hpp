@@ -8,13 +8,13 @@
 
 namespace perilink {
 
-/// Search among elements that only stretch. Holds those that have events, in the order of their
-/// numbers, with everything that does not change folded into one vector per element: ratio = g .
-/// (u_second - u_first), g = n / (xi s), so that the event at the stretch s comes at the load
-/// factor 1 / ratio. One pass costs about one nanosecond per element.
+/// Search among truss elements. Holds the elements with events in ascending order. All constant
+/// data are folded into one vector per element, g = n / (xi s), so that ratio = g . (u_second -
+/// u_first). The event at stretch s has the load factor 1 / ratio. One pass costs about one
+/// nanosecond per element.
 class LimitSearch final : public BreakSearch {
  public:
-  /// \throws std::invalid_argument where elements have teeth in compression of their own
+  /// \throws std::invalid_argument if elements have their own segments in compression
   explicit LimitSearch(const Network& network);
 
   Hit find(std::span<const double> displacement, double tolerance, int threads) override;
@@ -23,10 +23,10 @@ class LimitSearch final : public BreakSearch {
   void set_limits(Index element, double tension, double compression) override;
 
  private:
-  /// Elements whose events come in tension, or those that have them in compression as well.
+  /// Elements with events in tension only, or in tension and compression.
   struct Group {
     std::vector<Index> elements;
-    std::vector<Index> first, second;  ///< particle times dim
+    std::vector<Index> first, second;  ///< offsets of the ends (particle times dim)
     std::vector<double> gradient[3];   ///< g, one array per component
     std::vector<double> block_largest;
   };

@@ -47,9 +47,10 @@ Event SingleEventEngine::next_event_below(double most) {
   return event;
 }
 
-/// Elements whose load factors are within the tolerance of that of the event, and below that of a
-/// step, fail with it, at the middle of their load factors.
-/// \param ratio  stretch of its element over the limit, at load factor 1
+/// Adds elements whose load factors lie within the tolerance of the event and below the step. The
+/// event moves to the middle of their load factors.
+/// \param ratio  stretch of the event's element over its limit, at load factor 1
+/// \param most   load factor of the step
 void SingleEventEngine::add_others(Event& event, double ratio, double most) {
   const double wanted = std::max((1.0 - tolerance_) * ratio, 1.0 / most);
   std::vector<BreakSearch::Hit> hits = search_->list(equilibrium_.where_elements_fail(), wanted);
@@ -64,11 +65,11 @@ void SingleEventEngine::add_others(Event& event, double ratio, double most) {
   event.load_factor = std::min(2.0 / (ratio + least), most);
 }
 
-/// Where a crack runs on, a batch unloads elements that are about to fail, too. So it ends where
-/// what its elements lose would let the load fall by half of the tolerance. Where the load fell by
-/// more than a quarter of the tolerance since the last batch, the next one has half as many.
+/// Limits a batch, since a running crack also unloads elements that are about to fail. The batch
+/// ends where its energy loss would lower the load by half of the tolerance. The size is halved if
+/// the load fell by over a quarter of the tolerance since the last batch.
 /// \param energy  twice the energy of the body, at load factor 1 or at the present one of a stage
-/// \param hits    on return the largest ratio first
+/// \param hits    sorted by falling ratio on return
 void SingleEventEngine::limit_batch(const Event& event, double energy,
                                     std::vector<BreakSearch::Hit>& hits) {
   constexpr double most_lost = 0.5, most_fall = 0.25, growth = 1.5;
@@ -77,7 +78,7 @@ void SingleEventEngine::limit_batch(const Event& event, double energy,
   most_at_once_ = fell ? std::max(1.0, 0.5 * last_count_) : growth * most_at_once_;
   double left = most_lost * tolerance_ * energy;
   std::ranges::stable_sort(hits, std::greater(), &BreakSearch::Hit::ratio);
-  // Ties are in the order of their numbers, whatever their last digits say.
+  // Ties are sorted by number, since their last digits are round-off.
   for (auto begin = hits.begin(); begin != hits.end();) {
     const double least = (1.0 - tie_tolerance) * begin->ratio;
     const auto end = std::find_if(begin, hits.end(),
@@ -93,18 +94,17 @@ void SingleEventEngine::limit_batch(const Event& event, double energy,
         equilibrium_.energy_lost({element, law_of(element).segment(next_segment(element)).secant});
     if (left < 0.0) break;
   }
-  // Round-off may have left out the element of the event itself: then there are none.
+  // Round-off may have left `hits` empty.
   hits.resize(std::min(hits.size(), std::max<std::size_t>(count, 1)));
   last_count_ = std::max(1.0, static_cast<double>(hits.size()));
   last_factor_ = factor;
 }
 
-/// Whether the extension of the element that comes next is nothing but round-off of the motion of
-/// its ends, and noise beside it: then no element is in tension at all, and the load factor would
-/// mean nothing.
+/// Returns whether the extension of the next element is noise, or round-off of the motion of its
+/// ends. No element is then in tension, and the load factor would be meaningless.
 bool SingleEventEngine::is_within(double noise, const BreakSearch::Hit& hit) const {
   const Index element = hit.element;
-  if (network_.carries_moments()) {  // the search compares with shear and bending
+  if (network_.carries_moments()) {  // the search includes shear and bending
     return hit.ratio * limit_of(element) * network_.bonds.length(element) <= noise;
   }
   const Extension change = extension_of(element);
@@ -125,8 +125,9 @@ auto SingleEventEngine::extension_of(Index element) const -> Extension {
   return change;
 }
 
-/// Nothing in tension is an answer where other elements are strained by far more than the one that
-/// round-off names. On springs that are too weak the whole body moves, and strains are lost in it.
+/// Accepts that no element is in tension only if other elements are strained far more. Otherwise
+/// weak springs let the whole body move, and round-off hides the strains.
+/// \throws SolverError if round-off hides the strains
 void SingleEventEngine::refuse_hidden_strains(double noise, const BreakSearch::Hit& hit) {
   constexpr double far_more = 1e3;
   for (Index e = 0; e < network_.num_elements(); ++e) {
@@ -141,8 +142,8 @@ void SingleEventEngine::refuse_hidden_strains(double noise, const BreakSearch::H
       "tells which of them breaks next; hold it by supports or by stiffer springs");
 }
 
-/// Where an event needs columns of K^-1 that are not at hand, those of the elements that are
-/// nearest to their events are solved for with them.
+/// Solves for missing columns of K^-1 of an event, with columns of the elements closest to their
+/// events.
 void SingleEventEngine::prepare(const Event& event) {
   if (equilibrium_.is_prepared(event.element)) return;
   constexpr double near = 0.5;
@@ -178,8 +179,8 @@ EventOutcome SingleEventEngine::apply_one(const Event& event) {
   return outcome;
 }
 
-/// Where a batch may separate the body its elements fail one by one; without a factor, which would
-/// make that cheap, half of them first.
+/// Weakens a batch. If that may separate the body, its elements fail one by one, or half of them
+/// first if no factor makes single events cheap.
 EventOutcome SingleEventEngine::apply_all(std::span<const Index> elements, double load_factor) {
   std::vector<int> segments;
   std::vector<Weakening> changes;

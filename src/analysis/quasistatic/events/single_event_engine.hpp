@@ -12,7 +12,8 @@
 
 namespace perilink {
 
-/// One event at a time: search all elements, weaken the one found, move the displacement.
+/// Engine for one event at a time: searches all elements, weakens the one found and updates the
+/// displacements.
 class SingleEventEngine : public EventEngine {
  public:
   SingleEventEngine(const LoadedNetwork& problem, const EquilibriumOptions& options);
@@ -35,12 +36,13 @@ class SingleEventEngine : public EventEngine {
   int factorizations() const override { return equilibrium_.factor().factorizations(); }
   FactorStatistics factor_statistics() const override { return equilibrium_.factor_statistics(); }
 
-  /// Equilibrium::cut() of several elements, which have no events any more.
+  /// Removes elements, see Equilibrium::cut(); they have no more events.
+  /// \return number of ground springs added
   int cut(std::span<const Index> elements);
 
  protected:
   void prepare(const Event& event);
-  /// Whether the element may fail together with others: its law has segments.
+  /// Returns whether the element may fail together with others, since its law has segments.
   bool fails_with_others(Index element) const {
     return tolerance_ > 0.0 && !network_.law(element).is_brittle();
   }
@@ -51,14 +53,14 @@ class SingleEventEngine : public EventEngine {
   int next_segment(Index element) const;
   void pass_limit(Index element, int segment, EventOutcome& outcome);
 
-  /// Elements whose ratio at the load factor of the event is at least this, in the order of their
-  /// numbers.
+  /// Returns the elements whose ratio at the load factor of the event is at least `fraction`,
+  /// ascending.
   virtual std::vector<BreakSearch::Hit> near_hits(const Event& event, double fraction);
 
-  /// The stretch at which the element has its next event; infinity: it is broken.
+  /// Returns the stretch at the element's next event; infinity if it is broken.
   double limit_of(Index element) const;
 
-  /// The law of the element, and the stretch in which its limits are counted.
+  /// Returns the law of the element; its limits are multiples of stretch_of().
   const BondLaw& law_of(Index element) const;
   double stretch_of(Index element) const;
 
@@ -66,12 +68,12 @@ class SingleEventEngine : public EventEngine {
     return release_threshold_.empty() ? 1.0 : release_threshold_[element];
   }
 
-  /// Tells the search the next limits of an element after its event.
+  /// Passes the next limits of an element to the search after its event.
   void set_limits(Index element);
 
   struct Extension {
     double value;      ///< [length]
-    double round_off;  ///< that the motions of the two ends leave in it [length]
+    double round_off;  ///< from the motions of the two ends [length]
   };
   Extension extension_of(Index element) const;
   bool is_within(double noise, const BreakSearch::Hit& hit) const;
@@ -80,21 +82,22 @@ class SingleEventEngine : public EventEngine {
   const Network& network_;
   ThreadChoice threads_;
   double tolerance_;  ///< EquilibriumOptions::event_tolerance
-  // The last batch, and how many elements the next one may have.
+  // Largest size of the next batch; size and load factor of the last one.
   double most_at_once_ = 1.0, last_count_ = 1.0, last_factor_ = 0.0;
   Equilibrium equilibrium_;
   std::unique_ptr<BreakSearch> search_;
-  bool closes_;                            ///< Network::has_closing()
-  std::optional<CrushingBonds> crushing_;  ///< where there are some
-  std::vector<int> segments_;              ///< present tooth of each element
-  /// Where bars have flowed.
+  bool closes_;  ///< Network::has_closing()
+  /// Present if there are bonds with segments in compression.
+  std::optional<CrushingBonds> crushing_;
+  std::vector<int> segments_;  ///< present segment of each element
+  /// Law and reference stretch of a bar that has flowed.
   struct OwnLaw {
     BondLaw law;
     double stretch;
   };
   std::map<Index, OwnLaw> own_laws_;
   std::vector<double>
-      release_threshold_;  ///< per element: fraction of its limit that counts; empty: all of it
+      release_threshold_;  ///< per element: fraction of the limit that counts; empty: 1
 };
 
 }  // namespace perilink

@@ -25,7 +25,7 @@ StagedEngine::StagedEngine(const LoadedNetwork& problem, const EquilibriumOption
   begin_stage(0, *unknowns_);
 }
 
-/// Slots that a set is the first to drive stay where they are, beside what it adds.
+/// Clamps the slots that a load case is the first to prescribe, at their present displacements.
 void StagedEngine::clamped(std::size_t set, const Unknowns& held) {
   const std::span<const double> motion = displacement();
   for (std::size_t slot = 0; slot < motion.size(); ++slot) {
@@ -65,7 +65,7 @@ bool StagedEngine::leave_flow() {
   return !flown.empty();
 }
 
-/// What is left of the curve of a bar that has flowed.
+/// Replaces the law of a bar that has flowed by the rest of its force curve.
 void StagedEngine::harden(Index segment) {
   const Network& network = problem_.network;
   const Index bar = network.bars.bar[segment - network.first_bar_element];
@@ -151,9 +151,9 @@ Event StagedEngine::next_event_below(double /*most*/) {
   return with_others({last.element, load_factor_ + last.distance});
 }
 
-/// Elements that are at their limits at the load factor of the event, within half of the tolerance,
-/// fail with it; where the load does not move, those beyond their limits that are within the
-/// tolerance of the worst.
+/// Adds elements that fail with the event. They are within half of the tolerance of their limits at
+/// its load factor. At a constant load, they are beyond their limits and within the tolerance of
+/// the worst.
 Event StagedEngine::with_others(Event event) {
   if (!fails_with_others(event.element)) return event;
   std::vector<BreakSearch::Hit> hits =
@@ -195,7 +195,7 @@ Event StagedEngine::next_event_towards(double target) {
   return reached ? with_others({next.element, load_factor_ + next.distance}) : Event{};
 }
 
-/// Where a damaged bond closes or opens on the way.
+/// Returns the next contact state change of a damaged bond within a distance of the load factor.
 Event StagedEngine::side_change_within(double distance) {
   if (!closes_ || distance == 0.0) return {};
   const Equilibrium::SideChange change = equilibrium_.next_side_change(distance);
@@ -209,14 +209,16 @@ bool StagedEngine::is_last_change(double load_factor) const {
   return changes_there_ > 0 && std::abs(load_factor - changed_at_) <= round_off * largest_factor_;
 }
 
-/// Whether bonds have just changed sides the other way here. What exceeds its limit is then loaded
-/// more either way from here: there is no load factor near by that it can bear.
+/// Returns whether bonds have just changed contact state here in the other direction. Elements
+/// beyond their limits are then loaded more in both directions, so that no nearby load factor is
+/// admissible.
 bool StagedEngine::turns_back(const Event& change) {
   return is_last_change(change.load_factor) && direction_ != changed_towards_ &&
          worst().ratio > 1.0 + tie_tolerance;
 }
 
-/// Bonds that are to change sides at one load factor do so together.
+/// Counts contact state changes at one load factor, where all bonds should change together.
+/// \throws SolverError after most_changes
 void StagedEngine::count_changes() {
   constexpr int most_changes = 100;
   changes_there_ = is_last_change(load_factor_) ? changes_there_ + 1 : 1;
