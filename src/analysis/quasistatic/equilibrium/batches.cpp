@@ -1,5 +1,5 @@
-// Several elements that lose stiffness at once: one equilibrium follows, by a change of the factor,
-// by a new one, or by conjugate gradients that an older one preconditions
+// Batches: elements that lose stiffness at once. One equilibrium follows from a change of the
+// factor, from a new one, or from conjugate gradients preconditioned by an older one
 // (docs/theory/events_and_energy.md, section 8).
 
 #include <algorithm>
@@ -15,26 +15,26 @@
 namespace perilink {
 namespace {
 
-/// Rates of one core, to choose the cheapest way: of a factorisation, of a pass through the factor
-/// that is larger than the caches, and of a change by many vectors.
+/// Rates of one core, to choose the cheapest way: factorisation, pass through a factor larger than
+/// the caches, change by many vectors.
 constexpr double factor_flops = 15e9, factor_bytes = 20e9, change_flops = 20e9;
-/// Per element: to assemble the stiffness, and to find the forces of a motion.
+/// Per element: time to assemble the stiffness, and to find the forces of a motion.
 constexpr double seconds_to_assemble = 3e-7, seconds_per_force = 1e-8;
 
-/// Time of a solution for forces on the elements of a batch over that of one for all forces.
+/// Time of a solve for forces on the elements of a batch over that of a solve for all forces [-].
 constexpr double share_of_solution = 0.7;
 
-/// Unknowns of a body in space from which on conjugate gradients with boxes follow a batch faster
-/// than any way with a factor (docs/theory/large_bodies.md, section 5).
+/// Unknowns of a three-dimensional body above which conjugate gradients with subdomains follow a
+/// batch faster than a factor (docs/theory/large_bodies.md, section 5).
 constexpr Index fewest_for_subdomains = 15000;
 
-/// Steps of conjugate gradients that are expected before any have been made.
+/// Steps of conjugate gradients that are expected before the first batch.
 constexpr int expected_steps = 12;
 
-/// Error over solution, in the norm of energy, that conjugate gradients leave.
+/// Relative error of conjugate gradients in the energy norm.
 constexpr double enough = 1e-11;
 
-/// x'u
+/// Returns x'u.
 double along(const SparseVector& x, std::span<const double> u) {
   double sum = 0.0;
   for (int k = 0; k < x.size(); ++k) sum += x.values[k] * u[x.rows[k]];
@@ -87,7 +87,7 @@ FactorStatistics Equilibrium::factor_statistics() const {
   return statistics;
 }
 
-/// By counted work: the answer does not depend on the machine's load, nor on the number of threads.
+/// Chooses by counted work, so that the machine's load and the number of threads do not matter.
 auto Equilibrium::cheapest_way(const Batch& batch) -> Way {
   const FactorStatistics factor = factor_->statistics();
   const auto elements = static_cast<double>(network_.num_elements());
@@ -95,11 +95,11 @@ auto Equilibrium::cheapest_way(const Batch& batch) -> Way {
   const double anew = factor.flops / factor_flops + seconds_to_assemble * elements + solution;
   const int steps = last_steps_ > 0 ? last_steps_ : expected_steps;
   const double search = steps * (solution + seconds_per_force * elements);
-  double numbers = 0.0;  // that the paths hold, counted for each vector
+  double numbers = 0.0;  // entries of the paths, counted for each vector
   for (const Removal& removal : batch.removals) numbers += factor_->path_of(removal.vectors());
   const double change = 4.0 * numbers / change_flops + share_of_solution * solution;
   if (!lags_ && change <= std::min(anew, search)) return Way::change;
-  // A new factor is made once changes of one would have saved as much time as it takes.
+  // A new factor is made once changes of it would have saved as much time as it takes.
   if (lags_) missed_savings_ += std::max(0.0, search - change);
   return missed_savings_ + search < anew ? Way::gradients : Way::renew;
 }
@@ -148,7 +148,7 @@ std::optional<EventOutcome> Equilibrium::weaken_together(std::span<const Weakeni
   for (std::size_t k = 0; k < changes.size(); ++k) {
     add_growth(batch.removals[k], changes[k].element, batch.before[k], batch.beside[k], outcome);
   }
-  // Elements that are strained far more without their stiffness than before held the body.
+  // Elements whose strain grows very much without their stiffness held the body.
   const bool uncertain = !(outcome.compliance_growth * uncertain_pivot <= removed) ||
                          !(outcome.pivot > uncertain_pivot) || !resists_without(batch);
   if (!uncertain) {
@@ -167,7 +167,7 @@ std::optional<EventOutcome> Equilibrium::weaken_together(std::span<const Weakeni
   return outcome;
 }
 
-/// f'u - R'd grows by u_1' (K_1 - K_2) u_2 from one equilibrium to the other.
+/// Adds the growth of f'u - R'd from one equilibrium to the other, u_1' (K_1 - K_2) u_2.
 void Equilibrium::add_growth(const Removal& removal, Index element, const Deformations& before,
                              const Deformations& beside, EventOutcome& outcome) const {
   const Deformations after = deformations(removal, element);
@@ -180,8 +180,9 @@ void Equilibrium::add_growth(const Removal& removal, Index element, const Deform
   }
 }
 
-/// The equilibrium of the secants as they are. \return false where none is found
-/// \param pivot  the smallest of the batch, where the factor tells
+/// Finds the equilibrium of the present secants.
+/// \param pivot  smallest pivot of the batch, if the factor reports it
+/// \return false if no equilibrium is found
 bool Equilibrium::follow_batch(Batch& batch, double& pivot) {
   must_rebuild_ = false;
   const Way way = subdomains_ != nullptr ? Way::gradients : cheapest_way(batch);
@@ -200,8 +201,9 @@ bool Equilibrium::follow_batch(Batch& batch, double& pivot) {
   }
 }
 
-/// Whether the body resists where elements have broken, in motions that the loads do not show: a
-/// load along what they held does little work, where the factor has not told their pivots.
+/// Returns whether the body resists where elements have broken, in motions that the loads do not
+/// excite. Forces along their vectors then do little work. Needed only if the factor has not
+/// reported their pivots.
 bool Equilibrium::resists_without(const Batch& batch) {
   if (batch.tells_pivots) return true;
   std::vector<double> load(solution_.size(), 0.0), motion(solution_.size(), 0.0);
@@ -219,7 +221,7 @@ bool Equilibrium::resists_without(const Batch& batch) {
   constexpr double rough = 1e-2;
   try {
     if (subdomains_ != nullptr) {
-      // Errors count by this energy.
+      // This energy scales the errors.
       subdomains_->correct(load, vectors * std::pow(rough / options_.subdomains.tolerance, 2));
       motion = std::move(load);
     } else if (!lags_) {
@@ -255,7 +257,8 @@ bool Equilibrium::change_factor(const Batch& batch, double& pivot) {
   return true;
 }
 
-/// The displacements after forces that elements no longer take, by the factor of what is left.
+/// Updates the displacements for forces that elements no longer carry, by the factor of the
+/// remaining body.
 void Equilibrium::follow_forces(const ForceOfElements& forces) {
   factor_->add_solution(forces.growing, solution_);
   if (constant_ && !constant_->rests) {
@@ -265,7 +268,7 @@ void Equilibrium::follow_forces(const ForceOfElements& forces) {
   if (constant_) scatter_constant();
 }
 
-/// K q by the elements as they are.
+/// Computes K q from the present elements.
 void Equilibrium::multiply(std::span<const double> q, std::span<double> result) {
   std::vector<double> motion(displacement_.size(), 0.0);
   if (unknowns_->carries()) {
@@ -280,11 +283,11 @@ void Equilibrium::multiply(std::span<const double> q, std::span<double> result) 
   }
 }
 
-/// Adds what is missing to a solution. The older factor is near K, so that r'z is the energy of the
-/// error but for a factor near one.
-/// \param residual  what the solution leaves; used up
+/// Corrects a solution by conjugate gradients. The older factor is close to K, so that r'z is
+/// nearly the energy of the error.
+/// \param residual  residual of the solution; overwritten
 /// \param energy    u'K u of the solution
-/// \return steps made; zero: it does not get there
+/// \return number of steps; zero if they do not converge
 int Equilibrium::gradients(std::vector<double>& residual, std::span<double> solution,
                            double energy) {
   constexpr int most_steps = 60;
@@ -307,7 +310,8 @@ int Equilibrium::gradients(std::vector<double>& residual, std::span<double> solu
   return 0;
 }
 
-/// From the last displacements by conjugate gradients. \return false where they do not get there
+/// Finds the equilibrium from the last displacements by conjugate gradients.
+/// \return false if they do not converge
 bool Equilibrium::search_equilibrium() {
   if (stale_) refresh();
   std::vector<double> residual;
@@ -334,7 +338,8 @@ bool Equilibrium::search_equilibrium() {
   return !constant_ || constant_->rests || search_constant();
 }
 
-/// Displacements by constant loads.
+/// Finds the displacements by constant loads.
+/// \return false if conjugate gradients do not converge
 bool Equilibrium::search_constant() {
   ConstantField& field = *constant_;
   std::vector<double> load =
@@ -350,7 +355,7 @@ bool Equilibrium::search_constant() {
   return steps > 0;
 }
 
-/// The body as it was before.
+/// Restores the body before the batch.
 void Equilibrium::take_back(std::span<const Weakening> changes, const Batch& batch) {
   for (const Index other : changed_sides_) {
     axial_[other] = is_closed(other) ? secants_[other] : 1.0;

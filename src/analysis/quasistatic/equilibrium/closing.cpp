@@ -1,6 +1,5 @@
-// Damaged bonds that close: of those whose law says so the ones in compression are as stiff against
-// it as intact ones. The energy is convex and has one minimum; which bonds are closed there is
-// found by changing the sides of those that are on the wrong one.
+// Crack closure: damaged bonds whose law allows it have their intact stiffness in compression. The
+// energy is convex and has one minimum. Changing the contact states of violated bonds finds it.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -14,17 +13,17 @@
 namespace perilink {
 namespace {
 
-/// So often all bonds on the wrong side change it together before the energy is followed down.
+/// Rounds in which all violated bonds change together before line searches, and most rounds.
 constexpr int rounds_together = 10, most_rounds = 1000;
 
-/// Extensions that are so small beside the motion of the ends are round-off and have no sign.
+/// Fraction of the ends' motion below which an extension is round-off and has no sign [-].
 constexpr double closing_round_off = 1e-11;
 
-/// Compliance of a load along bonds that have opened, over that of a bond alone, beyond which the
-/// body does not resist it.
+/// Compliance of a load along opened bonds, over that of a single bond, above which the body does
+/// not resist it.
 constexpr double no_resistance = 1e12;
 
-/// Rough rates of one core, to choose between one new factor and many changes: half of a change is
+/// Rough rates of one core, to choose between one new factor and many changes. Half of a change is
 /// a pass through the path of a bond, which is a part of the factor.
 constexpr double flops_per_second = 15e9, bytes_per_second = 36e9;
 constexpr double passes_per_change = 1.0, seconds_per_element = 1e-7;
@@ -39,7 +38,7 @@ auto Equilibrium::ends_of(Index element) const -> BondEnds {
   return ends;
 }
 
-/// Those of damaged_ lie together in memory: every event looks at all of them.
+/// Returns the ends of damaged_. They are contiguous in memory since every event reads all of them.
 std::span<const Equilibrium::BondEnds> Equilibrium::damaged_ends() const {
   while (damaged_ends_.size() < damaged_.size()) {
     damaged_ends_.push_back(ends_of(damaged_[damaged_ends_.size()]));
@@ -47,7 +46,7 @@ std::span<const Equilibrium::BondEnds> Equilibrium::damaged_ends() const {
   return damaged_ends_;
 }
 
-/// Extensions within round-off of zero are on the side to which the load moves them.
+/// Computes an extension. If it is zero up to round-off, the direction of the load is decisive.
 template <int Dim>
 auto Equilibrium::extension_at(const BondEnds& bond) const -> Extension {
   const double* const n = bond.n;
@@ -65,7 +64,7 @@ auto Equilibrium::extension_at(const BondEnds& bond) const -> Extension {
   add(displacement_, load_factor, result.growing);
   if (constant_) add(constant_->displacement, 1.0, result.constant);
   result.now = load_factor * result.growing + result.constant;
-  if (subdomains_ != nullptr) {  // errors of parts that move far are everywhere
+  if (subdomains_ != nullptr) {  // errors of parts that move far spread everywhere
     size += std::abs(load_factor) * largest_motion_ + (constant_ ? constant_->largest_motion : 0.0);
   }
   const double noise = closing_round_off * size + noise_of_sides_;
@@ -90,7 +89,7 @@ void Equilibrium::for_each_damaged(Visit visit) const {
   }
 }
 
-/// Whether a ground spring holds one of its ends where it came loose.
+/// Returns whether a ground spring holds an end of the element.
 bool Equilibrium::is_grounded(Index element) const {
   if (ground_stiffness_.empty()) return false;
   const auto width = static_cast<std::size_t>(network_.width());
@@ -104,7 +103,7 @@ bool Equilibrium::is_grounded(Index element) const {
   return held;
 }
 
-/// Closed bonds that are pulled and open ones that are compressed.
+/// Returns violated bonds: closed ones in tension and open ones in compression.
 std::vector<Index> Equilibrium::on_wrong_side() const {
   std::vector<Index> wrong;
   for_each_damaged([&](Index element, const Extension& extension) {
@@ -117,19 +116,19 @@ std::vector<Index> Equilibrium::on_wrong_side() const {
 
 void Equilibrium::close(Index element) {
   const Removal axial = make_axial_removal(network_, *unknowns_, element, 1.0 - secants_[element]);
-  factor_->update(axial.x[0]);  // while the body is as it was
+  factor_->update(axial.x[0]);  // before the stiffness changes
   axial_[element] = 1.0;
 }
 
-/// \return false where nothing but the bond holds the body: then all is as it was, but the factor
-/// may be a new one
+/// Opens a closed bond.
+/// \return false if only this bond holds the body; then at most the factor is new
 bool Equilibrium::open(Index element) {
   const Removal axial = make_axial_removal(network_, *unknowns_, element, 1.0 - secants_[element]);
   double pivot = factor_->pivot(axial.x[0]);
   const bool uncertain = !(pivot > uncertain_pivot);
   if (uncertain) {
     pivot = pivot_by_energy(axial.x[0], element, secants_[element]);
-    axial_[element] = 1.0;  // which that has set to the secant of an open one
+    axial_[element] = 1.0;  // pivot_by_energy() has set it to the secant of an open bond
     if (pivot == 0.0) return false;
   }
   axial_[element] = secants_[element];
@@ -147,9 +146,9 @@ bool Equilibrium::open(Index element) {
   }
 }
 
-/// Whether a new factor costs less than so many changes of the present one.
+/// Returns whether a new factor costs less than this number of changes.
 bool Equilibrium::is_cheaper_anew(std::size_t changes) const {
-  // One by one each asks for a block of columns; a window that begins anew lacks all of its blocks.
+  // Each change needs a block of columns; a cleared cache lacks all of its blocks.
   if (subdomains_ != nullptr) return changes > subdomains_->num_blocks() + 1;
   const FactorStatistics factor = factor_->statistics();
   const double anew = factor.flops / flops_per_second +
@@ -163,8 +162,8 @@ void Equilibrium::turn(const std::vector<Index>& elements) {
   }
 }
 
-/// All at once, with one new factor. \return false where what opens held the body: then all is as
-/// it was
+/// Changes all contact states at once, with one new factor.
+/// \return false if bonds that open held the body; then all is unchanged
 bool Equilibrium::change_together(const std::vector<Index>& wrong) {
   turn(wrong);
   try {
@@ -177,9 +176,9 @@ bool Equilibrium::change_together(const std::vector<Index>& wrong) {
   return false;
 }
 
-/// Whether the body resists where bonds have opened: a motion that nothing resists, but round-off,
-/// would make the work of forces along these bonds too large. Forces of different sizes move bonds
-/// apart in every motion in which some of them open.
+/// Returns whether the body resists where bonds have opened. If only round-off resists a motion,
+/// the work of forces along these bonds is too large. Forces of different sizes move bonds apart in
+/// every motion in which some of them open.
 bool Equilibrium::holds_apart(const std::vector<Index>& opened) const {
   std::vector<double> load(solution_.size(), 0.0), motion(solution_.size(), 0.0);
   double size = 0.5;
@@ -197,8 +196,8 @@ bool Equilibrium::holds_apart(const std::vector<Index>& opened) const {
   return work >= 0.0 && work < no_resistance;
 }
 
-/// What closes holds the body while others open. \return the bonds that have changed their side;
-/// none where all that ought to hold the body
+/// Changes contact states. Bonds that close hold the body while others open.
+/// \return bonds that changed; none if the violated bonds hold the body
 std::vector<Index> Equilibrium::change_sides(std::vector<Index> wrong) {
   // Broken bonds that open may free a part that the load does not move.
   const auto may_free = [&](Index e) { return is_closed(e) && secants_[e] == 0.0; };
@@ -218,7 +217,7 @@ std::vector<Index> Equilibrium::change_sides(std::vector<Index> wrong) {
   return wrong;
 }
 
-/// f'u - R'd grows by u_1' (K_1 - K_2) u_2 from one equilibrium to the other.
+/// Adds the growth of f'u - R'd from one equilibrium to the other, u_1' (K_1 - K_2) u_2.
 void Equilibrium::add_growth(Index element, const Extension& before, EventOutcome& outcome) const {
   const Extension after = extension_of(element);
   const double lost =
@@ -228,7 +227,7 @@ void Equilibrium::add_growth(Index element, const Extension& before, EventOutcom
   outcome.permanent_growth.constant += lost * before.constant * after.constant;
 }
 
-/// Changes the sides of bonds. \return false where all that ought to hold the body
+/// Changes contact states and finds equilibrium. Returns false if the violated bonds hold the body.
 bool Equilibrium::follow_sides(const std::vector<Index>& wrong, EventOutcome& outcome) {
   std::vector<std::pair<Extension, bool>> before;  // with whether it was closed
   for (const Index element : wrong) before.emplace_back(extension_of(element), is_closed(element));
@@ -261,8 +260,8 @@ bool Equilibrium::follow_sides(const std::vector<Index>& wrong, EventOutcome& ou
   return true;
 }
 
-/// The motion of all particles that tells the sides: the present one or, where only bonds whose
-/// extension is zero may change, that to which the load moves on.
+/// Returns the motion of all particles that decides the contact states. It is the present one, or
+/// the one of growing loads if only bonds with zero extension may change.
 std::vector<double> Equilibrium::telling_motion() const {
   std::vector<double> motion = displacement_;
   const double factor = direction_ != 0.0 ? direction_ : constant_ ? constant_->load_factor : 1.0;
@@ -272,7 +271,7 @@ std::vector<double> Equilibrium::telling_motion() const {
   return motion;
 }
 
-/// Those of damaged_ in such a motion; zero where a bond cannot change now.
+/// Returns the extensions of damaged_ in a motion; zero for bonds that cannot change now.
 std::vector<double> Equilibrium::telling_extensions(std::span<const double> motion) const {
   const auto width = static_cast<std::size_t>(network_.width());
   std::vector<double> extensions;
@@ -289,19 +288,19 @@ std::vector<double> Equilibrium::telling_extensions(std::span<const double> moti
   return extensions;
 }
 
-/// The part t of the way from one motion to another, which is the equilibrium of the sides as they
-/// are, at which the energy is least. Its derivative there is
+/// Returns the fraction t of the way between two motions at which the energy is least. The second
+/// is the equilibrium of the present contact states. The derivative at t is
 ///
 ///   -(1 - t) q + sum over bonds that have changed sides of +-k (1 - a) e(t) (e_to - e_from),
 ///
-/// q twice the energy of the difference; it grows, and bends where an extension is zero.
+/// where q is twice the energy of the difference. The slope changes where an extension is zero.
 double Equilibrium::line_minimum(std::span<const double> from, std::span<const double> to) const {
   std::vector<double> difference(to.begin(), to.end());
   for (std::size_t k = 0; k < difference.size(); ++k) difference[k] -= from[k];
   double slope = 2.0 * internal_force(network_, secants(), difference).energy;
   double value = -slope;  // derivative at t = 0
   const std::vector<double> begin = telling_extensions(from), end = telling_extensions(to);
-  std::vector<std::pair<double, double>> bends;  // where, and what the slope grows by
+  std::vector<std::pair<double, double>> bends;  // position, and growth of the slope there
   for (std::size_t k = 0; k < damaged_.size(); ++k) {
     const double growth = end[k] - begin[k];
     const bool changes = begin[k] * end[k] < 0.0;
@@ -321,13 +320,14 @@ double Equilibrium::line_minimum(std::span<const double> from, std::span<const d
   return slope > 0.0 ? std::min(1.0, place - value / slope) : 1.0;
 }
 
-/// All bonds on the wrong side change it together, which ends after a round or two. Where it does
-/// not, the energy is followed down: along the way to the equilibrium of the present sides to its
-/// minimum, and on with the sides there. What is round-off beside the motion of the whole body has
-/// no side then: a body that an event has unloaded, by cutting through it, would never settle.
+/// Finds the contact states. All violated bonds change together, usually for one or two rounds.
+/// After that, line searches follow the energy down, each on the way to the equilibrium of the
+/// present states. Extensions within the round-off of the whole motion then have no contact state.
+/// Otherwise, bodies that an event has cut through and unloaded would never settle.
+/// \throws SolverError after most_rounds
 void Equilibrium::settle_closing(EventOutcome& outcome) {
   changed_sides_.clear();
-  std::vector<double> reached;  // on the way down
+  std::vector<double> reached;  // end of the line search so far
   for (int round = 0; round < most_rounds; ++round) {
     std::vector<double> aim;
     if (round >= rounds_together) aim = telling_motion();
@@ -354,7 +354,7 @@ void Equilibrium::settle_closing(EventOutcome& outcome) {
       "after {} rounds it is not settled which of the damaged bonds are closed", most_rounds));
 }
 
-/// After an event that turned out to separate the body.
+/// Reverts an event that separates the body.
 void Equilibrium::take_back(Index element, double secant) {
   if (secant == 1.0) std::erase(damaged_, element);
   damaged_ends_.clear();
@@ -388,7 +388,7 @@ EventOutcome Equilibrium::pass_side_change(double direction) {
   return outcome;
 }
 
-/// Before the first event.
+/// Opens initial cracks before the first event.
 void Equilibrium::open_cut_elements() {
   if (damaged_.empty()) return;
   EventOutcome outcome;

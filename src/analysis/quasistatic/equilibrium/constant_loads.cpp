@@ -1,5 +1,5 @@
-// Constant loads beside those that grow: a second field of displacements that follows the same
-// changes of the stiffness (docs/theory/events_and_energy.md, section 7).
+// Constant and growing loads: a second field of displacements follows the same changes of the
+// stiffness (docs/theory/events_and_energy.md, section 7).
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace perilink {
 namespace {
 
-/// Over the slots that something but a prescription moves.
+/// Returns the work of loads on slots that are not prescribed.
 double work_on(const Unknowns& unknowns, const Loads& loads, std::span<const double> motion) {
   double work = 0.0;
   for (std::size_t slot = 0; slot < motion.size(); ++slot) {
@@ -31,7 +31,7 @@ void Equilibrium::begin_stage(const Unknowns& unknowns, const Loads& loads,
   if (fewer_move && !ground_stiffness_.empty()) {
     throw SolverError("nothing can be gripped while ground springs hold a loose part");
   }
-  // Springs hold what came loose where it is.
+  // Ground springs hold loose parts at their present positions.
   constant.ground_load = ground_load_;
   for (std::size_t k = 0; constant_ && k < ground_load_.size(); ++k) {
     constant.ground_load[k] = constant_->ground_load[k] + constant_->load_factor * ground_load_[k];
@@ -158,7 +158,7 @@ void Equilibrium::check_constant(Balance& balance) {
   }
 }
 
-/// What an element loses that goes on with this secant.
+/// Returns the removal that takes an element to this secant.
 Removal Equilibrium::removal_from(const Unknowns& unknowns, Index element, double secant) const {
   if (!keeps_shear(element)) {
     return make_removal(network_, unknowns, element, secants_[element] - secant);
@@ -169,7 +169,7 @@ Removal Equilibrium::removal_from(const Unknowns& unknowns, Index element, doubl
              : make_removal(network_, unknowns, element, 1.0, axial);
 }
 
-/// The same, and what constant loads do to it.
+/// Returns the removal with its deformation by constant loads.
 Removal Equilibrium::removal_of(Index element, double secant) const {
   Removal removal = removal_from(*unknowns_, element, secant);
   if (!constant_) return removal;
@@ -178,7 +178,7 @@ Removal Equilibrium::removal_of(Index element, double secant) const {
   return removal;
 }
 
-/// Those of all loads at the present load factor; without constant loads at load factor 1.
+/// Returns the deformations at the present load factor; without constant loads at load factor 1.
 auto Equilibrium::deformations_now(const Removal& removal, Index element) const -> Deformations {
   Deformations result = deformations(removal, element);
   if (!constant_) return result;
@@ -188,6 +188,7 @@ auto Equilibrium::deformations_now(const Removal& removal, Index element) const 
   return result;
 }
 
+/// Adds the released energy of permanent loads.
 /// \return twice the energy that leaves the element at the present load factor
 double Equilibrium::release_constant(const Removal& removal, Index element,
                                      EventOutcome& outcome) const {
@@ -200,7 +201,7 @@ double Equilibrium::release_constant(const Removal& removal, Index element,
   return 2.0 * (now * now * outcome.released + outcome.released_by_permanent.at(now));
 }
 
-/// One backward pass for both fields: K^-1 x / pivot is what a solution that is zero goes over to.
+/// Updates both fields with one backward pass: a zero solution becomes K^-1 x / pivot.
 void Equilibrium::commit_both(const Removal& removal) {
   const double growing = removal.deformation(0, solution_), one = 1.0;
   std::vector<double> motion(solution_.size(), 0.0);
@@ -211,7 +212,7 @@ void Equilibrium::commit_both(const Removal& removal) {
   }
 }
 
-/// Displacements by constant loads after a removal that the factor is still to make.
+/// Updates the displacements by constant loads before the factor makes the removal.
 void Equilibrium::move_constant(const Removal& removal) {
   if (constant_->rests) return;
   Deformations shares{};

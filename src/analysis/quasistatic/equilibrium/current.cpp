@@ -5,20 +5,21 @@
 #include "analysis/quasistatic/equilibrium/equilibrium.hpp"
 
 /// \file
-/// What the events of an equilibrium keep current: displacements, columns of boxes.
+/// Displacements and cached columns that events keep current.
 
 namespace perilink {
 namespace {
 
-/// Errors of columns may leave so much in a solution, in the norm of energy and over that of the
-/// solution: an element holds a small part of the energy.
+/// Largest error of a solution by columns, relative in the energy norm. It must be small, since an
+/// element holds a small part of the energy.
 constexpr double most_drift = 1e-10;
 
 }  // namespace
 
-/// Under forces alone an event needs the displacements of elements that can fail, and no others:
-/// the backward pass then leaves out the parts of the body where nothing can. f'u follows the
-/// events by its growth. Driven bodies and stages need the reactions and keep all.
+/// Selects the displacements that events keep current. Under forces only, an event needs those of
+/// elements that can fail. The backward pass then skips other parts of the body, and f'u is updated
+/// by its growth. Prescribed displacements and stages need the reactions, and thus all
+/// displacements.
 void Equilibrium::choose_current_unknowns() {
   partial_ = false;
   moving_slots_.clear();
@@ -46,6 +47,7 @@ void Equilibrium::choose_current_unknowns() {
   choose_checked(current);
 }
 
+/// Selects the elements and unknowns of the cheap residual check.
 /// \param current  per particle: its displacements are kept current
 void Equilibrium::choose_checked(const std::vector<std::uint8_t>& current) {
   const Bonds& bonds = network_.bonds;
@@ -70,7 +72,7 @@ void Equilibrium::choose_checked(const std::vector<std::uint8_t>& current) {
   if (none) checked_elements_.clear();
 }
 
-/// The displacements that events keep current, by the unknowns as they are.
+/// Applies the unknowns to the displacements that events keep current.
 void Equilibrium::scatter_current() {
   if (partial_ && unknowns_->carries()) {
     unknowns_->expand(solution_, current_slots_, displacement_);
@@ -85,7 +87,7 @@ double Equilibrium::work_of_forces() const {
   return work;
 }
 
-/// Observers must not change the run: what is missing of displacements is found aside.
+/// Observers must not change the run, so missing displacements are solved for separately.
 std::span<const double> Equilibrium::displacement() {
   if (!stale_) return where_elements_fail();
   std::vector<double> all = present_load();
@@ -109,7 +111,7 @@ double Equilibrium::residual_of_current() {
   return std::sqrt(square) / load_norm_;
 }
 
-/// Springs act on displacements anywhere: from now on all of them are kept current.
+/// Keeps all displacements current from now on, since springs act on any of them.
 void Equilibrium::keep_all_current() {
   if (partial_) factor_->keep_current(std::vector<std::uint8_t>(solution_.size(), 1));
   if (stale_) refresh();
@@ -133,23 +135,23 @@ void Equilibrium::find_largest_motion() {
   largest_motion_ = largest_of(displacement_);
 }
 
-/// Where a correction is much, the columns do not serve any more: with every event that moves the
-/// same particles further apart their errors grow.
+/// Clears the column cache if a correction is large. The errors of columns grow with every event
+/// that moves the same particles apart.
 void Equilibrium::judge_columns(std::span<const double> missing,
                                 std::span<const double> correction) {
   const double error = std::inner_product(missing.begin(), missing.end(), correction.begin(), 0.0);
-  // Written so that an energy that is not a number is too much.
+  // Written so that an energy that is not a number is too large.
   if (!(error <= most_drift * most_drift * 2.0 * internal_.energy)) subdomains_->forget();
 }
 
-/// Takes away what errors of columns have left in the displacements.
+/// Removes errors of columns from the displacements.
 /// \param size      norm of the residual over that of the load
-/// \param residual  the same per unknown, used up
-/// \return norm of what is left, over that of the load
+/// \param residual  residual per unknown; overwritten
+/// \return norm of the residual that is left, over that of the load
 double Equilibrium::refine_followed(double size, std::vector<double>& residual) {
   if (size <= fine_residual) return size;
   const std::vector<double> missing = residual;
-  refine(residual);  // which is then the correction
+  refine(residual);  // now the correction
   judge_columns(missing, residual);
   if (!(size <= std::max(options_.residual_tolerance, most_drift))) look_closer_ = true;
   return measure_residual(residual);

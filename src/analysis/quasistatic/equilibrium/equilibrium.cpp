@@ -15,20 +15,18 @@
 namespace perilink {
 namespace {
 
-/// Where even a fresh factor leaves more than this of the load out of balance, no figure that
-/// follows would mean anything.
+/// Residual of a fresh factor above which all further figures would be meaningless [-].
 constexpr double hopeless_residual = 1e-3;
 
-/// Residuals up to so many tolerances are taken away by a plain step of refinement where a fresh
-/// factor leaves as much: doubles have the digits.
+/// Residuals up to this many tolerances are removed by a plain step of refinement if a fresh factor
+/// leaves as much. Double precision has enough digits for it.
 constexpr double most_to_refine = 10.0;
 
-/// A driven body whose work is less than this share of the sum of the sizes of its terms has lost
-/// seven of sixteen digits in that sum.
+/// Work over the sum of its absolute terms below which seven of sixteen digits are lost [-].
 constexpr double cancelled_work = 1e-7;
 
-/// So many events the work of a driven body follows the growth of its compliance before it is
-/// summed over the elements again, as soon as displacements are exact.
+/// Number of events at which the work of prescribed displacements is updated by the growth of the
+/// compliance. It is then summed over the elements again, once displacements are exact.
 constexpr int most_events_to_follow = 16;
 
 }  // namespace
@@ -83,7 +81,8 @@ void Equilibrium::find_driven_elements() {
   }
 }
 
-/// A force on a prescribed displacement is a part of the reaction there, whose work counts.
+/// Finds the slots with forces. A force at a prescribed displacement is a part of the reaction
+/// there, whose work counts.
 void Equilibrium::find_loaded_slots() {
   loaded_slots_.clear();
   for (std::size_t slot = 0; slot < unknowns_->number.size(); ++slot) {
@@ -92,7 +91,7 @@ void Equilibrium::find_loaded_slots() {
   }
 }
 
-/// A new factor for the unknowns as they are.
+/// Makes a new factor for the present unknowns.
 void Equilibrium::factorize_anew() {
   lags_ = false;
   missed_savings_ = 0.0;
@@ -106,7 +105,7 @@ void Equilibrium::factorize_anew() {
                       &network_.particles, forces_of);
 }
 
-/// Equilibrium under the unknowns as they are, from a new factor.
+/// Finds the equilibrium under the present unknowns with a new factor.
 void Equilibrium::adopt_motion() {
   displacement_ = unknowns_->prescribed;
   find_loaded_slots();
@@ -115,10 +114,11 @@ void Equilibrium::adopt_motion() {
   adopt_load();
 }
 
-/// Displacements under the load as it is.
+/// Finds the displacements under the present load.
 void Equilibrium::adopt_load() {
   load_norm_ = norm(present_load());
-  if (load_norm_ == 0.0) load_norm_ = 1.0;  // driven across what is free: nothing is out of balance
+  // Displacements prescribed on free parts cause no load.
+  if (load_norm_ == 0.0) load_norm_ = 1.0;
   residual_floor_ = factor_floor_ = 0.0;
   refresh();
   std::vector<double> residual;
@@ -176,7 +176,7 @@ std::vector<double> Equilibrium::present_load() const {
   return load;
 }
 
-/// Solves for all displacements with the factor as it stands.
+/// Solves for all displacements with the present factor.
 void Equilibrium::refresh() {
   factor_->solve(present_load(), solution_);
   scatter_solution();
@@ -185,7 +185,7 @@ void Equilibrium::refresh() {
   if (constant_) refresh_constant();
 }
 
-/// One step of iterative refinement; `residual`, just measured, goes over to the correction.
+/// Makes one step of iterative refinement; the current `residual` becomes the correction.
 void Equilibrium::refine(std::vector<double>& residual) {
   if (subdomains_ != nullptr) {
     subdomains_->correct(residual, 2.0 * internal_.energy);
@@ -206,10 +206,9 @@ void Equilibrium::scatter_solution() {
   find_largest_motion();
 }
 
-/// Extensions at driven particles summed over all elements there, unless the growth of the
-/// compliance tells the same.
+/// Returns the work of forces and reactions. The latter is summed over elements at prescribed
+/// displacements, or follows from the growth of the compliance.
 LoadWork Equilibrium::work() {
-  // Work grows with the compliance.
   if (partial_) return {force_work_, 0.0};
   const double forces = work_of_forces();
   if (driven_elements_.empty()) return {forces, 0.0};
@@ -245,8 +244,8 @@ LoadWork Equilibrium::sum_work() {
   return work.forces + work.supports > cancelled_work * sizes ? work : work_by_energy();
 }
 
-/// Work at load factor 1 of the forces of an element on what it does at driven particles, and the
-/// same sum over the sizes of its terms.
+/// Returns the work at load factor 1 of an element's forces on prescribed displacements, and the
+/// sum of its absolute terms.
 std::pair<double, double> Equilibrium::driven_work_of(Index element) const {
   double work = 0.0, sizes = 0.0;
   const auto add = [&](const Removal& modes) {
@@ -296,7 +295,7 @@ Balance Equilibrium::check() {
   std::vector<double> residual;
   double size = measure_residual(residual);
   if (subdomains_ != nullptr) size = refine_followed(size, residual);
-  // Written so that a residual that is not a number is not within any tolerance.
+  // Written so that a residual that is not a number exceeds every tolerance.
   if (size <= options_.residual_tolerance) residual_floor_ = 0.0;
   if (size <= std::max(options_.residual_tolerance, residual_floor_)) {
     return {size, internal_.energy};
@@ -307,7 +306,7 @@ Balance Equilibrium::check() {
     size = measure_residual(residual);
   }
   if (size <= std::min(2.0 * fresh_residual_, most_to_refine * options_.residual_tolerance)) {
-    // The factor is as good as a fresh one, whose solutions need a step of refinement here.
+    // The factor is as accurate as a fresh one, whose solutions need a step of refinement here.
     refine(residual);
     const double refined = measure_residual(residual);
     if (refined <= options_.residual_tolerance) return {refined, internal_.energy};
@@ -315,19 +314,19 @@ Balance Equilibrium::check() {
   return restore();
 }
 
-/// Refines the displacement, with a fresh factor where the present one is not enough.
+/// Refines the displacements, with a fresh factor if the present one is not accurate enough.
 Balance Equilibrium::restore() {
   const double tolerance = std::max(options_.residual_tolerance, residual_floor_);
   Balance balance = refine_in_extended_precision();
-  // Refined displacements do not help the next event, which the factor alone makes.
+  // Refined displacements do not help the next event, which depends on the factor.
   const double usable = std::max(options_.residual_tolerance, factor_floor_);
   if (!(balance.residual <= tolerance) || !(factor_error_ <= usable)) {
     factorize();
     std::vector<double> residual;
     fresh_residual_ = measure_residual(residual);
     balance = refine_in_extended_precision();
-    // A body on the verge of separation moves so far that even a fresh factor leaves more than the
-    // tolerance; factorising again for less than twice that would be work for nothing.
+    // A nearly separated body moves so far that even a fresh factor leaves more than the tolerance.
+    // Factorising again for less than twice that would be useless.
     residual_floor_ = 2.0 * balance.residual;
     factor_floor_ = 2.0 * factor_error_;
     if (!(balance.residual <= hopeless_residual)) {

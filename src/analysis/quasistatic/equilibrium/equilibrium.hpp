@@ -20,152 +20,154 @@
 
 namespace perilink {
 
-/// Cracks that were there from the start have cut a piece off, and the first loads pull it away.
+/// Thrown if initial cracks have cut off a piece that the first loads pull away.
 class CracksSeparate : public SolverError {
  public:
   CracksSeparate() : SolverError("cracks have separated the body, and the loads pull it apart") {}
 };
 
-/// How equilibrium is solved for.
+/// Options of the equilibrium solver.
 struct EquilibriumOptions {
   FactorRoute route = FactorRoute::in_place;
   double residual_tolerance = 1e-10;
   int threads = 1;
   LinearSolver solver = LinearSolver::automatic;
-  SubdomainSolverOptions subdomains = {};  ///< where conjugate gradients take the factor's place
-  /// Elements whose laws have segments fail together where their load factors differ by this part
-  /// of the smallest; 0: one by one.
+  SubdomainSolverOptions subdomains = {};  ///< used if conjugate gradients replace the factor
+  /// Relative difference of load factors within which elements whose laws have segments fail
+  /// together; 0: one by one.
   double event_tolerance = 0.0;
 };
 
-/// Whether conjugate gradients take the place of a factor that follows every event: where they are
-/// asked for, and for batches in large bodies in space (docs/theory/large_bodies.md, section 5).
+/// Returns whether conjugate gradients replace a factor that follows every event. They do if the
+/// options ask for them, and for batches in large three-dimensional bodies
+/// (docs/theory/large_bodies.md, section 5).
 bool is_followed_by_subdomains(const LoadedNetwork& problem, const EquilibriumOptions& options);
 
-/// Pivots below this are computed again from energies: a body that is slender or about to separate
-/// has a condition number that takes most digits of what the factor says.
+/// Pivots below this are recomputed from energies. The condition number of a slender or nearly
+/// separated body takes most digits of the factor's pivots.
 inline constexpr double uncertain_pivot = 1e-2;
 
-/// Equilibrium of a network at load factor 1 while its elements lose stiffness: the factor of K and
-/// the displacements that follow, with the looks that tell how far both can be trusted. All engines
-/// that go from event to event stand on it.
+/// Equilibrium of a network at load factor 1 while its elements lose stiffness. Holds the factor of
+/// K, updates factor and displacements at events, and checks their accuracy. All event engines are
+/// built on it.
 class Equilibrium {
  public:
-  /// \throws SolverError when the stiffness matrix is not positive definite
-  /// \throws std::invalid_argument where boxes are asked for and something carries particles
+  /// \throws SolverError if the stiffness matrix is not positive definite
+  /// \throws std::invalid_argument if conjugate gradients are asked for and particles are embedded
   Equilibrium(const LoadedNetwork& problem, const EquilibriumOptions& options);
 
-  /// Present stiffness of every element as a fraction of the intact one.
+  /// Returns the present stiffness of every element over its intact stiffness.
   Secants secants() const { return axial_.empty() ? Secants(secants_) : Secants(secants_, axial_); }
 
-  /// Displacements at load factor 1, rotations included, shape (particles, width), right wherever
-  /// an element can fail; elsewhere they may be those of an earlier event.
+  /// Returns displacements at load factor 1, rotations included, shape (particles, width). They are
+  /// current wherever an element can fail; others may belong to an earlier event.
   std::span<const double> where_elements_fail() const { return displacement_; }
 
-  /// Displacements at load factor 1, right everywhere: costs a solve where some are not.
+  /// Returns displacements at load factor 1, current everywhere. Costs a solve if some are not.
   std::span<const double> displacement();
 
   LoadWork work();
 
-  /// The element goes on with a smaller secant; zero: it breaks. Damaged bonds close where they are
-  /// compressed then, and open where they are pulled.
-  /// \throws SolverError where the latter does not end
+  /// Reduces the secant of an element; zero breaks it. Damaged bonds then close in compression and
+  /// open in tension.
+  /// \throws SolverError if the contact states do not settle
   EventOutcome weaken(Index element, double secant);
 
-  /// Elements that go on with smaller secants at once: one solution for all of them. Their factor
-  /// is changed, made anew or left behind, whichever costs least (batches.cpp).
-  /// \return nothing where one by one has to tell whether the body survives it: then all is as it
-  ///         was
+  /// Reduces the secants of elements at once, with one solve for all. The factor is changed, made
+  /// anew or kept as a preconditioner, whichever costs least (batches.cpp).
+  /// \return nothing if elements must fail one by one to show whether the body survives; then all
+  ///         is unchanged
   std::optional<EventOutcome> weaken_together(std::span<const Weakening> changes);
 
-  /// Whether weaken() of an element alone costs no new factor and no columns.
+  /// Returns whether weaken() of one element needs no new factor and no columns.
   bool follows_single_events() const { return !lags_ && subdomains_ == nullptr; }
-  /// Twice the energy of what an element loses, at load factor 1 or at the present one of a stage.
+  /// Returns twice the energy of an element's lost stiffness, at load factor 1 or at the present
+  /// one of a stage.
   double energy_lost(const Weakening& change) const;
 
-  /// The first damaged bond that closes or opens as the load factor of a stage moves on, and how
-  /// far it has to.
+  /// First contact state change of a damaged bond as the load factor of a stage moves, and the
+  /// distance of the load factor to it.
   struct SideChange {
     Index element = no_index;
     double distance = 0.0;
   };
-  /// \param distance  to go, with its sign; may be infinite
+  /// \param distance  largest change of the load factor, with its sign; may be infinite
   SideChange next_side_change(double distance) const;
 
-  /// At the present load factor all damaged bonds whose extension is zero take the side to which
-  /// the load moves them.
-  /// \param direction  1 where the load factor grows, -1 where it falls
+  /// Changes the contact states of damaged bonds with zero extension to those towards which the
+  /// load moves.
+  /// \param direction  1 if the load factor grows, -1 if it falls
   EventOutcome pass_side_change(double direction);
 
-  /// Removes an element whatever it holds: a part that comes loose without load is held by ground
-  /// springs, one per rigid-body mode, added to the factor before the element goes. The rest of the
-  /// body keeps its exact equilibrium.
+  /// Removes an element in any case. A part that comes loose without load is held by ground
+  /// springs, one per rigid-body mode, added before the removal. The rest of the body keeps its
+  /// exact equilibrium.
   /// \return number of ground springs added
-  /// \throws SolverError when a loaded part comes loose
+  /// \throws SolverError if a loaded part comes loose
   int cut(Index element);
 
-  /// Measures the residual of all particles; above the tolerance refines the displacement once,
-  /// then factorises anew.
+  /// Makes a full residual check. Above the tolerance, refines the displacements once, then
+  /// factorises anew.
   Balance check();
 
-  /// The residual where elements can fail alone, without a solve; above the tolerance check().
-  /// \return without the stored energy (not a number) where some displacements are not current
+  /// Makes a cheap residual check where elements can fail, without a solve. Above the tolerance,
+  /// calls check().
+  /// \return balance whose stored energy is not a number if some displacements are not current
   Balance check_cheaply();
 
-  /// Particles move by other unknowns from now on; loads, secants and prescribed motions stay.
-  /// \param unknowns  must outlive this
-  /// \return growth of the compliance, positive where particles became freer
-  /// \throws SolverError while ground springs hold something, and where something is not held by
-  ///         the new unknowns; particles then move as before
-  /// \throws std::invalid_argument where prescribed motions differ
+  /// Changes the unknowns that move the particles. Loads, secants and prescribed motions stay.
+  /// \param unknowns  must outlive this object
+  /// \return growth of the compliance, positive if particles became freer
+  /// \throws SolverError while ground springs hold a part, or if the new unknowns leave a part
+  ///         without support; particles then move as before
+  /// \throws std::invalid_argument if prescribed motions differ
   Freedom change_motion(const Unknowns& unknowns);
 
   const Factor& factor() const { return *factor_; }
   FactorStatistics factor_statistics() const;
-  /// Smaller differences of displacements may be none, also between particles that do not move: the
-  /// rest of the body leaves its errors there [length]. Of trusses by a factor zero.
+  /// Returns the largest error of displacement differences, also between particles at rest, caused
+  /// by motion elsewhere in the body [length]. Zero for trusses with a factor.
   double noise() const { return 1e-12 * largest_motion_; }
 
-  /// noise() after events by columns, whose errors the next check() takes away [length].
+  /// Returns noise() after events by columns, whose errors the next check() removes [length].
   double noise_of_events() const {
     return subdomains_ == nullptr ? noise() : options_.subdomains.tolerance * largest_motion_;
   }
 
-  /// Whether an event of the element costs no solution by conjugate gradients.
+  /// Returns whether an event of the element needs no solve by conjugate gradients.
   bool is_prepared(Index element) const;
-  /// Solves for what an event of the element costs, with what is expected next, and takes away what
-  /// earlier events have left.
+  /// Solves for the columns of an element's event and of expected events, and removes errors that
+  /// earlier events left.
   /// \param expected  elements that are likely to have events next, the likeliest first
   void prepare(Index element, std::span<const Index> expected);
 
-  // Constant loads beside those that grow: constant_loads.cpp.
+  // Constant and growing loads: constant_loads.cpp.
 
-  /// Other loads and prescribed motions grow from now on, beside constant ones; all displacements
-  /// are kept current.
-  /// \param unknowns  those of before, with other motions; some may be gripped that moved. Must
-  ///                  outlive this, as the loads must.
+  /// Starts a stage: other loads and prescribed motions grow, in addition to constant ones. All
+  /// displacements are kept current.
+  /// \param unknowns  former unknowns with other motions and possibly more clamps; must outlive
+  ///                  this object, as must the loads
   void begin_stage(const Unknowns& unknowns, const Loads& loads, ConstantField constant);
 
-  /// Elements take back their intact stiffness as the next stage begins.
+  /// Restores the intact stiffness of elements at the start of the next stage.
   void restore(std::span<const Index> elements);
 
-  /// The load factor of the loads that grow, which tells what an element carries.
+  /// Sets the load factor of the growing loads.
   void move_to(double load_factor) { constant_->load_factor = load_factor; }
 
-  /// Displacements by constant loads alone, those at load factor 0.
+  /// Returns the displacements by constant loads, at load factor 0.
   std::span<const double> constant_displacement() const { return constant_->displacement; }
 
-  /// What constant loads add to work().
+  /// Returns the contribution of permanent loads to work().
   ConstantWork constant_work();
 
-  /// The same for check(): refines the displacements by constant loads where it must.
+  /// Adds the contribution of permanent loads to check(); refines their displacements if necessary.
   void check_constant(Balance& balance);
 
  private:
   using Deformations = Removal::Deformations;
   using Batch = EventBatch;
-  /// Columns by conjugate gradients leave more than a factor does: a larger residual is taken away
-  /// before it grows.
+  /// Residual above which errors of columns by conjugate gradients are removed, before they grow.
   static constexpr double fine_residual = 1e-13;
   static double norm(std::span<const double> values);
   void refresh_constant();
@@ -235,21 +237,21 @@ class Equilibrium {
   int gradients(std::vector<double>& residual, std::span<double> solution, double energy);
   void multiply(std::span<const double> q, std::span<double> result);
   void take_back(std::span<const Weakening> changes, const Batch& batch);
-  /// Whether solutions by conjugate gradients with boxes follow batches.
+  /// Returns whether solves by conjugate gradients with subdomains follow batches.
   bool follows_subdomains() const {
     return subdomains_ != nullptr && options_.event_tolerance > 0.0;
   }
-  /// The factor is made anew where it lags behind the secants.
+  /// Makes the factor anew if it lags behind the secants.
   void bring_factor_up();
 
-  // Damaged bonds that close: closing.cpp.
+  // Crack closure: closing.cpp.
   bool is_closed(Index element) const { return axial_[element] > secants_[element]; }
-  /// At the present load factor, and the parts of loads that grow and that do not [length].
+  /// Extension at the present load factor, and its parts from growing and constant loads [length].
   struct Extension {
     double now = 0.0, growing = 0.0, constant = 0.0;
     double side = 0.0;  ///< negative: in compression, or about to be
   };
-  /// Where the ends are in the displacements, and the direction.
+  /// Offsets of the ends in the displacements, and the direction.
   struct BondEnds {
     std::size_t first, second;
     double n[3];
@@ -281,13 +283,13 @@ class Equilibrium {
 
   // Separation and extended precision: separation.cpp.
   struct Refined {
-    double residual = 0.0;  ///< norm of the forces out of balance
+    double residual = 0.0;  ///< norm of the residual forces
     double energy = 0.0;    ///< u'K u of the refined motion
     double error = 0.0;     ///< uncertainty of the energy after the last correction, with round-off
-    /// Relative error of a solution by the factor, in the norm of energy.
+    /// Relative error of a solve by the factor, in the energy norm.
     double factor_error = 0.0;
   };
-  /// A motion in extended precision: the unknowns, and all particles, shape (particles, width).
+  /// Motion in extended precision: the unknowns, and all particles, shape (particles, width).
   struct FineMotion {
     std::vector<long double> unknowns, particles;
   };
@@ -304,9 +306,9 @@ class Equilibrium {
   const Loads* loads_;
   EquilibriumOptions options_;
   std::unique_ptr<Factor> factor_;
-  SubdomainFactor* subdomains_ = nullptr;  // the factor, where it is one
+  SubdomainFactor* subdomains_ = nullptr;  // the factor if it is a SubdomainFactor, or null
 
-  /// Whether its shear and bending stay as they are until it breaks.
+  /// Returns whether shear and bending of the element stay intact until it breaks.
   bool keeps_shear(Index element) const { return has_kept_ && network_.law(element).keeps_shear(); }
   double secant_of(Index element) const {
     return keeps_shear(element) ? axial_[element] : secants_[element];
@@ -315,55 +317,58 @@ class Equilibrium {
     secants_[element] = secant > 0.0 && keeps_shear(element) ? 1.0 : secant;
     if (!axial_.empty()) axial_[element] = secant;
   }
-  bool restored_ = false;        ///< since the last factorisation
-  bool lags_ = false;            ///< the factor is that of an earlier body, and only preconditions
-  int gradient_steps_ = 0;       ///< conjugate gradients have made, in all batches
-  bool found_sides_ = false;     ///< a search has found the last sides, and their equilibrium
-  int last_steps_ = 0;           ///< that the last batch took
-  double missed_savings_ = 0.0;  ///< by changes of a factor that lags behind [time]
+  bool restored_ = false;     ///< elements were restored since the last factorisation
+  bool lags_ = false;         ///< the factor belongs to an earlier body and only preconditions
+  int gradient_steps_ = 0;    ///< steps of conjugate gradients in all batches
+  bool found_sides_ = false;  ///< a search has found the last contact states and their equilibrium
+  int last_steps_ = 0;        ///< steps of conjugate gradients in the last batch
+  /// Savings that changes of an up-to-date factor would have brought [time].
+  double missed_savings_ = 0.0;
   std::vector<double> secants_;
-  std::vector<double> axial_;  ///< the same against a change of length; empty where none differs
-  bool has_kept_;              ///< Network::has_kept_shear()
-  double direction_ = 0.0;     ///< in which the load factor moves on, while sides are settled
-  std::vector<Index> changed_sides_;            ///< in this order, when sides were settled last
-  std::vector<Index> damaged_;                  ///< elements that close where they are compressed
-  mutable std::vector<BondEnds> damaged_ends_;  ///< their ends, as far as they have been asked for
-  std::vector<Index> driven_elements_;          ///< elements that end at a driven particle
+  std::vector<double> axial_;         ///< secants against a change of length; empty if none differs
+  bool has_kept_;                     ///< Network::has_kept_shear()
+  double direction_ = 0.0;            ///< sign of the load change while contact states settle
+  std::vector<Index> changed_sides_;  ///< elements whose contact state changed last, in order
+  std::vector<Index> damaged_;        ///< elements that close in compression
+  mutable std::vector<BondEnds> damaged_ends_;  ///< ends of damaged_, as far as requested so far
+  std::vector<Index> driven_elements_;  ///< elements with an end at a prescribed displacement
   std::vector<std::size_t> loaded_slots_;
-  std::vector<Index> checked_elements_;  ///< all elements of the unknowns glanced at
-  std::vector<std::uint8_t> checked_;    ///< per unknown, while partial_
-  bool partial_ = false;     ///< events keep only the displacements current that a search looks at
-  bool stale_ = false;       ///< the other displacements are those of an earlier event
-  double force_work_ = 0.0;  ///< f'u, followed through the events while partial_
-  double driven_spring_work_ = 0.0;   ///< work of elastic supports at driven displacements
-  std::vector<std::size_t> slot_of_;  ///< Unknowns::slots()
-  /// Where something carries particles: slots that unknowns move, of all particles and, while
-  /// partial_, of those that the search looks at.
+  /// All elements of the unknowns in the cheap residual check.
+  std::vector<Index> checked_elements_;
+  std::vector<std::uint8_t> checked_;  ///< flag per unknown, while partial_
+  bool partial_ = false;               ///< events update only displacements that a search needs
+  bool stale_ = false;                 ///< the other displacements belong to an earlier event
+  double force_work_ = 0.0;            ///< f'u, updated at events while partial_
+  double driven_spring_work_ = 0.0;    ///< work of elastic supports at prescribed displacements
+  std::vector<std::size_t> slot_of_;   ///< Unknowns::slots()
+  /// With embedded particles: slots that unknowns move. The first are all of them, the second,
+  /// while partial_, those that the search needs.
   std::vector<std::size_t> moving_slots_, current_slots_;
   std::vector<double> solution_;  ///< per unknown
   std::vector<double> displacement_;
-  double noise_of_sides_ = 0.0;   ///< extensions below it are on neither side [length]
-  double largest_motion_ = 0.0;   ///< by displacement_, see noise()
+  double noise_of_sides_ = 0.0;   ///< extensions below this have no contact state [length]
+  double largest_motion_ = 0.0;   ///< largest |displacement_|, see noise() [length]
   std::vector<double> observed_;  ///< displacements of all particles for observers, while stale_
-  std::vector<double> ground_stiffness_;  ///< per unknown, empty until a fragment came loose
+  std::vector<double> ground_stiffness_;  ///< per unknown; empty until a part came loose
   std::vector<double> ground_load_;
   std::optional<ConstantField> constant_;
   InternalForce internal_;
   ForcesAndEnergy<long double> fine_;
   double stiffness_sum_ = 0.0;        ///< sum over all elements and supports
-  bool must_rebuild_ = false;         ///< the pivot is known better than the factor can follow
+  bool must_rebuild_ = false;         ///< the pivot is more accurate than the factor can follow
   bool look_closer_ = false;          ///< pivots that are not small may be noise too
-  bool supports_alone_ = false;       ///< elastic supports hold most of the motion looked at last
-  bool resists_ = true;               ///< the polished body stores energy that is no round-off
-  double last_work_ = 0.0;            ///< f'u + R'd of a driven body when last asked for
-  int events_to_follow_ = 0;          ///< events left that follow the growth of the compliance ...
-  double followed_compliance_ = 0.0;  ///< ... f'u - R'd, ...
-  double followed_from_ = 0.0;        ///< ... since it was this
+  bool supports_alone_ = false;       ///< elastic supports hold most of the motion examined last
+  bool resists_ = true;               ///< the refined body stores energy above round-off
+  double last_work_ = 0.0;            ///< last f'u + R'd of a body under prescribed displacements
+  int events_to_follow_ = 0;          ///< events left before the work is summed again
+  double followed_compliance_ = 0.0;  ///< f'u - R'd, updated by its growth
+  double followed_from_ = 0.0;        ///< f'u + R'd when it was last summed
   double load_norm_ = 0.0;
-  double fresh_residual_ = 0.0;  ///< what a fresh factor leaves, unrefined
-  double residual_floor_ = 0.0;  ///< what a fresh factor can reach
-  double factor_error_ = 0.0;    ///< Refined::factor_error where the body was last polished ...
-  double factor_floor_ = 0.0;    ///< ... and with the last fresh factor
+  double fresh_residual_ = 0.0;  ///< residual of a fresh factor, unrefined
+  double residual_floor_ = 0.0;  ///< residual that a fresh factor can reach
+  /// Refined::factor_error at the last refinement in extended precision.
+  double factor_error_ = 0.0;
+  double factor_floor_ = 0.0;  ///< Refined::factor_error that a fresh factor can reach
 };
 
 }  // namespace perilink

@@ -6,30 +6,31 @@
 #include "base/types.hpp"
 
 /// \file
-/// What events do to an equilibrium, and figures of it.
+/// Outcomes of events, and energy figures of an equilibrium.
 
 namespace perilink {
 
-/// What became of an element that lost stiffness.
+/// Outcome of an event in which an element loses stiffness.
 struct EventOutcome {
-  bool mechanism = false;  ///< the element held the last load path, weak elastic supports not
-                           ///< counted: nothing was changed
-  double secant = 0.0;     ///< with it the element goes on, over its intact stiffness; 0: it broke
+  /// The element held the last load path, except for weak elastic supports; nothing was changed.
+  bool mechanism = false;
+  double secant = 0.0;  ///< new stiffness of the element over its intact stiffness; 0: it broke
   bool broke() const { return secant == 0.0; }
-  /// 1 - x' K^-1 x, of a micropolar bond the smallest of its modes; 0: cannot be told from zero
+  /// Downdate pivot 1 - x' K^-1 x, for a micropolar bond the smallest of its vectors; 0: not
+  /// distinguishable from zero.
   double pivot = 1.0;
   /// Growth of f'u - R'd at load factor 1: k e^2 / pivot [force length]. The event dissipates
-  /// lambda_k lambda_(k+1) / 2 times this along the path drawn through the events.
+  /// lambda_k lambda_(k+1) / 2 times this along the path through the events.
   double compliance_growth = 0.0;
   double released = 0.0;      ///< energy that left the element, at load factor 1 [force length]
   bool changed_side = false;  ///< a damaged bond closed or opened
-  /// Set by the engine: elements that broke, and that went on with a smaller secant.
+  /// Set by the engine: number of elements that broke, and that took a smaller secant.
   Index broken = 0, yielded = 0;
-  Index exhausted = no_index;   ///< set by the engine: an element that no longer limits anything
-  Index separating = no_index;  ///< set by the engine: the element of the mechanism
-  Beside permanent_growth = {}, released_by_permanent = {};  ///< what constant loads add to both
+  Index exhausted = no_index;   ///< set by the engine: an element without further limits
+  Index separating = no_index;  ///< set by the engine: the element that forms a mechanism
+  Beside permanent_growth = {}, released_by_permanent = {};  ///< contribution of permanent loads
 
-  /// What became of another element after this one.
+  /// Adds the outcome of a later element.
   void add(const EventOutcome& next) {
     mechanism = next.mechanism;
     secant = next.secant;
@@ -49,32 +50,32 @@ struct EventOutcome {
   }
 };
 
-/// A body that has become as many times as compliant by one event lies in two. Bonds that are
-/// parallel but for the last digits of a mesh, or of round-off, leave less.
+/// Growth of the compliance by one event that means separation. Bonds that are parallel up to
+/// round-off or the last digits of a mesh cause less.
 inline constexpr double next_to_infinite = 1e12;
 
 /// Work products at load factor 1 [force length].
 struct LoadWork {
-  double forces = 0.0;    ///< f'u: applied forces on their displacements
-  double supports = 0.0;  ///< R'd: reactions of driven particles on their displacements
-  /// The body no longer resists what drives it: nothing does, and both are zero, or what does is
-  /// next to nothing beside what it was.
+  double forces = 0.0;    ///< f'u: applied forces times displacements
+  double supports = 0.0;  ///< R'd: reactions times prescribed displacements
+  /// The body no longer resists the prescribed displacements. Either nothing resists and both
+  /// products are zero, or the resistance is negligible beside the former one.
   bool separated = false;
-  ConstantWork constant = {};  ///< what constant loads add
+  ConstantWork constant = {};  ///< contribution of permanent loads
   double compliance() const { return forces - supports; }
 };
 
 /// Growth of the compliance f'u - R'd without an event, at load factor 1 [force length].
 struct Freedom {
   double growth = 0.0;
-  Beside beside = {};  ///< what constant loads add
+  Beside beside = {};  ///< contribution of permanent loads
 };
 
-/// Figures that need a pass over the elements.
+/// Result of a residual check.
 struct Balance {
   double residual = 0.0;       ///< |f - K u| / |f|
   double stored_energy = 0.0;  ///< sum over elements of k e^2 / 2 at load factor 1 [force length]
-  Beside stored_by_permanent = {};  ///< what constant loads add
+  Beside stored_by_permanent = {};  ///< contribution of permanent loads
 };
 
 }  // namespace perilink

@@ -14,11 +14,11 @@
 namespace perilink {
 namespace {
 
-/// Energy over work: 1e-10 and less was seen in mechanisms, 0.2 and more in bodies so slender that
-/// round-off takes their equilibrium.
+/// Energy over work below which there is a mechanism [-]. Mechanisms showed 1e-10 and less, bodies
+/// too slender for double precision 0.2 and more.
 constexpr double none = 1e-4;
 
-/// Where an unknown acts; empty for those of the nodes of elements.
+/// Returns the position of an unknown as text; empty for nodes of finite elements.
 std::string place_of(Index unknown, const Unknowns& unknowns, const Particles* particles) {
   for (std::size_t slot = 0; particles && slot < unknowns.number.size(); ++slot) {
     if (unknowns.number[slot] != unknown) continue;
@@ -28,10 +28,11 @@ std::string place_of(Index unknown, const Unknowns& unknowns, const Particles* p
   return {};
 }
 
-/// The unknown that moves most where the work of random forces is in no bond, else none.
+/// Returns the unknown that moves most if bonds do not store the work of random forces, else
+/// no_index.
 Index find_mechanism(Factor& factor, const Unknowns& unknowns, const InternalForceOf& internal_of) {
   if (unknowns.count == 0) return no_index;
-  std::mt19937 random(7);  // fixed: the same verdict in every run
+  std::mt19937 random(7);  // fixed: the same result in every run
   std::vector<double> forces(static_cast<std::size_t>(unknowns.count)), motion(forces.size());
   for (double& force : forces) force = static_cast<double>(random() % 2) - 0.5;
   factor.solve(forces, motion);

@@ -7,11 +7,11 @@
 
 namespace perilink {
 
-/// Factorises the stiffness of a body, and refuses it where a part can move without resistance.
-/// Round-off may stand in for a stiffness there and the factor exist; but then the bonds do not
-/// hold the work of random forces, under which everything moves that can.
-/// \param particles  null: the message tells no place
-/// \throws NotPositiveDefinite, with the place that moves most
+/// Factorises the stiffness of a body and rejects it if a part can move without resistance.
+/// Round-off may act as a stiffness there, so that the factor exists. Random forces move every free
+/// part, and the bonds then do not store their work.
+/// \param particles  null: the message names no position
+/// \throws NotPositiveDefinite with the position that moves most
 void factorize_stiffness(Factor& factor, const SparseMatrix& stiffness, const Unknowns& unknowns,
                          const Particles* particles, const InternalForceOf& internal_of);
 

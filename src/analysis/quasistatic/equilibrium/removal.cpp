@@ -73,7 +73,7 @@ void decouple(Removal& removal, std::span<const double> compliance) {
   rest -= Eigen::Map<const Square>(compliance.data(), rank, rank);
   const Eigen::SelfAdjointEigenSolver<Square> axes(rest);  // eigenvalues ascend
 
-  // All new vectors live on the rows of all old ones.
+  // The new vectors have the rows of all old ones.
   SparseVector rows;
   for (int m = 0; m < rank; ++m) {
     for (const Index row : removal.x[m].rows) rows.add(row, 0.0);

@@ -9,15 +9,15 @@
 
 namespace perilink {
 
-/// What an element takes with it when it breaks or weakens: K falls by the sum of x x' over its
-/// modes, one of a bar and three or six of a micropolar bond.
+/// Low-rank downdate of an element that breaks or weakens: K falls by the sum of x x' over its
+/// vectors. A bar has one vector, a micropolar bond three or six.
 struct Removal {
   static constexpr int capacity = ElementVectors::capacity;
   using Deformations = std::array<double, capacity>;
   int rank = 0;
-  double fraction = 0.0;  ///< part of the intact stiffness that goes
+  double fraction = 0.0;  ///< part of the intact stiffness that is removed
   std::array<SparseVector, capacity> x;
-  std::array<double, capacity> prescribed{};  ///< what prescribed motions add to x'u
+  std::array<double, capacity> prescribed{};  ///< contribution of prescribed motions to x'u
   std::array<double, capacity> constant{};    ///< x'u of the displacements by constant loads
   std::array<double, capacity> pivot{};       ///< 1 - x' K^-1 x, ascending; set by decouple()
 
@@ -29,39 +29,40 @@ struct Removal {
   }
   std::span<const double> pivots() const { return {pivot.data(), static_cast<std::size_t>(rank)}; }
 
-  /// x'u with what prescribed motions add, at load factor 1: its square is twice the energy of the
-  /// mode.
+  /// Returns x'u at load factor 1, prescribed motions included. Its square is twice the energy of
+  /// the vector.
   double deformation(int mode, std::span<const double> solution) const;
 };
 
-/// Forces on unknowns that elements take, or took.
+/// Sum of forces of elements on the unknowns.
 class ForceOfElements {
  public:
   explicit ForceOfElements(std::size_t unknowns) : place_(unknowns, no_index) {}
-  /// x times a deformation by the loads that grow and one by constant loads.
+  /// Adds x times a deformation by growing loads, and x times one by constant loads.
   void add(const SparseVector& x, double by_growing, double by_constant);
   SparseVector growing, constant;  ///< both have the same rows
 
  private:
-  std::vector<Index> place_;  ///< per unknown: its place in them, or no_index
+  std::vector<Index> place_;  ///< per unknown: its position in both vectors, or no_index
 };
 
-/// \param fraction  part of the intact stiffness that goes
+/// Makes the removal of a part of an element's stiffness.
+/// \param fraction  part of the intact stiffness that is removed
 Removal make_removal(const Network& network, const Unknowns& unknowns, Index element,
                      double fraction);
 
-/// The same with a part of its own of the axial mode, positive, as the fraction is.
+/// Makes a removal with a separate part of the axial stiffness; both parts are positive.
 Removal make_removal(const Network& network, const Unknowns& unknowns, Index element,
                      double fraction, double axial);
 
-/// The same of the axial mode alone.
+/// Makes the removal of a part of the axial stiffness only.
 Removal make_axial_removal(const Network& network, const Unknowns& unknowns, Index element,
                            double fraction);
 
-/// Turns the modes into combinations that do not interact, x_a' K^-1 x_b = 0, and sets their
-/// pivots: with C = x_a' K^-1 x_b and I - C = V diag(pivot) V', the new vectors are X V and X X'
-/// stays. The removal leaves K positive definite exactly when all pivots are positive; det(K - X
-/// X') / det(K) is their product.
+/// Combines the vectors so that they do not interact, x_a' K^-1 x_b = 0, and sets their pivots.
+/// With C = x_a' K^-1 x_b and I - C = V diag(pivot) V', the new vectors are X V, and X X' stays.
+/// The removal leaves K positive definite exactly if all pivots are positive. det(K - X X') /
+/// det(K) is their product.
 /// \param compliance  C, shape (rank, rank)
 void decouple(Removal& removal, std::span<const double> compliance);
 

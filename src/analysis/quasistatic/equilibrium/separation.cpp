@@ -1,5 +1,5 @@
-// Whether a break separates the body, and equilibrium of bodies that move so far that double
-// precision leaves few digits of their strains (docs/theory/events_and_energy.md, section 5).
+// Detects whether a break separates the body. Finds equilibrium if motions are so large that double
+// precision leaves few digits of the strains (docs/theory/events_and_energy.md, section 5).
 
 #include <algorithm>
 #include <cmath>
@@ -15,21 +15,22 @@ namespace {
 
 constexpr double machine_precision = std::numeric_limits<double>::epsilon();
 
-/// An energy that is not this many times what errors leave cannot be told from none.
+/// Energies below this multiple of their error count as zero [-].
 constexpr double clearly_there = 100.0;
 
-/// Refinement has done its work when a correction has this share of the energy: displacements are
-/// right to its root.
+/// Energy of a correction over the whole energy at which refinement ends [-]. Displacements are
+/// accurate to its root.
 constexpr double fine_enough = 1e-20;
 
-/// From a factor that has any digits left, each pass gains some; the last ones only measure.
+/// Largest number of refinement passes. Each gains digits if the factor has any left; the last ones
+/// only measure.
 constexpr int most_passes = 8;
 
-/// Where nothing but elastic supports holds a part, and the body is less stiff than this share of
-/// what it was before the break, the part counts as loose.
+/// Fraction of its former stiffness below which a body that only elastic supports hold counts as
+/// loose [-].
 constexpr double least_support = 1e-3;
 
-/// Errors of a motion, as energy over that of the motion, beyond which nothing can be said from it.
+/// Largest usable error of a motion, as energy over that of the motion [-].
 constexpr double most_error = 1e-6;
 
 constexpr const char* out_of_digits =
@@ -38,8 +39,8 @@ constexpr const char* out_of_digits =
 
 }  // namespace
 
-/// Adds to `motion` what is missing to K motion = load, K times the motion summed element by
-/// element in extended precision, and leaves its forces and energy in `fine_`.
+/// Refines `motion` towards K motion = load, and leaves its forces and energy in `fine_`. K times
+/// the motion is summed over the elements in extended precision.
 /// \param load  per unknown
 Equilibrium::Refined Equilibrium::refine_finely(std::span<const double> load, FineMotion& motion) {
   std::vector<double> residual(solution_.size());
@@ -84,13 +85,13 @@ Equilibrium::Refined Equilibrium::refine_finely(std::span<const double> load, Fi
   }
   long double largest = 0.0;
   for (const long double u : motion.particles) largest = std::max(largest, std::abs(u));
-  // Directions of bonds are rounded: a rigid motion stretches them by as much.
+  // Directions of bonds are rounded, so a rigid motion stretches them slightly.
   const double noise = machine_precision * static_cast<double>(largest);
   result.error += stiffness_sum_ * noise * noise;
   return result;
 }
 
-/// The v with K v = x, and what is in doubt of its energy v'K v = x'v <= 1.
+/// Returns v with K v = x, and the uncertainty of its energy v'K v = x'v <= 1.
 auto Equilibrium::motion_of(const SparseVector& x) -> std::pair<FineMotion, double> {
   std::vector<double> load(solution_.size(), 0.0);
   for (int k = 0; k < x.size(); ++k) load[x.rows[k]] = x.values[k];
@@ -105,14 +106,14 @@ auto Equilibrium::motion_of(const SparseVector& x) -> std::pair<FineMotion, doub
   return {std::move(motion), error};
 }
 
-/// What resists when the ends of an element move apart without it: the pivot
+/// Returns the resistance to a motion of an element's ends without the element. It is the pivot
 ///
 ///   min over v of  E(v) / (E(v) + (x'v)^2),
 ///
-/// E twice the energy of all other elements, which the v with K v = x attains. An inexact v gives
-/// too much by no more than the energy of its error.
+/// where E is twice the energy of all other elements. The minimum is at K v = x. An inexact v makes
+/// the pivot too large, at most by the energy of its error.
 /// \param kept  secant that stays
-/// \return 0 where it cannot be told from zero
+/// \return 0 if the pivot cannot be distinguished from zero
 double Equilibrium::pivot_by_energy(const SparseVector& x, Index element, double kept) {
   const auto [motion, error] = motion_of(x);
   const double before = secant_of(element);
@@ -131,16 +132,16 @@ double Equilibrium::pivot_by_energy(const SparseVector& x, Index element, double
   return energy / (energy + static_cast<double>(extension * extension));
 }
 
-/// Whether what still holds a loose part are elastic supports that are next to nothing beside what
-/// held it before.
+/// Returns whether a loose part is held only by elastic supports that are negligible compared with
+/// its former support.
 bool Equilibrium::hangs_on_weak_supports(double compliance_growth) const {
   if (!supports_alone_ || !driven_elements_.empty()) return false;
   const double before = partial_ ? force_work_ : work_of_forces();
   return before < least_support * (before + compliance_growth);
 }
 
-/// Equilibrium without the element, or with less of it, from a new factor. \return false when there
-/// is none, since the matrix is not positive definite: then all is as it was
+/// Finds equilibrium from a new factor without the element, or with a smaller secant.
+/// \return false if the matrix is not positive definite; then all is unchanged
 bool Equilibrium::rebuild_without(Index element, double kept) {
   const double before = secant_of(element);
   set_secant(element, kept);
@@ -155,8 +156,8 @@ bool Equilibrium::rebuild_without(Index element, double kept) {
   }
 }
 
-/// Refines the displacements in extended precision; they are kept rounded. Where that is needed the
-/// factor's pivots may be noise too.
+/// Refines the displacements in extended precision and stores them rounded. The factor's pivots may
+/// then be noise too.
 Balance Equilibrium::refine_in_extended_precision() {
   look_closer_ = true;
   if (stale_) refresh();
@@ -188,8 +189,8 @@ Balance Equilibrium::refine_in_extended_precision() {
   return result;
 }
 
-/// The work of a driven body whose reactions all but cancel: from the energy of its elements, which
-/// is a sum of squares.
+/// Computes the work of a body whose reactions nearly cancel from the energy of its elements, a sum
+/// of squares.
 LoadWork Equilibrium::work_by_energy() {
   const double before = last_work_;
   const double work = 2.0 * refine_in_extended_precision().stored_energy;

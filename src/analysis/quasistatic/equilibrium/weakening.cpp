@@ -1,5 +1,5 @@
-// Elements that lose stiffness: changes of rank one, three and six of the factor, the pivots that
-// tell whether the body survives them, and springs for what comes loose.
+// Weakening of elements: changes of rank one, three and six of the factor, their downdate pivots,
+// and ground springs for loose parts.
 
 #include <algorithm>
 #include <cmath>
@@ -10,25 +10,24 @@
 namespace perilink {
 namespace {
 
-/// How far a pivot from the factor may be from the one from energies before a fresh factor is
-/// worth its price, and before that has to be made without the element.
+/// Relative differences between pivots from the factor and from energies. Above the first a fresh
+/// factor is worth its cost. Above the second it must be made without the element.
 constexpr double same_pivot = 1e-8, usable_pivot = 1e-6;
 
-/// Where pivots of the factor are this far off, each event is looked at: its energy is off by as
-/// much.
+/// Error of the factor's pivots above which every event is examined: its energy has the same error.
 constexpr double noisy_pivot = 1e-8;
 
-/// A mode that a removal sets free carries load when it holds more than this share of the bond's
-/// energy; round-off leaves 1e-16.
+/// Fraction of the bond's energy above which a motion that a removal frees carries load [-].
+/// Round-off leaves 1e-16.
 constexpr double least_loaded_share = 1e-12;
 
-/// A part that comes loose carries load when it is pulled by more than this share of the load.
+/// Fraction of the load above which the force on a loose part counts as load [-].
 constexpr double least_loaded_force = 1e-6;
 
 }  // namespace
 
-/// Square roots of twice the energies of the modes. That of a bar comes from differences of
-/// displacements, which keep their digits where the body moves far.
+/// Returns square roots of twice the energies of the vectors. A bar's comes from differences of
+/// displacements, which keep their digits if the body moves far.
 auto Equilibrium::deformations(const Removal& removal, Index element) const -> Deformations {
   Deformations result{};
   if (is_frame(element)) {
@@ -45,8 +44,8 @@ auto Equilibrium::deformations(const Removal& removal, Index element) const -> D
   return result;
 }
 
-/// Decouples the modes and gives them the pivots that the factor has for them.
-/// \return the smallest
+/// Decouples the vectors and sets their pivots by the factor.
+/// \return the smallest pivot
 double Equilibrium::prepare(Removal& removal) {
   if (removal.rank == 1) return removal.pivot[0] = factor_->pivot(removal.x[0]);
   std::vector<double> compliance(static_cast<std::size_t>(removal.rank * removal.rank));
@@ -55,7 +54,7 @@ double Equilibrium::prepare(Removal& removal) {
   return removal.pivot[0];
 }
 
-/// x_a' K^-1 x_b with K^-1 x_b refined against the elements themselves.
+/// Returns x_a' K^-1 x_b, where K^-1 x_b is refined against the elements.
 std::vector<double> Equilibrium::refined_compliance(const Removal& removal) {
   const std::size_t rank = static_cast<std::size_t>(removal.rank);
   std::vector<double> compliance(rank * rank);
@@ -77,7 +76,7 @@ std::vector<double> Equilibrium::refined_compliance(const Removal& removal) {
   return compliance;
 }
 
-/// Decouples the modes; small pivots come from energies.
+/// Decouples the vectors and computes small pivots from energies.
 void Equilibrium::look_closely(Removal& removal, Index element, double kept) {
   if (removal.rank > 1) decouple(removal, refined_compliance(removal));
   supports_alone_ = false;
@@ -85,14 +84,14 @@ void Equilibrium::look_closely(Removal& removal, Index element, double kept) {
     if (removal.rank > 1 && removal.pivot[m] > uncertain_pivot) continue;
     removal.pivot[m] = pivot_by_energy(removal.x[m], element, kept);
   }
-  // Energies may put two of them in another order by their last digits.
+  // Energies may swap two pivots by their last digits.
   for (int m = removal.rank - 1; m > 0; --m) {
     removal.pivot[m - 1] = std::min(removal.pivot[m - 1], removal.pivot[m]);
   }
 }
 
-/// Pivots of a removal; where one is small, from energies, with a factor that can be trusted or,
-/// after `must_rebuild_`, is to be made anew. Zero: nothing holds the mode.
+/// Sets the pivots of a removal; zero if a vector has no resistance. Small pivots come from
+/// energies. The factor is then reliable, or `must_rebuild_` marks that it must be made anew.
 void Equilibrium::measure_pivots(Removal& removal, Index element, double kept) {
   must_rebuild_ = supports_alone_ = false;
   if (removal.rank == 1 && removal.x[0].size() == 0) {  // both ends prescribed
@@ -118,10 +117,10 @@ void Equilibrium::measure_pivots(Removal& removal, Index element, double kept) {
   must_rebuild_ = removal.pivot[0] > 0.0 && !agree(usable_pivot);
 }
 
-/// Before an element goes that alone held an unloaded motion, as the rotation of a particle on
-/// which only ties are left, springs take hold of it.
-/// \param unloaded  energy, twice, up to which a motion counts as unloaded
-/// \return false when the motion carries load: a mechanism
+/// Adds ground springs before a removal that frees an unloaded motion. An example is the rotation
+/// of a particle that only slip springs hold.
+/// \param unloaded  twice the energy up to which a motion counts as unloaded
+/// \return false if the motion carries load: a mechanism
 bool Equilibrium::hold_free_modes(Removal& removal, Index element, double unloaded, int& springs) {
   const Removal modes = removal_of(element, 0.0);
   const int most = network_.dim() == 2 ? 3 : 6;
@@ -144,24 +143,24 @@ bool Equilibrium::hold_free_modes(Removal& removal, Index element, double unload
   return true;
 }
 
-/// Work products grow with the compliance.
+/// Updates work products by the growth of the compliance.
 void Equilibrium::follow(const EventOutcome& outcome) {
   if (!must_rebuild_) force_work_ += outcome.compliance_growth;
   followed_compliance_ += outcome.compliance_growth;
-  // Small events leave the displacements as exact as they were.
+  // Small events keep the accuracy of the displacements.
   const bool sure = outcome.pivot > uncertain_pivot && !look_closer_ &&
                     outcome.compliance_growth < 0.01 * last_work_;
   events_to_follow_ = sure ? events_to_follow_ - 1 : 0;
 }
 
 void Equilibrium::commit(const Removal& removal, Index element, double secant) {
-  // A factor that was made anew on the way has no columns yet: those of the body as it was.
+  // A factor made anew on the way has no columns yet: they belong to the body before the event.
   if (subdomains_ != nullptr && !must_rebuild_) subdomains_->hold(removal.vectors());
   const bool is_first = secants_[element] == 1.0;
   if (!axial_.empty() && is_first && network_.law(element).closes()) damaged_.push_back(element);
   set_secant(element, secant);
   if (must_rebuild_) return;                                  // done already
-  if (removal.rank == 1 && removal.x[0].size() == 0) return;  // holds nothing that is unknown
+  if (removal.rank == 1 && removal.x[0].size() == 0) return;  // acts on no unknown
   if (constant_ && removal.rank == 1) {
     commit_both(removal);
   } else {
@@ -220,7 +219,8 @@ int Equilibrium::cut(Index element) {
   Removal removal = removal_of(element, 0.0);
   measure_pivots(removal, element, 0.0);
   int springs = 0;
-  // A force, as far as forces and moments compare: sqrt(k) times sqrt(k) times an extension.
+  // Twice the energy of a spring under the least loaded force; forces and moments are compared
+  // directly.
   const double unloaded = std::pow(least_loaded_force * load_norm_, 2) /
                           (network_.stiffness[element] * secant_of(element));
   if (!hold_free_modes(removal, element, unloaded, springs)) {
@@ -241,7 +241,7 @@ Index Equilibrium::most_mobile_unknown(const SparseVector& x) {
   return static_cast<Index>(largest - direction.begin());
 }
 
-/// That of the stiffest bond; of a rotation the largest bending stiffness.
+/// Returns the stiffness of the stiffest bond; for a rotation the largest bending stiffness.
 double Equilibrium::ground_stiffness_of(Index unknown) const {
   const auto component = static_cast<int>(slot_of_[unknown] % network_.width());
   if (component < network_.dim()) {
