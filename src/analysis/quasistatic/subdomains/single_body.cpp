@@ -17,7 +17,7 @@ Row* at(float* numbers) { return reinterpret_cast<Row*>(numbers); }
 template <int Dim>
 constexpr int num_motions = Dim == 2 ? 3 : 6;
 
-/// Particles from which on threads pay.
+/// Number of particles above which threads pay off.
 constexpr std::size_t many_particles = 4000;
 
 }  // namespace

@@ -13,40 +13,40 @@
 
 namespace perilink {
 
-/// Particles box after box, so that what is near is near in memory.
+/// Order of particles by subdomain, so that neighbours are close in memory.
 struct SubdomainOrder {
   SubdomainOrder(const SubdomainMotions& motions, Index particles);
 
-  std::vector<Index> place;  ///< where each particle comes
-  /// Places up to which the particles of each box go; zero before the first.
+  std::vector<Index> place;  ///< position of each particle in the order
+  /// End position of each subdomain; the first entry is zero.
   std::vector<std::size_t> subdomain_end;
-  /// Boxes up to which parts of about as many particles each go, however many threads there are;
-  /// zero before the first.
+  /// End subdomain of each part; the first entry is zero. Parts hold about equal numbers of
+  /// particles and do not depend on the number of threads.
   std::vector<std::size_t> part_subdomain;
-  std::vector<std::size_t> part_end() const;  ///< places up to which each part goes
+  std::vector<std::size_t> part_end() const;  ///< end position of each part
 };
 
-/// A body of trusses in single precision, for the steps of a search whose residuals are computed
-/// elsewhere: product and preconditioner (docs/theory/large_bodies.md, L-1) of block_width vectors
-/// side by side. Vectors have shape (particles, dim, block_width); forces count by the root of a
-/// stiffness, and motions by one over it, so that energies are what they are.
+/// Truss body in single precision, for iterations whose residuals are computed elsewhere. Provides
+/// product and preconditioner (docs/theory/large_bodies.md, L-1) for block_width vectors at once.
+/// Vectors have shape (particles, dim, block_width). Forces are in units of the root of a
+/// stiffness, motions in units of its inverse, so that energies are unscaled.
 class SingleBody {
  public:
-  /// Whether a body consists of nothing but trusses.
+  /// Returns whether a body consists of trusses only.
   static bool is_made_of(const Network& network);
 
-  /// \param blocks  inverse ones of the particles, shape (particles, dim, dim)
+  /// \param blocks  inverse stiffness of each particle, shape (particles, dim, dim)
   /// \param coarse  factor of P'K P
-  /// \param order, bonds, unknowns  kept by reference, as the network
+  /// \param order, bonds, unknowns  kept by reference, as is the network
   SingleBody(const Network& network, const Unknowns& unknowns, const SubdomainMotions& motions,
              const SubdomainOrder& order, PackedBonds& bonds, std::span<const double> blocks,
              const Factor& coarse);
 
-  /// Takes over what has changed since.
-  /// \param ground  springs that hold unknowns, or empty
+  /// Adopts changed secants and ground springs.
+  /// \param ground  stiffness of ground springs per unknown, or empty
   void follow(Secants secants, std::span<const double> ground);
 
-  /// forces = K motions; where something is held they are those that hold it, and motions zero.
+  /// Computes forces = K motions. At held unknowns, forces are reactions and motions are zero.
   void multiply(std::span<const float> motions, std::span<float> forces,
                 const RowsDone& done) const;
   void precondition(std::span<const float> residuals, std::span<float> motions,
@@ -65,11 +65,11 @@ class SingleBody {
   const Unknowns& unknowns_;
   const SubdomainOrder& order_;
   PackedBonds& bonds_;
-  std::vector<float> springs_;  ///< to the ground, by the order; empty: none
-  std::vector<float> blocks_;   ///< inverse ones, by the order, zero where something is held
-  std::vector<float> moves_;    ///< rows of P, by the order, shape (particles, dim, motions)
-  SingleFactor factor_;         ///< that P'K P over the unit has
-  BlockVector<float> coarse_;   ///< shape (boxes, motions, block_width), by its order
+  std::vector<float> springs_;  ///< stiffness to the ground, in the order; empty: none
+  std::vector<float> blocks_;   ///< inverse stiffness of particles, in the order, zero where held
+  std::vector<float> moves_;    ///< rows of P, in the order, shape (particles, dim, motions)
+  SingleFactor factor_;         ///< factor of P'K P over the unit of stiffness
+  BlockVector<float> coarse_;   ///< shape (subdomains, motions, block_width), in the factor's order
 };
 
 }  // namespace perilink

@@ -7,18 +7,18 @@
 #include "solver/not_positive_definite.hpp"
 
 /// \file
-/// The part of BoxSolver for blocks of vectors.
+/// SubdomainSolver for blocks of vectors.
 
 namespace perilink {
 namespace {
 
-/// By their lag (L-2) estimates leave more digits than they are asked for, and columns need some of
-/// them; behind a correction of single precision they lag less, and bodies that single precision
-/// cannot do need more of them.
+/// Factor by which trusses tighten the tolerance. Error estimates lag (L-2), so that solutions have
+/// more digits than requested, and columns need some of them. Behind a correction in single
+/// precision estimates lag less, and bodies beyond single precision need more digits.
 constexpr double finer_of_trusses = 0.1;
 
-/// Energies of right sides where every particle gives way by itself, while all others stand still.
-/// \param blocks  inverse ones of the particles
+/// Returns the energies of right sides if each particle moves by itself and all others are fixed.
+/// \param blocks  inverse stiffness of the particles
 BlockRow local_energies(std::span<const double> blocks, int width, std::span<const double> right) {
   BlockRow energies{};
   const double* block = blocks.data();
@@ -88,8 +88,9 @@ GradientsReport SubdomainSolver::search_block(std::span<double> right, std::span
   return report;
 }
 
-/// Bodies that are stiff and soft by turns, or slender, may ask for more digits than single
-/// precision has: then blocks are left to double precision until boxes are made anew.
+/// Solves in single precision. If its digits do not suffice, for slender bodies or those with stiff
+/// and soft parts, double precision solves blocks until subdomains are made anew.
+/// \return whether single precision converged
 bool SubdomainSolver::is_found_in_single(std::span<const double> right, std::span<double> solution,
                                          const BlockRow& sizes, double enough,
                                          GradientsReport& report) {
@@ -97,7 +98,7 @@ bool SubdomainSolver::is_found_in_single(std::span<const double> right, std::spa
   try {
     report = search_in_single(right, solution, sizes, enough);
   } catch (const NotPositiveDefinite&) {
-    report.converged = false;  // double precision has the last word
+    report.converged = false;  // double precision decides
   }
   if (!report.converged) single_.reset();
   return report.converged;
@@ -113,8 +114,8 @@ GradientsReport SubdomainSolver::solve_block(std::span<double> right, std::span<
   return report;
 }
 
-/// Steps in single precision; what they have found is added up in double precision, and so is what
-/// is left. Right sides count by the root of their local energies, so that none is too small.
+/// Iterates in single precision, and sums solutions and residuals in double precision. Right sides
+/// are scaled by the root of their local energies, so that none is too small.
 GradientsReport SubdomainSolver::search_in_single(std::span<const double> right,
                                                   std::span<double> solution, const BlockRow& sizes,
                                                   double enough) {
@@ -122,7 +123,7 @@ GradientsReport SubdomainSolver::search_in_single(std::span<const double> right,
   const std::size_t row = static_cast<std::size_t>(unknowns_.width) * block_width;
   const double root = std::sqrt(packed_->unit());
   const BlockRow local = local_energies(blocks_, unknowns_.width, right);
-  BlockRow scaled{}, unit;  // sizes, and what a right side and its solution are divided by
+  BlockRow scaled{}, unit;  // scaled sizes, and divisors of right sides and solutions
   for (int c = 0; c < block_width; ++c) {
     unit[c] = local[c] > 0.0 ? std::sqrt(local[c]) : 1.0;
     scaled[c] = sizes[c] / (unit[c] * unit[c]);

@@ -14,25 +14,25 @@ namespace {
 
 constexpr std::size_t fewest_blocks = 64 / block_width;
 
-/// Iterations of a block, over those of the first, from which on the boxes are made anew.
+/// Iterations of a block, over those of the first, above which the subdomains are made anew.
 constexpr double slower = 1.3;
 
-/// Pivots below which the window begins anew.
+/// Pivots below which the cache is cleared.
 constexpr double small_pivot = 0.1;
 
-/// Errors of columns over those of solutions: an event moves the body by little, and what that
-/// leaves is taken away at every check.
+/// Error of columns over that of solutions. An event moves the body little, and every check removes
+/// the error that is left.
 constexpr double coarser = 100.0;
 
-/// Memory that the window may take where that leaves the fewest blocks.
+/// Memory of the cache, except for the fewest blocks [bytes].
 constexpr double most_bytes = 4e9;
 
-/// More calls than a run has: what is let go counts as used so long ago.
+/// Age of evicted columns, above the number of calls in a run.
 constexpr int let_go_after = 1 << 30;
 
 std::size_t blocks_of(std::size_t columns) { return (columns + block_width - 1) / block_width; }
 
-/// How many times the vector holds the other one, which has the same rows; 0: it is another.
+/// Returns s if x = s held, else 0.
 double share_of(const SparseVector& x, const SparseVector& held) {
   constexpr double same = 1e-14;
   if (x.rows != held.rows) return 0.0;
@@ -67,9 +67,9 @@ void SubdomainFactor::begin(const Unknowns& unknowns, Secants secants,
   make_solver();
 }
 
-/// Boxes of the body as it is now, split along its cracks.
+/// Makes the subdomains of the present body, split along its cracks.
 void SubdomainFactor::make_solver() {
-  solver_.reset();  // before there are two
+  solver_.reset();  // frees memory first
   solver_ = std::make_unique<SubdomainSolver>(network_, *unknowns_, secants_, options_, ground_);
   first_iterations_ = 0;
 }
@@ -90,7 +90,7 @@ void SubdomainFactor::correct(std::vector<double>& residual, double energy) {
   energy > 0.0 ? solver_->correct(residual, residual, energy) : solver_->solve(residual, residual);
 }
 
-/// What the vector is made of in the window, if it is.
+/// Returns the vector as a combination of cached vectors, if it is one.
 auto SubdomainFactor::parts_of(const SparseVector& x) const -> std::optional<std::vector<Part>> {
   std::vector<Part> parts;
   for (int k = 0; k < x.size(); ++k) {
@@ -125,7 +125,7 @@ void SubdomainFactor::let_go(std::span<const SparseVector> x) {
   }
 }
 
-/// Half of the blocks are made free: the columns that were used last go over to what they are now.
+/// Frees half of the blocks. The columns used last are stored with their present values.
 void SubdomainFactor::keep_latest() {
   const std::size_t kept = std::min(blocks_.size() / 2 * block_width, window_.size());
   std::vector<Eigen::Index> places(window_.size());
@@ -172,7 +172,7 @@ std::vector<SparseVector> SubdomainFactor::missing_of(std::span<const SparseVect
   return missing;
 }
 
-/// Takes what these vectors need into the window, and with it what is expected.
+/// Loads missing and expected vectors into the cache.
 void SubdomainFactor::hold(std::span<const SparseVector> x, Correction* correction) {
   const std::vector<SparseVector> missing = missing_of(x);
   if (missing.empty()) return;
@@ -187,7 +187,7 @@ void SubdomainFactor::hold(std::span<const SparseVector> x, Correction* correcti
   if ((blocks_.size() + blocks_of(chosen.size())) * block_width >
       columns_of_window(unknowns_->number.size(), options_)) {
     keep_latest();
-    chosen = choose(missing_of(x), reserved);  // some may have gone
+    chosen = choose(missing_of(x), reserved);  // some may have been evicted
   }
   const std::span<const SparseVector> all(chosen);
   for (std::size_t begin = 0; begin < all.size(); begin += block_width) {
@@ -203,9 +203,9 @@ bool SubdomainFactor::hold_and_correct(std::span<const SparseVector> x,
   return correction.is_done;
 }
 
-/// The vectors that are missing and, as far as blocks have room, those that are expected. Modes of
-/// an element that carries moments are asked for combined with each other: of them the unknowns.
-/// \param reserved  columns of the last block to leave free if they are
+/// Returns missing and, where blocks have room, expected vectors. For elements that carry moments
+/// it returns unknowns, as combinations of their vectors are requested.
+/// \param reserved  columns of the last block to leave free if possible
 std::vector<SparseVector> SubdomainFactor::choose(const std::vector<SparseVector>& missing,
                                                   std::size_t reserved) const {
   std::vector<SparseVector> chosen;
@@ -230,7 +230,7 @@ std::vector<SparseVector> SubdomainFactor::choose(const std::vector<SparseVector
   return chosen;
 }
 
-/// Solves for columns and puts them at the end of the window.
+/// Solves for columns and appends them to the cache.
 void SubdomainFactor::take_in(std::span<const SparseVector> x, Correction* correction) {
   const auto before = static_cast<Eigen::Index>(window_.size());
   const auto size = before + static_cast<Eigen::Index>(x.size());
@@ -254,7 +254,7 @@ void SubdomainFactor::take_in(std::span<const SparseVector> x, Correction* corre
   }
   for (const SparseVector& column : x) put_in_window(column, now_);
 
-  // Places in the window go on behind those of full blocks alone: unused columns stay zero.
+  // Positions in the cache skip unused columns of a block, which stay zero.
   const auto first_column = static_cast<Eigen::Index>((blocks_.size() - 1) * block_width);
   Eigen::MatrixXd shares = Eigen::MatrixXd::Zero(first_column + block_width, size);
   shares.topLeftCorner(shares_.rows(), before) = shares_;
@@ -266,7 +266,7 @@ void SubdomainFactor::take_in(std::span<const SparseVector> x, Correction* corre
   mirror_compliance(before);
 }
 
-/// x'y of vectors x and the columns y of a block.
+/// Returns x'y for vectors x and the columns y of a block.
 Eigen::MatrixXd SubdomainFactor::on_columns(std::span<const SparseVector> x,
                                             std::size_t block) const {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(x.size()), block_width);
@@ -279,7 +279,7 @@ Eigen::MatrixXd SubdomainFactor::on_columns(std::span<const SparseVector> x,
   return result;
 }
 
-/// Completes the compliance of new columns, those from `before` on, by symmetry.
+/// Completes the compliance of the columns from `before` on by symmetry.
 void SubdomainFactor::mirror_compliance(Eigen::Index before) {
   const Eigen::Index count = compliance_.cols() - before;
   compliance_.bottomLeftCorner(count, before) =
@@ -301,7 +301,7 @@ void SubdomainFactor::fill_right_sides(std::span<const SparseVector> x,
   }
 }
 
-/// The vector by places of the window.
+/// Returns the weights of cached vectors in a vector.
 Eigen::VectorXd SubdomainFactor::in_window(const SparseVector& x) {
   Eigen::VectorXd d = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(window_.size()));
   ++now_;
@@ -313,7 +313,7 @@ Eigen::VectorXd SubdomainFactor::in_window(const SparseVector& x) {
   return d;
 }
 
-/// Blocks times weights, per unknown.
+/// Returns the blocks times weights, per unknown.
 std::vector<double> SubdomainFactor::motion_of(const Eigen::VectorXd& weights) const {
   std::vector<double> motion(unknowns_->number.size(), 0.0);
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
@@ -353,7 +353,7 @@ void SubdomainFactor::compliance(std::span<const SparseVector> x, std::span<doub
   }
 }
 
-/// K^-1 goes to K^-1 + sign (K^-1 x) (K^-1 x)' / pivot.
+/// Changes K^-1 to K^-1 + sign (K^-1 x) (K^-1 x)' / pivot.
 void SubdomainFactor::change(const Eigen::VectorXd& d, double pivot, double sign) {
   const Eigen::VectorXd h = compliance_ * d, f = shares_ * d;
   compliance_.noalias() += (sign / pivot) * h * h.transpose();
@@ -374,7 +374,7 @@ void SubdomainFactor::downdate(std::span<const SparseVector> x,
     for (std::size_t k = 0; k < motion.size(); ++k) solution[k] += motion[k];
   }
   for (std::size_t a = 0; a < x.size(); ++a) change(in_window(x[a]), pivots[a], 1.0);
-  // Errors of columns grow by as much as the motions do.
+  // Errors of columns grow in proportion to the motions.
   if (std::ranges::any_of(pivots, [](double pivot) { return pivot < small_pivot; })) forget();
 }
 
@@ -404,7 +404,7 @@ FactorStatistics SubdomainFactor::statistics() const {
   result.entries = static_cast<double>(slot_of_.size()) * static_cast<double>(window_.size());
   result.bytes = 8.0 * result.entries;
   result.event_bytes = result.bytes;
-  // To begin anew costs two solutions: some hundred products of ten operations for each bond.
+  // A restart costs two solves: about a hundred products of ten operations per bond.
   result.flops = 1000.0 * static_cast<double>(network_.num_elements());
   result.factorizations = begun_;
   result.iterations = all_iterations_;

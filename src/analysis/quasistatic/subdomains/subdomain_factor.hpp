@@ -12,46 +12,45 @@
 
 namespace perilink {
 
-/// Columns that a window keeps, at most, in a body of so many components of displacement.
+/// Returns the capacity of the column cache for this number of displacement components.
 std::size_t columns_of_window(std::size_t components, const SubdomainSolverOptions& options = {});
 
-/// What a factor does for events, by conjugate gradients (docs/theory/large_bodies.md, section 4):
-/// a window of columns K^-1 e, the e vectors of elements that are near their events or, where
-/// elements carry moments, of unknowns there; and how the columns combine since elements have
-/// failed. An event whose vector is one of them, or acts on unknowns that are all in the window,
-/// costs one pass over the columns.
+/// Factor-free events (docs/theory/large_bodies.md, section 4): conjugate gradients replace the
+/// factor. A cache holds columns K^-1 e. The e are vectors of elements near their events or, if
+/// elements carry moments, of unknowns there. Woodbury updates combine the columns after elements
+/// have failed. An event costs one pass over the columns if its vector is cached, or acts on cached
+/// unknowns only.
 class SubdomainFactor final : public Factor {
  public:
   SubdomainFactor(const Network& network, const SubdomainSolverOptions& options);
 
-  /// Begins anew. All of it is kept by reference: products are those of the secants as they are.
-  /// \param ground  springs that hold unknowns, or empty
-  /// \throws NotPositiveDefinite where a part of the body can move without resistance
+  /// Starts anew. All arguments are kept by reference: products use the present secants.
+  /// \param ground  stiffness of ground springs per unknown, or empty
+  /// \throws NotPositiveDefinite if a part of the body can move without resistance
   void begin(const Unknowns& unknowns, Secants secants, const std::vector<double>& ground);
 
-  /// Whether K^-1 of this vector is at hand.
+  /// Returns whether K^-1 x is in the cache.
   bool holds(const SparseVector& x) const { return parts_of(x).has_value(); }
-  /// From now on it is, of these vectors. Called before the secants change: a downdate by vectors
-  /// that are not held would take the change twice.
+  /// Loads the columns of these vectors into the cache. Must precede a change of the secants: a
+  /// later downdate would take the change twice.
   void hold(std::span<const SparseVector> x) { hold(x, nullptr); }
-  /// The same where they are not held; with their columns a solution is corrected.
-  /// \param residual  goes over to K^-1 residual, as exact as a solution of this energy is to be
-  /// \return whether it has: blocks may have no room for it
+  /// Loads missing columns into the cache and corrects a solution with them.
+  /// \param residual  becomes K^-1 residual
+  /// \param energy    energy of the solution, which scales the error
+  /// \return whether the residual was replaced: blocks may have no room for it
   bool hold_and_correct(std::span<const SparseVector> x, std::vector<double>& residual,
                         double energy);
-  /// Vectors that are likely to be asked for next, the likeliest first: they go into the window
-  /// where blocks have room beside what is asked for.
+  /// Sets vectors that are likely to be needed next, the likeliest first. They are loaded where
+  /// blocks have room.
   void expect(std::vector<SparseVector> x) { expected_ = std::move(x); }
-  /// residual <- K^-1 residual, as exact as a solution of this energy is to be.
+  /// Replaces a residual by K^-1 residual, as accurate as a solution of this energy.
   void correct(std::vector<double>& residual, double energy);
-  /// correct() after elements have lost stiffness; no columns are kept. Boxes are made anew where
-  /// it takes many more iterations than with new ones.
+  /// Replaces a residual as correct() after elements have lost stiffness, and clears the cache. The
+  /// subdomains are made anew if the number of iterations has grown much.
   void follow(std::vector<double>& residual, double energy);
-  /// Elements of these vectors are gone, and hardly anybody asks for them any more: when the window
-  /// is full they go first.
+  /// Marks vectors of failed elements: they are evicted first when the cache is full.
   void let_go(std::span<const SparseVector> x);
-  /// Columns at hand have followed too many changes: all are solved for again when they are asked
-  /// for.
+  /// Clears the cache, for example after too many changes. Columns are then solved for on request.
   void forget();
 
   void factorize(const SparseMatrix& matrix, std::span<const Index> groups) override;
@@ -69,7 +68,7 @@ class SubdomainFactor final : public Factor {
   Index columns_solved() const { return columns_solved_; }
 
  private:
-  using Part = VectorSpan::Part;  ///< by places of the window
+  using Part = VectorSpan::Part;  ///< by positions in the cache
   std::optional<std::vector<Part>> parts_of(const SparseVector& x) const;
   void keep_latest();
   void make_solver();
@@ -97,21 +96,22 @@ class SubdomainFactor final : public Factor {
   Secants secants_;
   const std::vector<double>* ground_ = nullptr;
   std::unique_ptr<SubdomainSolver> solver_;
-  int all_iterations_ = 0;            ///< all calls of follow()
-  int following_iterations_ = 0;      ///< the first follow() with these boxes took
-  int first_iterations_ = 0;          ///< the first block took with these boxes
+  int all_iterations_ = 0;        ///< iterations of all calls of follow()
+  int following_iterations_ = 0;  ///< iterations of the first follow() with the present subdomains
+  int first_iterations_ = 0;      ///< iterations of the first block with the present subdomains
   std::vector<std::size_t> slot_of_;  ///< Unknowns::slots()
   std::vector<SparseVector> expected_;
-  std::vector<SparseVector> window_;  ///< vectors e whose columns are at hand
-  std::vector<Index> place_of_;  ///< per unknown: where it is in the window by itself, or no_index
-  VectorSpan span_;              ///< what the window makes up
-  std::vector<int> used_;        ///< per place: when an event used it last; negative: let go
-  int now_ = 0;                  ///< events and calls so far
-  /// Columns of K^-1 as it was when they were solved for, block after block, each of shape
-  /// (particles, width, block_width).
+  std::vector<SparseVector> window_;  ///< vectors e of cached columns
+  /// Per unknown: position of its unit vector in the cache, or no_index.
+  std::vector<Index> place_of_;
+  VectorSpan span_;        ///< span of the cached vectors
+  std::vector<int> used_;  ///< per position: last event that used it; negative: evict first
+  int now_ = 0;            ///< events and calls so far
+  /// Columns of K^-1 at the time of their solve, block after block, each of shape (particles,
+  /// width, block_width).
   std::vector<BlockVector<double>> blocks_;
-  BlockVector<double> right_;   ///< right sides of a block, of the same shape
-  Eigen::MatrixXd shares_;      ///< F: the present columns are those of the blocks times F
+  BlockVector<double> right_;   ///< right sides of a block, in the shape of blocks_
+  Eigen::MatrixXd shares_;      ///< F: the present columns are the blocks times F
   Eigen::MatrixXd compliance_;  ///< H: e' K^-1 e of the present columns
   int begun_ = 0;
   Index columns_solved_ = 0;

@@ -13,8 +13,8 @@
 namespace perilink {
 namespace {
 
-/// Particles along the edge of a box. Where the body is very large, larger ones keep the coarse
-/// factor small, for a fifth more iterations; solutions that are many pay for one that is larger.
+/// Returns the particles along an edge of a subdomain. Larger subdomains keep the coarse factor of
+/// very large bodies small, for a fifth more iterations. Many solves are worth a larger factor.
 double edge_of_subdomain(const Network& network, const SubdomainSolverOptions& options) {
   const Index particles = network.particles.size();
   if (options.edge > 0) return options.edge;
@@ -95,14 +95,14 @@ SolverError SubdomainSolver::not_there(int iterations, double error, double tole
       iterations, error, tolerance));
 }
 
-/// What moves without resistance shows under forces of any kind; the loads may not stir it. With
-/// the boxes as preconditioner the smallest eigenvalue of whole bodies is 0.1 to 1, of a body held
-/// by the last of its bonds 1e-3, of a mechanism below 1e-16. Bonds in single precision resist a
-/// mechanism a little, so that the network looks again where they find a small one.
+/// Checks resistance with random forces, since the loads may not excite a free motion. With the
+/// preconditioner the smallest eigenvalue of whole bodies is 0.1 to 1. It is 1e-3 if a body's last
+/// bonds hold, and below 1e-16 for a mechanism. Bonds in single precision resist a mechanism
+/// slightly, so the network checks small eigenvalues again.
 void SubdomainSolver::require_resistance() {
   constexpr double none = 1e-8, uncertain = 1e-4, enough = 1e-4;
   constexpr int most_steps = 2000;
-  std::mt19937 random(7);  // fixed: the same verdict in every run
+  std::mt19937 random(7);  // fixed: the same result in every run
   std::vector<double> forces(static_cast<std::size_t>(unknowns_.count)), motion;
   for (double& force : forces) force = static_cast<double>(random() % 2) - 0.5;
   double softest = 0.0;
@@ -139,7 +139,7 @@ GradientsReport SubdomainSolver::search_by(Multiply multiply, std::span<const do
       right, solution, enough, scale, most_steps, scalar_product, correct, too_soft);
 }
 
-/// The solution is from zero. Where rounded bonds do not get there the network goes on.
+/// Solves from zero; the network continues if rounded bonds do not converge.
 GradientsReport SubdomainSolver::search(std::span<const double> right, std::span<double> solution,
                                         double enough, double scale, int most_steps) {
   if (team_) return team_->search(right, solution, enough, scale, most_steps);
@@ -159,14 +159,14 @@ GradientsReport SubdomainSolver::search(std::span<const double> right, std::span
   return report;
 }
 
-/// residual = right - K solution
+/// Computes residual = right - K solution.
 void SubdomainSolver::find_residual(std::span<const double> right, std::span<const double> solution,
                                     std::span<double> residual) {
   multiply(solution, residual);
   for (std::size_t k = 0; k < residual.size(); ++k) residual[k] = right[k] - residual[k];
 }
 
-/// Steps with bonds in single precision, residuals by the network.
+/// Iterates with bonds in single precision; the network computes the residuals.
 GradientsReport SubdomainSolver::search_packed(std::span<const double> right,
                                                std::span<double> solution, double enough,
                                                double scale, int most_steps) {
@@ -176,10 +176,10 @@ GradientsReport SubdomainSolver::search_packed(std::span<const double> right,
                      {[&](std::span<const double> found, std::span<double> residual) {
                         find_residual(right, found, residual);
                       },
-                      !options_.blocks});  // events ask for all digits
+                      !options_.blocks});  // events need all digits
   } catch (const NotPositiveDefinite&) {
     std::ranges::fill(solution, 0.0);
-    return {};  // double precision has the last word
+    return {};  // double precision decides
   }
 }
 
@@ -202,7 +202,7 @@ void SubdomainSolver::precondition(std::span<const double> residual, std::span<d
   motions_->add(coarse_, result);
 }
 
-/// result = K q
+/// Computes result = K q.
 void SubdomainSolver::multiply(std::span<const double> q, std::span<double> result) {
   const std::vector<Index>& number = unknowns_.number;
   for (std::size_t slot = 0; slot < number.size(); ++slot) {
@@ -216,7 +216,7 @@ void SubdomainSolver::multiply(std::span<const double> q, std::span<double> resu
   for (std::size_t k = 0; k < ground_->size(); ++k) result[k] += (*ground_)[k] * q[k];
 }
 
-/// The same by packed bonds.
+/// Computes result = K q by packed bonds.
 void SubdomainSolver::multiply_packed(std::span<const double> q, std::span<double> result) {
   const auto width = static_cast<std::size_t>(unknowns_.width);
   const std::size_t row = PackedBonds::row_size(unknowns_.width);

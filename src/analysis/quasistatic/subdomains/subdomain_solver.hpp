@@ -19,76 +19,77 @@
 
 namespace perilink {
 
-/// How far conjugate gradients go, and with which boxes.
+/// Options of conjugate gradients and their subdomains.
 struct SubdomainSolverOptions {
-  double tolerance = 1e-10;  ///< error over solution, both in the norm of energy
-  Index edge = 0;  ///< particles along an edge of a box; 0: as many as serve the body best
-  /// Whether solve_block() is wanted; the errors of solve() then count each by its own energy.
+  double tolerance = 1e-10;  ///< relative error in the energy norm
+  Index edge = 0;            ///< particles along an edge of a subdomain; 0: chosen for the body
+  /// Whether solve_block() is needed. Errors of solve() then scale with the energy of each
+  /// solution.
   bool blocks = false;
-  /// Columns that a BoxFactor keeps.
+  /// Largest number of columns in the cache of a SubdomainFactor.
   Index window = 256;
-  Ranks* ranks = nullptr;  ///< that share the work, where there are several
+  Ranks* ranks = nullptr;  ///< ranks that share the work, or null
 };
 
-/// Equilibrium without a factor of the stiffness: conjugate gradients on the network itself, with
-/// the blocks of the particles and the rigid motions of boxes of them as preconditioner
+/// Finds equilibrium without a factor of the stiffness: conjugate gradients on the network. The
+/// two-level preconditioner uses blocks of particles and rigid-body motions of subdomains
 /// (docs/theory/large_bodies.md). The number of iterations hardly grows with the body.
 class SubdomainSolver {
  public:
-  /// \param unknowns  nothing may carry particles; kept by reference, as network and secants: the
-  ///                  product is that of the secants as they are
-  /// \param ground    springs that hold unknowns, size n, or empty: may be filled later; null:
+  /// \param unknowns  without embedded particles; kept by reference, as network and secants, whose
+  ///                  present values define the product
+  /// \param ground    stiffness of ground springs per unknown, or empty; may be filled later. Null:
   ///                  there are none, and secants do not change
-  /// \throws NotPositiveDefinite where a part of the body can move without resistance
+  /// \throws NotPositiveDefinite if a part of the body can move without resistance
   SubdomainSolver(const Network& network, const Unknowns& unknowns, Secants secants,
                   const SubdomainSolverOptions& options,
                   const std::vector<double>* ground = nullptr);
 
-  /// For a box of a lattice whose parts the ranks of the options make.
-  /// \param places    particles and springs, no bonds; kept by reference, as unknowns
+  /// Makes the solver of a lattice box whose parts the ranks of the options generate.
+  /// \param places    particles and springs, without bonds; kept by reference, as unknowns
   SubdomainSolver(const LatticePattern& pattern, const Network& places, const Unknowns& unknowns,
                   const SubdomainSolverOptions& options);
 
-  /// Both of size n; they may be the same memory. What is solved later may correct what was solved
-  /// before: the error counts by the largest energy so far.
-  /// \throws SolverError where the iterations do not get there
+  /// Solves K solution = right, of size n; both may be the same memory. A later solve may correct
+  /// an earlier one: the error scales with the largest energy so far.
+  /// \throws SolverError if the iterations do not converge
   void solve(std::span<const double> right, std::span<double> solution);
 
-  /// Many right sides from zero, each by itself; shape (particles, width, block_width), zero where
-  /// something is held. Errors count by the energy of a right side where all but the particles that
-  /// it acts on stand still: elements see differences between particles, which are small beside
-  /// motions of the whole body.
-  /// \param right   used up
-  /// \param enough  error that each is to have, as the tolerance counts
-  /// \param size_of_last  zero, or the energy that the error of the last right side counts by,
-  ///                      which is what is left of another solution
+  /// Solves for block_width right sides from zero, each by itself; shape (particles, width,
+  /// block_width), zero where held. The error scales with the energy of a right side if only its
+  /// own particles move. Strains depend on differences between particles, which are small compared
+  /// with motions of the whole body.
+  /// \param right   overwritten
+  /// \param enough  requested relative error
+  /// \param size_of_last  zero, or energy that scales the error of the last right side, the
+  ///                      residual of another solution
   /// \return iterations, and the largest error
-  /// \throws SolverError as solve()
+  /// \throws SolverError if the iterations do not converge
   GradientsReport solve_block(std::span<double> right, std::span<double> solution, double enough,
                               double size_of_last = 0.0);
 
-  /// A solution less exact, of what is left of another one.
-  /// \param energy  that the error counts by, of the whole solution; positive
-  /// \throws SolverError as solve()
+  /// Solves for a correction of another solution, less accurately.
+  /// \param energy  energy of the whole solution, which scales the error; positive
+  /// \throws SolverError if the iterations do not converge
   void correct(std::span<const double> right, std::span<double> solution, double energy);
 
-  /// An element holds a small part of the energy: solutions in which events are looked for are
-  /// finer by this.
+  /// Factor by which solutions for events are more accurate, since an element holds a small part of
+  /// the energy.
   static constexpr double finer = 1e-3;
 
   int iterations() const { return iterations_; }  ///< in all solves
-  double error() const { return error_; }         ///< the last solve left, as the tolerance counts
+  double error() const { return error_; }         ///< relative error of the last solve
   Index num_subdomains() const {
     return motions_ ? motions_->num_subdomains() : team_->num_subdomains();
   }
   int num_ranks() const { return team_ ? options_.ranks->count() : 1; }
   FactorStatistics coarse() const { return factor_ ? factor_->statistics() : team_->coarse(); }
-  /// The ranks that share the work; null: there are none.
+  /// Returns the communicator of the ranks that share the work, or null.
   const std::shared_ptr<Team>& team() const { return team_; }
 
  private:
   static constexpr int most_iterations = 20000;
-  /// From which on the start of threads takes less than the work.
+  /// Number of particles above which threads pay off.
   static constexpr Index many_particles = 10'000;
   static SolverError not_there(int iterations, double error, double tolerance);
   void precondition(std::span<const double> residual, std::span<double> result);
@@ -119,19 +120,19 @@ class SubdomainSolver {
   const Unknowns& unknowns_;
   Secants secants_;
   SubdomainSolverOptions options_;
-  std::optional<SubdomainMotions> motions_;  ///< none where ranks have made the body
+  std::optional<SubdomainMotions> motions_;  ///< absent if ranks generated the body
   std::vector<double> blocks_;               // inverse, shape (particles, width, width)
   const std::vector<double>* ground_ = nullptr;
   std::unique_ptr<Factor> factor_;
   std::shared_ptr<Team> team_;  ///< null: this process works alone
   std::optional<SubdomainOrder> order_;
-  std::unique_ptr<PackedBonds> packed_;  ///< null: products are those of the network
-  std::unique_ptr<SingleBody> single_;   ///< null: blocks are left to double precision
-  std::vector<double> coarse_;           // residual or motion of the boxes, shape (boxes, motions)
-  std::vector<double> motion_;           // shape (particles, width), zero where it is prescribed
-  BlockVector<double> packed_motion_, packed_forces_;  // the same in the order of packed bonds
+  std::unique_ptr<PackedBonds> packed_;  ///< null: products use the network
+  std::unique_ptr<SingleBody> single_;   ///< null: blocks use double precision
+  std::vector<double> coarse_;  // residual or motion of subdomains, shape (subdomains, motions)
+  std::vector<double> motion_;  // shape (particles, width), zero where it is prescribed
+  BlockVector<double> packed_motion_, packed_forces_;  // in the order of packed bonds
   BlockVector<double> coarse_block_;
-  /// Vectors for search_in_single(), shape (n, block_width), kept for the next block.
+  /// Work space of search_in_single(), shape (n, block_width), kept for the next block.
   struct SingleSpace {
     BlockVector<float> found, missing;
     BlockVector<double> residual;
