@@ -368,7 +368,7 @@ TEST_F(ProgramRuns, AnEquilibriumThatRoundOffHasLostIsAFailure) {
   const ProcessEnd end = solve(40000);
   EXPECT_EQ(end.exit_status, 3);
   EXPECT_THAT(end.err, testing::HasSubstr("work and energy are out of balance by 0."));
-  EXPECT_THAT(end.err, testing::HasSubstr("(solver = \"iterative\") lose less"));
+  EXPECT_THAT(end.err, testing::HasSubstr("(solver = \"iterative\") lose fewer digits"));
   EXPECT_EQ(summary("r")["status"], "failed");
 }
 

@@ -92,7 +92,7 @@ TEST(CrushedBodies, TornByALoadThatStaysHaveCollapsed) {
     return run.summary.json.at("reason").get<std::string>();
   };
   EXPECT_THAT(told("spacing = 10\nhorizon_ratio = 2\n"),
-              testing::HasSubstr("does not bear the load factor 0.171683: the body separated"));
+              testing::HasSubstr("cannot carry the load factor 0.171683: the body separated"));
   EXPECT_THAT(told("spacing = 5\nhorizon_ratio = 3\n"),
               testing::HasSubstr("until small strains no longer hold"));
 }

@@ -136,7 +136,7 @@ bool EventRun::is_beyond_small_strains(double load_factor) {
 void EventRun::note_overload(double load_factor) {
   if (reference_->driven || result_.termination != Termination::collapsed) return;
   result_.reason =
-      fmt::format("the body does not bear the load factor {:.6g}: {}", load_factor, result_.reason);
+      fmt::format("the body cannot carry the load factor {:.6g}: {}", load_factor, result_.reason);
 }
 
 /// Ends the run if bonds would leave small strains before the next event.
@@ -146,14 +146,14 @@ bool EventRun::leaves_small_strains(const Event& event) {
   if (!strains_.is_due(motion) || !is_beyond_small_strains(event.load_factor)) return false;
   if (event.at_constant_load && !reference_->driven) {
     end(Termination::collapsed,
-        "bonds go on breaking under loads that stay until small strains no longer hold");
+        "bonds keep breaking at constant load until small strains no longer hold");
     return true;
   }
   result_.beyond_small_strains = true;
   end(Termination::nothing_breaks,
       fmt::format("before the next bond fails, at the load factor {:.4g}, others would be shorter "
-                  "than small strains allow: what is crushed or only compressed bears any load, "
-                  "and this analysis tells no more about it",
+                  "than small strains allow: crushed or compressed parts resist any load, and "
+                  "further results would be meaningless",
                   event.load_factor));
   return true;
 }
@@ -204,7 +204,7 @@ void EventRun::record(double load_factor, const LoadWork& work, const Event& eve
       row_ = last;
       throw SolverError(
           fmt::format("work and energies of row {} are out of balance by {:.2g} of the work: the "
-                      "solver has lost the equilibrium of a body that is about to separate",
+                      "equilibrium is lost, since the body is about to separate",
                       last.step + 1, error));
     }
   }
@@ -267,7 +267,7 @@ bool EventRun::pass(const Event& event) {
 bool EventRun::stop_rule_met() {
   const StopRules& stop = *stop_;
   if (observer_.stop_requested()) {
-    end(Termination::interrupted, "a signal asked the run to stop");
+    end(Termination::interrupted, "a signal stopped the run");
   } else if (stop.broken_bonds && broken_bonds_ >= *stop.broken_bonds) {
     end(Termination::completed, fmt::format("{} bonds are broken", broken_bonds_));
   } else if (stop.load_fraction &&
@@ -288,7 +288,7 @@ void EventRun::record_separated(double load_factor, const LoadWork& work) {
   record(load_factor, work, {});
 }
 
-/// Runs from event to event; the load factor rises or falls to that of each event.
+/// Runs from event to event; the load factor rises or falls to each event.
 DamageResult EventRun::by_events() {
   check();
   while (true) {
@@ -312,7 +312,7 @@ DamageResult EventRun::by_events() {
 }
 
 /// Ends a run within a load step with the last equilibrium, at the load factor of the next event.
-/// Constant loads do unbounded work on a separating body. The energies are therefore those of a
+/// Constant loads do unbounded work on a separating body. The energies therefore belong to a
 /// load that followed the events since the last step.
 DamageResult EventRun::end_within_step(const Event& event) {
   energy_ = following_;
@@ -338,7 +338,7 @@ DamageResult EventRun::by_steps() {
         if (enough) {
           end(Termination::completed, fmt::format("{} bonds are broken", broken_bonds_));
         } else {
-          end(Termination::interrupted, "a signal asked the run to stop");
+          end(Termination::interrupted, "a signal stopped the run");
         }
         return end_within_step(event);
       }

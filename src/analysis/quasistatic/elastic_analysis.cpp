@@ -87,10 +87,11 @@ void refuse_lost_balance(const ElasticResult& result) {
   const double error = std::abs(result.work - result.strain_energy);
   if (error <= lost_solution * std::abs(result.work)) return;
   throw SolverError(fmt::format(
-      "work and energy are out of balance by {:.2g} of the work: the body, or what holds it, is so "
-      "compliant that the equilibrium is lost in round-off{}",
+      "work and energy are out of balance by {:.2g} of the work: the body, or its support, is so "
+      "compliant that round-off hides the equilibrium{}",
       error / std::abs(result.work),
-      result.subdomains > 0 ? "" : "; conjugate gradients (solver = \"iterative\") lose less"));
+      result.subdomains > 0 ? ""
+                            : "; conjugate gradients (solver = \"iterative\") lose fewer digits"));
 }
 
 /// Solves for the displacements and refines them once.

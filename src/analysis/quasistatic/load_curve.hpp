@@ -70,7 +70,7 @@ class PeakWatch {
   ///              vibrate
   explicit PeakWatch(int rows) : rows_(rows) {}
 
-  /// \param intact  nothing is damaged yet: the body has not given way, whatever the load
+  /// \param intact  the body is undamaged: it has not given way, whatever the load
   void add(const CurvePoint& row, bool intact = false);
 
   /// Sets the first peak; later loads are residual strength.

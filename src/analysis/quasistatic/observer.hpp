@@ -31,7 +31,7 @@ struct StepRecord {
   std::vector<Index> others = {};  ///< elements that fail with `element`; not in history.csv
   Index stage = 0;                 ///< number of the stage, from one; 0: the run has none
   Index at_constant_load = 0;      ///< 1: the element was beyond its limit at a constant load
-  Index side_change = 0;           ///< 1: bonds change their contact state and nothing fails
+  Index side_change = 0;           ///< 1: bonds change their contact state and no element fails
   Index elements = 0;              ///< active hosts in this equilibrium
   double constraint_energy = 0.0;  ///< PathEnergy::freed() so far [force length]
   double seconds = 0.0;            ///< wall time of this step; in timing.csv only

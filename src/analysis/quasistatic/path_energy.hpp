@@ -63,8 +63,8 @@ class PathEnergy {
   }
 
  private:
-  /// Adds the contribution of permanent loads: their work, and that of growing loads on the
-  /// displacements they cause.
+  /// Adds the contribution of permanent loads: their work, and the work of growing loads
+  /// on the displacements they cause.
   void advance_permanent(double load_factor, const ConstantWork& after) {
     const ConstantWork& before = work_.constant;
     const double both = load_factor_ + load_factor;

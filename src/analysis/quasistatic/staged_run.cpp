@@ -11,7 +11,7 @@ namespace perilink {
 
 /// Runs stage after stage until the last one is done, the body collapses or a signal stops the run.
 DamageResult EventRun::by_stages() {
-  if (options_.new_motion) throw SolverError("particles stay as they are in a run by stages");
+  if (options_.new_motion) throw SolverError("new_motion cannot be used in a run by stages");
   for (std::size_t k = 0; k < options_.stages.size(); ++k) {
     begin_stage(k);
     const bool goes_on = follow_stage(options_.stages[k]);
@@ -56,7 +56,7 @@ void EventRun::end_stage() {
   stage.smoothed_peak_load = result_.smoothed_peak_load;
 }
 
-/// Returns the load factor at which a stage ends if nothing fails; none for a stage by events.
+/// Returns the load factor at which a stage ends if no element fails; none for a stage by events.
 std::optional<double> EventRun::end_of(const StageRules& stage, const LoadWork& work) const {
   if (!stage.to_load) return stage.to;
   const double reference = reference_->value;
@@ -76,13 +76,13 @@ bool EventRun::follow_stage(const StageRules& stage) {
       constexpr double round_off = 1e-9;
       if (std::abs(row_.load) > round_off * std::abs(result_.peak_load)) {
         end(Termination::collapsed,
-            fmt::format("a mechanism: constant loads alone keep the load at {:.6g}, however far "
-                        "the displacements go on",
+            fmt::format("a mechanism: constant loads keep the load at {:.6g} at any further "
+                        "displacement",
                         row_.load));
       } else if (stage.to_load) {
         end(Termination::collapsed,
-            fmt::format("the body no longer resists the displacements: it could not bear the load "
-                        "{} any more",
+            fmt::format("the body no longer resists the displacements: it cannot carry the load "
+                        "{}",
                         *stage.to_load));
       }
       return false;

@@ -212,7 +212,7 @@ bool Equilibrium::resists_without(const Batch& batch) {
     if (!batch.breaks[k]) continue;
     for (const SparseVector& x : batch.removals[k].vectors()) {
       for (int j = 0; j < x.size(); ++j) load[x.rows[j]] += size * x.values[j];
-      size = size < 1.0 ? size + 0.381966 : size - 0.618034;  // never twice the same
+      size = size < 1.0 ? size + 0.381966 : size - 0.618034;  // sizes do not repeat
       ++vectors;
     }
   }

@@ -188,7 +188,7 @@ bool Equilibrium::holds_apart(const std::vector<Index>& opened) const {
     const Removal axial = make_axial_removal(network_, *unknowns_, element, fraction);
     const SparseVector& x = axial.x[0];
     for (int k = 0; k < x.size(); ++k) load[x.rows[k]] += size * x.values[k];
-    size = size < 1.0 ? size + 0.381966 : size - 0.618034;  // never twice the same
+    size = size < 1.0 ? size + 0.381966 : size - 0.618034;  // sizes do not repeat
   }
   factor_->solve(load, motion);
   double work = 0.0;
@@ -350,8 +350,8 @@ void Equilibrium::settle_closing(EventOutcome& outcome) {
     outcome.mechanism = !follow_sides(wrong, outcome);
     if (outcome.mechanism) return;
   }
-  throw SolverError(fmt::format(
-      "after {} rounds it is not settled which of the damaged bonds are closed", most_rounds));
+  throw SolverError(
+      fmt::format("the contact states of damaged bonds do not settle in {} rounds", most_rounds));
 }
 
 /// Reverts an event that separates the body.

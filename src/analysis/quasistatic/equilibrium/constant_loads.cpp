@@ -29,7 +29,7 @@ void Equilibrium::begin_stage(const Unknowns& unknowns, const Loads& loads,
   keep_all_current();
   const bool fewer_move = static_cast<std::size_t>(unknowns.count) != solution_.size();
   if (fewer_move && !ground_stiffness_.empty()) {
-    throw SolverError("nothing can be gripped while ground springs hold a loose part");
+    throw SolverError("particles cannot be clamped while ground springs hold a loose part");
   }
   // Ground springs hold loose parts at their present positions.
   constant.ground_load = ground_load_;

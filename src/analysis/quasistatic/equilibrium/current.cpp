@@ -16,9 +16,9 @@ constexpr double most_drift = 1e-10;
 
 }  // namespace
 
-/// Selects the displacements that events keep current. Under forces only, an event needs those of
-/// elements that can fail. The backward pass then skips other parts of the body, and f'u is updated
-/// by its growth. Prescribed displacements and stages need the reactions, and thus all
+/// Selects the displacements that events keep current. Under forces only, an event needs the ends
+/// of elements that can fail. The backward pass then skips other parts of the body, and f'u is
+/// updated by its growth. Prescribed displacements and stages need the reactions, and thus all
 /// displacements.
 void Equilibrium::choose_current_unknowns() {
   partial_ = false;
@@ -145,9 +145,9 @@ void Equilibrium::judge_columns(std::span<const double> missing,
 }
 
 /// Removes errors of columns from the displacements.
-/// \param size      norm of the residual over that of the load
+/// \param size      norm of the residual over the norm of the load
 /// \param residual  residual per unknown; overwritten
-/// \return norm of the residual that is left, over that of the load
+/// \return norm of the residual that is left, over the norm of the load
 double Equilibrium::refine_followed(double size, std::vector<double>& residual) {
   if (size <= fine_residual) return size;
   const std::vector<double> missing = residual;

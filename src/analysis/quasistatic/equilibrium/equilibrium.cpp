@@ -39,7 +39,9 @@ Equilibrium::Equilibrium(const LoadedNetwork& problem, const EquilibriumOptions&
       secants_(static_cast<std::size_t>(network_.num_elements()), 1.0),
       has_kept_(network_.has_kept_shear()) {
   if (is_followed_by_subdomains(problem, options)) {
-    if (problem.embedded) throw std::invalid_argument("boxes do not follow what is carried");
+    if (problem.embedded)
+      throw std::invalid_argument(
+          "conjugate gradients with subdomains do not support embedded particles");
     auto subdomains = std::make_unique<SubdomainFactor>(network_, options.subdomains);
     subdomains_ = subdomains.get();
     factor_ = std::move(subdomains);
@@ -131,7 +133,7 @@ Freedom Equilibrium::change_motion(const Unknowns& unknowns) {
     throw SolverError("the unknowns cannot change while ground springs hold a loose part");
   }
   if (unknowns.prescribed != unknowns_->prescribed) {
-    throw std::invalid_argument("prescribed motions do not change with the unknowns");
+    throw std::invalid_argument("new unknowns must keep the prescribed motions");
   }
   bring_factor_up();
   if (stale_) refresh();
@@ -144,12 +146,13 @@ Freedom Equilibrium::change_motion(const Unknowns& unknowns) {
     EventOutcome sides;
     if (!axial_.empty()) settle_closing(sides);
     if (sides.mechanism) {
-      throw SolverError("particles come free that nothing but closed bonds would hold");
+      throw SolverError("only closed bonds would hold the released particles");
     }
     events_to_follow_ = 0;
     const LoadWork after = work();
     if (before.separated || after.separated) {
-      throw SolverError("the unknowns change while the body does not resist what drives it");
+      throw SolverError(
+          "the unknowns cannot change while the body does not resist the prescribed displacements");
     }
     Freedom freedom{after.compliance() - before.compliance()};
     if (constant_) freedom.beside = permanent_growth(beside, constant_work());

@@ -94,8 +94,8 @@ class Equilibrium {
   /// \param distance  largest change of the load factor, with its sign; may be infinite
   SideChange next_side_change(double distance) const;
 
-  /// Changes the contact states of damaged bonds with zero extension to those towards which the
-  /// load moves.
+  /// Changes the contact states of damaged bonds with zero extension according to the direction of
+  /// the load.
   /// \param direction  1 if the load factor grows, -1 if it falls
   EventOutcome pass_side_change(double direction);
 
@@ -341,8 +341,8 @@ class Equilibrium {
   double force_work_ = 0.0;            ///< f'u, updated at events while partial_
   double driven_spring_work_ = 0.0;    ///< work of elastic supports at prescribed displacements
   std::vector<std::size_t> slot_of_;   ///< Unknowns::slots()
-  /// With embedded particles: slots that unknowns move. The first are all of them, the second,
-  /// while partial_, those that the search needs.
+  /// With embedded particles: slots that unknowns move. The first list holds all, the second,
+  /// while partial_, only slots that the search needs.
   std::vector<std::size_t> moving_slots_, current_slots_;
   std::vector<double> solution_;  ///< per unknown
   std::vector<double> displacement_;

@@ -12,7 +12,7 @@ namespace perilink {
 
 /// Outcome of an event in which an element loses stiffness.
 struct EventOutcome {
-  /// The element held the last load path, except for weak elastic supports; nothing was changed.
+  /// The element held the last load path, except for weak elastic supports; the body is unchanged.
   bool mechanism = false;
   double secant = 0.0;  ///< new stiffness of the element over its intact stiffness; 0: it broke
   bool broke() const { return secant == 0.0; }
@@ -58,8 +58,8 @@ inline constexpr double next_to_infinite = 1e12;
 struct LoadWork {
   double forces = 0.0;    ///< f'u: applied forces times displacements
   double supports = 0.0;  ///< R'd: reactions times prescribed displacements
-  /// The body no longer resists the prescribed displacements. Either nothing resists and both
-  /// products are zero, or the resistance is negligible beside the former one.
+  /// The body no longer resists the prescribed displacements. Both products are
+  /// then zero, or the resistance is negligible compared with the former one.
   bool separated = false;
   ConstantWork constant = {};  ///< contribution of permanent loads
   double compliance() const { return forces - supports; }

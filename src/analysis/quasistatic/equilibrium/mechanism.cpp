@@ -62,9 +62,9 @@ void factorize_stiffness(Factor& factor, const SparseMatrix& stiffness, const Un
   }
   throw NotPositiveDefinite(
       "part of the body can move freely" + place_of(moves, unknowns, particles) +
-          ", or it is so slender, or held so softly, that a factor cannot tell: its stiffness "
-          "matrix is singular to working precision; conjugate gradients (solver = \"iterative\") "
-          "lose less",
+          ", or it is so slender, or held so softly, that round-off hides its stiffness: the "
+          "stiffness matrix is singular to working precision; conjugate gradients (solver = "
+          "\"iterative\") lose fewer digits",
       moves);
 }
 

@@ -30,7 +30,7 @@ constexpr int most_passes = 8;
 /// loose [-].
 constexpr double least_support = 1e-3;
 
-/// Largest usable error of a motion, as energy over that of the motion [-].
+/// Largest usable error of a motion, as energy over the energy of the motion [-].
 constexpr double most_error = 1e-6;
 
 constexpr const char* out_of_digits =

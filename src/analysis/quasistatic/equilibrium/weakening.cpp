@@ -227,7 +227,7 @@ int Equilibrium::cut(Index element) {
     throw SolverError("the part that comes loose carries load: the body has separated");
   }
   if (must_rebuild_ && !rebuild_without(element, 0.0)) {
-    throw SolverError("the body without the part that comes loose cannot be factorised");
+    throw SolverError("the stiffness matrix without the loose part cannot be factorised");
   }
   commit(removal, element, 0.0);
   return springs;

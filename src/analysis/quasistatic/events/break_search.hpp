@@ -47,7 +47,7 @@ inline double finite_ratio(Index element, double ratio) {
   if (std::isfinite(ratio)) return ratio;
   throw SolverError("the stretch of element " + std::to_string(element) +
                     " over its limit is not a finite number: displacements or limits are not "
-                    "finite, and no figure that follows would mean anything");
+                    "finite, and further results would be meaningless");
 }
 
 /// Makes the search for the intact elements of a network, trusses or frames.

@@ -15,7 +15,7 @@ struct Event {
   Index element = no_index;        ///< breaks or yields; no_index: there are no more events
   double load_factor = 0.0;        ///< load factor of the event
   bool at_constant_load = false;   ///< the element is beyond its limit at a constant load
-  bool changes_side = false;       ///< a damaged bond closes or opens, and nothing fails
+  bool changes_side = false;       ///< a damaged bond closes or opens, and no element fails
   std::vector<Index> others = {};  ///< elements that fail with it, within the event tolerance
 };
 
@@ -27,8 +27,8 @@ class EventEngine {
 
   /// Finds the element that reaches its limit first as the load grows from zero. Among load factors
   /// within `tie_tolerance` the lowest element wins, so that round-off and threads do not decide.
-  /// With an event tolerance, the load factor is the middle of those of all elements that fail
-  /// together.
+  /// With an event tolerance, the load factor is the middle of the range of all elements that
+  /// fail together.
   /// \param most  load factor of a step: elements that reach their limits above it do not fail with
   ///              it
   virtual Event next_event_below(double most) = 0;

@@ -12,8 +12,7 @@ namespace {
 /// Number of blocks below which one thread is faster.
 constexpr Index fewest_parallel_bonds = 400;
 
-constexpr const char* no_crushing =
-    "elements that only stretch have no teeth in compression of their own";
+constexpr const char* no_crushing = "truss elements have no segments of their own in compression";
 
 }  // namespace
 

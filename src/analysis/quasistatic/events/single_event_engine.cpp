@@ -138,8 +138,8 @@ void SingleEventEngine::refuse_hidden_strains(double noise, const BreakSearch::H
     if (beyond > far_more * reached) return;
   }
   throw SolverError(
-      "the body moves as a whole, so far that round-off hides the stretches of its bonds: nothing "
-      "tells which of them breaks next; hold it by supports or by stiffer springs");
+      "the body moves as a whole, so far that round-off hides the stretches of its bonds: the "
+      "next bond to break is unknown; hold the body by supports or by stiffer springs");
 }
 
 /// Solves for missing columns of K^-1 of an event, with columns of the elements closest to their

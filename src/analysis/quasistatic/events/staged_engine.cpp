@@ -226,8 +226,8 @@ void StagedEngine::count_changes() {
   changed_towards_ = direction_;
   if (changes_there_ < most_changes) return;
   throw SolverError(fmt::format(
-      "damaged bonds open and close again and again at the load factor {:.6g}: it cannot be told "
-      "which of them are closed",
+      "damaged bonds open and close again and again at the load factor {:.6g}: their contact "
+      "states do not settle",
       load_factor_));
 }
 

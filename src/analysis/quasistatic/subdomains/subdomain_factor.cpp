@@ -14,14 +14,14 @@ namespace {
 
 constexpr std::size_t fewest_blocks = 64 / block_width;
 
-/// Iterations of a block, over those of the first, above which the subdomains are made anew.
+/// Iterations of a block over the first block's, above which the subdomains are made anew.
 constexpr double slower = 1.3;
 
 /// Pivots below which the cache is cleared.
 constexpr double small_pivot = 0.1;
 
-/// Error of columns over that of solutions. An event moves the body little, and every check removes
-/// the error that is left.
+/// Error of columns over the error of solutions. An event moves the body little, and every check
+/// removes the error that is left.
 constexpr double coarser = 100.0;
 
 /// Memory of the cache, except for the fewest blocks [bytes].
@@ -364,7 +364,7 @@ void SubdomainFactor::downdate(std::span<const SparseVector> x,
                                std::span<const double> load_changes, std::span<const double> pivots,
                                std::span<double> solution) {
   for (const SparseVector& column : x) {
-    if (!holds(column)) throw std::logic_error("columns are solved for before a change");
+    if (!holds(column)) throw std::logic_error("columns must be solved for before a change");
   }
   if (!solution.empty()) {
     const std::vector<double> shares = extensions(x, load_changes, solution);

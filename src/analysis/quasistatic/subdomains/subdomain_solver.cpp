@@ -89,9 +89,9 @@ SubdomainSolver::SubdomainSolver(const LatticePattern& pattern, const Network& p
 
 SolverError SubdomainSolver::not_there(int iterations, double error, double tolerance) {
   return SolverError(fmt::format(
-      "conjugate gradients stopped after {} iterations with an error of {:.1e} where {:.0e} was "
-      "asked for: parts of the body are held together by very little, or the tolerance is below "
-      "what round-off allows; take solver = \"direct\"",
+      "conjugate gradients stopped after {} iterations with an error of {:.1e}, above the "
+      "tolerance {:.0e}: parts of the body are weakly connected, or the tolerance is below "
+      "round-off; set solver = \"direct\"",
       iterations, error, tolerance));
 }
 

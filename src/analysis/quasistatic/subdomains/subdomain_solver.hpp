@@ -124,7 +124,7 @@ class SubdomainSolver {
   std::vector<double> blocks_;               // inverse, shape (particles, width, width)
   const std::vector<double>* ground_ = nullptr;
   std::unique_ptr<Factor> factor_;
-  std::shared_ptr<Team> team_;  ///< null: this process works alone
+  std::shared_ptr<Team> team_;  ///< null: a single process
   std::optional<SubdomainOrder> order_;
   std::unique_ptr<PackedBonds> packed_;  ///< null: products use the network
   std::unique_ptr<SingleBody> single_;   ///< null: blocks use double precision

@@ -260,7 +260,7 @@ TEST(DamageAnalysis, StepsCollapseWithinAStep) {
   EXPECT_EQ(recorder.broken_at_end, 1);
   EXPECT_NEAR(recorder.rows[1].load_factor, 0.01, 1e-16);
   EXPECT_LT(result.energy_error, 1e-13);
-  EXPECT_THAT(result.reason, HasSubstr("does not bear the load factor 0.016"));
+  EXPECT_THAT(result.reason, HasSubstr("cannot carry the load factor 0.016"));
   // Its energies are those of a load that follows the body.
   Recorder events;
   run(make_square(), {}, events);
