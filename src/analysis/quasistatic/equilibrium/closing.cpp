@@ -291,7 +291,7 @@ std::vector<double> Equilibrium::telling_extensions(std::span<const double> moti
 /// Returns the fraction t of the way between two motions at which the energy is least. The second
 /// is the equilibrium of the present contact states. The derivative at t is
 ///
-///   -(1 - t) q + sum over bonds that have changed sides of +-k (1 - a) e(t) (e_to - e_from),
+///   -(1 - t) q + sum over bonds that changed contact state of +-k (1 - a) e(t) (e_to - e_from),
 ///
 /// where q is twice the energy of the difference. The slope changes where an extension is zero.
 double Equilibrium::line_minimum(std::span<const double> from, std::span<const double> to) const {
