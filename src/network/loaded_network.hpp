@@ -40,7 +40,7 @@ struct LoadedNetwork {
   ReferenceLoad reference;
   /// Load cases of the stages; the members above belong to the first stage.
   std::vector<LoadCase> sets = {};
-  /// Host elements, if any; `unknowns` is then the initial motion with all hosts active.
+  /// Host elements, if any; `unknowns` is then the motion with the initially active hosts.
   std::optional<EmbeddedBody> embedded = {};
   /// Template for distributed mesh generation, if processes build their own bonds. The network then
   /// has only particles.

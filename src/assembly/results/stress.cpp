@@ -114,7 +114,6 @@ bool is_damaged(const StressInput& input, Index particle) {
   return closed && (open || input.network.carries_moments());
 }
 
-/// Computes the stresses of a block of particles.
 template <int Dim>
 class StressFinder {
  public:

@@ -51,7 +51,6 @@ struct BondConstants {
   double critical_stretch = 0.0;
 };
 
-/// Constants of every pair of materials.
 class PairConstants {
  public:
   PairConstants(const Body& body, const NetworkInput& input) : count_(input.materials.size()) {

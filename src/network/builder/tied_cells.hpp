@@ -20,7 +20,6 @@ struct BondedPart {
   std::vector<Index> whole_of;  ///< numbers of its particles in the whole body, ascending
 };
 
-/// Returns the bonded part of a body.
 /// \param thickness  thickness of two-dimensional bodies [length]
 BondedPart bonded_part(const Body& whole, double thickness);
 

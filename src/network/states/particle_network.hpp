@@ -26,9 +26,10 @@ struct ParticleNetwork {
 };
 
 /// Number of nearest neighbours of a particle (Eq. 3.50). All particles not farther than the sixth
-/// nearest (in the plane) or the eighteenth count, except those only reached by leaving the body.
-/// More are added until every strain stretches some bond. Relative differences of distances up to
-/// 1e-6 are ignored, so that regular arrangements keep their symmetry.
+/// nearest (in the plane) or the eighteenth nearest (in space) count. Particles that can only be
+/// reached by leaving the body do not. More are added until every strain stretches some bond.
+/// Relative differences of distances up to 1e-6 are ignored, so that regular arrangements keep
+/// their symmetry.
 inline constexpr int neighbors_in_plane = 6, neighbors_in_space = 18;
 
 /// Returns particles with the volumes of their Voronoi cells and the constants of
