@@ -10,15 +10,15 @@
 namespace perilink {
 namespace {
 
-/// The node of a bar that an end of a segment is, or moves with but for a prestrain.
+/// Returns the bar node at an end of a bar element. An end that a prestrain shifts is an embedded
+/// point that follows this node.
 Index node_of(const Network& network, Index end) {
   if (!network.is_embedded_point(end)) return end;
   return network.embedded_points.particles.row(end - network.first_embedded_point())[0];
 }
 
-/// Motion of the solid at the nodes of bars, shape (particles, dim); that of particles elsewhere.
-/// It is that of the node's anchor, or the linear field next to the motions of the tied particles,
-/// by the stiffness of their ties.
+/// Returns the motion of the solid at the nodes of bars, shape (particles, dim), by the rules of
+/// BarState::slip. Other particles keep their own motion.
 std::vector<double> motion_of_solid(const Network& network, std::span<const double> motion) {
   const Eigen::Index dim = network.dim(), width = network.width();
   const Index count = network.particles.size();
@@ -49,7 +49,7 @@ std::vector<double> motion_of_solid(const Network& network, std::span<const doub
     Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(dim + 1, dim);
     for (const Index tie : ties.row(node)) {
       const Index solid = network.bonds.first[tie];
-      Eigen::VectorXd basis(dim + 1);  // one, and the way from the node
+      Eigen::VectorXd basis(dim + 1);  // one, and the vector from the node
       basis[0] = 1.0;
       for (Eigen::Index a = 0; a < dim; ++a) {
         basis[a + 1] = network.particles.position(solid)[a] - network.particles.position(node)[a];
@@ -66,8 +66,8 @@ std::vector<double> motion_of_solid(const Network& network, std::span<const doub
   return found;
 }
 
-/// Segments before and behind each one in its bar, in which a closed bar has no ends; at an end the
-/// segment itself.
+/// Returns the bar elements before and after each bar element. The ends of a closed bar are
+/// neighbours; at an open end the element is its own neighbour.
 std::vector<std::array<std::size_t, 2>> neighbours_of(const Network& network) {
   const Bars& bars = network.bars;
   const auto nodes = [&](std::size_t s) {
@@ -93,17 +93,18 @@ std::vector<std::array<std::size_t, 2>> neighbours_of(const Network& network) {
   return neighbours;
 }
 
-/// Per particle the tie that holds it along its bar; no_index where it has no anchor.
+/// Returns, per particle, the slip spring along the bar, or no_index without an embedded point.
 std::vector<Index> slip_springs_along_bars(const Network& network) {
   std::vector<Index> ties(static_cast<std::size_t>(network.particles.size()), no_index);
   for (Index e = network.first_embedded_slip_spring; e < network.first_bar_element;
        e += network.dim()) {
-    ties[network.bonds.first[e]] = e;  // those across the bar come behind it
+    ties[network.bonds.first[e]] = e;  // springs across the bar follow
   }
   return ties;
 }
 
-/// What ends of bars give to the solid, in the sense in which forces grow along the bar.
+/// Computes the forces that bars pass to the solid at their ends, positive where the force grows
+/// along the bar [force].
 class BarEnds {
  public:
   BarEnds(const Network& network, Secants secants, std::span<const double> motion,
@@ -114,7 +115,7 @@ class BarEnds {
         solid_(solid),
         ties_(slip_springs_along_bars(network)) {}
 
-  /// \param otherwise  where the end has no anchor
+  /// \param otherwise  result for an end without an embedded point [force]
   double given(std::size_t segment, bool begin, double otherwise) const {
     const auto dim = static_cast<std::size_t>(network_.dim());
     const Index e = network_.first_bar_element + static_cast<Index>(segment);
@@ -141,7 +142,7 @@ class BarEnds {
   std::vector<Index> ties_;
 };
 
-/// By the forces of the segments.
+/// Returns the bond stress of each bar element [force/length^2].
 std::vector<double> bond_stresses(const Network& network, const std::vector<double>& force,
                                   const BarEnds& ends) {
   const Bars& bars = network.bars;
@@ -151,8 +152,8 @@ std::vector<double> bond_stresses(const Network& network, const std::vector<doub
     const double perimeter = bars.perimeter.empty()
                                  ? std::sqrt(4.0 * std::numbers::pi * bars.area[s])
                                  : bars.perimeter[s];
-    // At a node the solid takes the difference of the forces of its segments, over half of each; at
-    // an end of the bar what its tie bears, or else all of it.
+    // At an inner node the solid takes the difference of the two forces, over half of each element.
+    // At an end it takes the force of the slip spring, or the whole force without one.
     const auto length_of = [&](std::size_t k) {
       return network.bonds.length(network.first_bar_element + static_cast<Index>(k));
     };

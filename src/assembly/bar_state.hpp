@@ -8,23 +8,25 @@
 
 namespace perilink {
 
-/// How reinforcing bars are strained, and how far they have slipped in the solid around them.
+/// Strains, forces and slips of reinforcing bars.
 struct BarState {
-  std::vector<double> strain;  ///< per segment [-]
-  std::vector<double> force;   ///< along it, tension positive [force]
+  std::vector<double> strain;  ///< per bar element [-]
+  std::vector<double> force;   ///< along the bar element, tension positive [force]
   std::vector<double> stress;  ///< force over area [force/length^2]
-  /// By which the ends of a segment have moved towards the end of their bar beyond what the solid
-  /// does there, their mean [length]. The solid at a node moves as the node's anchor, or by the
-  /// linear field next to the motions of its tied particles, weighted with the intact stiffness of
-  /// the ties; a node that is a particle of the solid does not slip.
+  /// Displacement of a bar element relative to the solid, towards the end of its bar, mean of its
+  /// two ends [length]. The solid at a node moves with the node's embedded point. Without one it
+  /// moves by a linear field fitted to the bonded particles, weighted with the intact stiffness of
+  /// the slip springs. A node that is a particle of the solid does not slip.
   std::vector<double> slip;
-  /// What the segment gives to the solid around it, the mean of its ends: at each the change of the
-  /// force per length over the perimeter of a round bar; at an end with an anchor what the tie
-  /// along the bar bears, else beyond it there is no force [force/length^2].
+  /// Bond stress that a bar element transfers to the solid, mean of its two ends [force/length^2].
+  /// At a node it is the change of the bar force per length over the perimeter. At an end the slip
+  /// spring along the bar gives the force; without an embedded point the force beyond the end is
+  /// zero.
   std::vector<double> bond_stress;
 };
 
-/// \param motion  that of all particles, shape (particles, width)
+/// Returns the state of all bar elements.
+/// \param motion  all particles, shape (particles, width)
 BarState bar_state(const Network& network, Secants secants, std::span<const double> motion);
 
 }  // namespace perilink

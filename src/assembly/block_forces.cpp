@@ -14,7 +14,7 @@ namespace {
 
 constexpr Index elements_for_threads = 200000;
 
-/// Numbers of a block come in parts of as many as a register holds.
+/// A block is processed in parts that fill one register.
 constexpr int lanes = lanes_of<double>(block_width);
 using Part = Lanes<double, lanes>;
 using PartInMemory = LanesInMemory<double, lanes>;
@@ -24,14 +24,14 @@ const PartInMemory& at(const double* numbers) {
 }
 PartInMemory& at(double* numbers) { return *reinterpret_cast<PartInMemory*>(numbers); }
 
-/// Where the numbers of a particle begin.
+/// Returns the offset of a particle's first number.
 template <int Width>
 std::size_t begin_of(Index particle) {
   return static_cast<std::size_t>(particle) * Width * block_width;
 }
 
-/// Forces of the columns [from, to). Bonds of a particle mostly follow each other: its motion and
-/// force stay in registers meanwhile.
+/// Adds the forces of the columns [from, to). Consecutive bonds mostly share their first particle,
+/// so its motion and force stay in registers.
 template <int Dim>
 void add_trusses(const Network& network, Secants secants, const double* motions, double* forces,
                  int from, int to) {
@@ -68,7 +68,8 @@ void add_trusses(const Network& network, Secants secants, const double* motions,
   }
 }
 
-/// Threads take columns of their own, and each reads all bonds: sums are the same for any number.
+/// Each thread takes its own columns and reads all bonds, so that sums do not depend on the number
+/// of threads.
 template <int Dim>
 void add_trusses(const Network& network, Secants secants, const double* motions, double* forces) {
   const bool shared = network.num_elements() > elements_for_threads && omp_get_max_threads() > 1;
@@ -107,7 +108,7 @@ void add_frames(const Network& network, Secants secants, const double* motions, 
   }
 }
 
-/// One motion after the other, where states and finite elements count as well.
+/// Computes the forces column by column, for networks with states or finite elements.
 void find_one_by_one(const Network& network, Secants secants, std::span<const double> motions,
                      std::span<double> forces) {
   const std::size_t slots = motions.size() / block_width;

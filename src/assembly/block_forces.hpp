@@ -7,8 +7,10 @@
 
 namespace perilink {
 
-/// Forces of all elements and elastic supports under many motions at once, see internal_force().
-/// \param motions  shape (particles, width, block_width), as `forces`
+/// Computes the forces of all elements and elastic supports for block_width motions, see
+/// internal_force().
+/// \param motions  shape (particles, width, block_width)
+/// \param forces   the same shape as `motions` [force]
 void block_forces(const Network& network, Secants secants, std::span<const double> motions,
                   std::span<double> forces);
 

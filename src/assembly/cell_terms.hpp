@@ -10,11 +10,11 @@
 #include "network/cells/linear_elements.hpp"
 
 /// \file
-/// What linear finite elements add to stiffness and forces.
+/// Contributions of linear finite elements to stiffness and forces.
 
 namespace perilink {
 
-/// Gradients of a cell's shape functions, one row for each vertex.
+/// Gradients of a cell's shape functions, one row per vertex [1/length].
 template <int Dim>
 using Gradients = Eigen::Map<const Eigen::Matrix<double, Dim + 1, Dim, Eigen::RowMajor>>;
 
@@ -32,7 +32,7 @@ inline Csr cells_of_particles(const LinearElements& elements) {
   });
 }
 
-/// Blocks of cells, see LowerTriangle: V (lambda g_j g_i' + mu g_i g_j' + mu (g_i g_j) 1).
+/// Stiffness blocks of cells for LowerTriangle: V (lambda g_j g_i' + mu g_i g_j' + mu (g_i g_j) 1).
 template <int Dim>
 class CellBlocks {
  public:
@@ -66,9 +66,9 @@ class CellBlocks {
   Csr cells_;
 };
 
-/// Adds forces and energy of the cells.
-/// \param displacement  shape (particles, width), as `forces`; the first Dim components are the
-///                      translations
+/// Adds the forces [force] and the energy [force length] of the cells.
+/// \param displacement  shape (particles, width); the first Dim components are translations
+/// \param forces        the same shape as `displacement`
 template <int Dim, class Real>
 void add_cells(const LinearElements& elements, std::span<const Real> displacement, int width,
                std::vector<Real>& forces, Real& energy) {

@@ -8,7 +8,8 @@
 namespace perilink {
 namespace {
 
-/// A point of a quadrature rule: weight as a fraction of the whole, shape functions of the corners.
+/// A point of a quadrature rule: weight as a fraction of the whole, and the shape functions of the
+/// corners.
 struct RulePoint {
   double weight;
   std::array<double, 4> shape;
@@ -33,7 +34,7 @@ Rule edge_rule() {
   return rule;
 }
 
-/// Corners in order around the rectangle.
+/// Corners run around the rectangle.
 Rule rectangle_rule() {
   Rule rule;
   for (const GaussPoint& g : gauss()) {
@@ -60,7 +61,7 @@ Rule triangle_rule() {
   return rule;
 }
 
-/// Corners and centres of the sides, exact to order three.
+/// Corners and centres of the faces, exact to order three.
 Rule tetrahedron_rule() {
   Rule rule;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -102,7 +103,7 @@ std::size_t width_of(const Particles& particles, const Loads& loads) {
 }
 
 double cell_volume(const Particles& particles, std::span<const Index> cell) {
-  const int dim = static_cast<int>(cell.size()) - 1;  // a sheet in space has triangles
+  const int dim = static_cast<int>(cell.size()) - 1;  // a mid-surface in space has triangles
   std::array<Vector3, 3> edges{};
   for (int k = 0; k < dim; ++k) {
     for (int a = 0; a < dim; ++a) {
@@ -120,7 +121,7 @@ double cell_volume(const Particles& particles, std::span<const Index> cell) {
   return std::abs(product) / 6.0;
 }
 
-/// Whether the members of a region are flagged at all corners.
+/// Returns whether all corners belong to the region.
 bool is_whole(std::span<const Index> corners, std::span<const std::uint8_t> is_member) {
   return std::all_of(corners.begin(), corners.end(), [&](Index i) { return is_member[i] != 0; });
 }
@@ -167,7 +168,8 @@ double add_surface_load(const Particles& particles, const Facets& facets,
     const double area = std::sqrt(square);
     for (double& component : normal) component /= area;
     const std::span<const Index> corners = facets.corners.row(facet);
-    // Calibrated bonds balance shares that differ a little from the integrals of shape functions.
+    // Calibrated bonds balance nodal fractions that differ a little from the integrals of shape
+    // functions.
     const auto shift = [&](std::size_t c) {
       return facets.shares[facets.corners.offsets[facet] + c] -
              1.0 / static_cast<double>(corners.size());

@@ -6,7 +6,8 @@
 
 namespace perilink {
 
-/// Entries of an element's stiffness between two of its ends: 0 the first, 1 the second.
+/// Entries of a truss's stiffness between two of its ends, 0 the first and 1 the second
+/// [force/length].
 template <int Dim>
 struct Truss {
   static constexpr int dim = Dim, width = Dim;
@@ -28,8 +29,8 @@ struct Frame {
   using Modes = FrameModes<Dim>;
   static constexpr int dim = Dim, width = Modes::width;
 
-  /// Flat, so that the modes are rounded as in the rest of this file and not as in one that is
-  /// compiled for more of the machine's instructions.
+  /// Flattened: the modes must be rounded as in the rest of this file, not as in a function
+  /// compiled for other instruction sets.
   [[gnu::flatten]] Frame(const Network& network, Index element, Secants secants)
       : modes(frame_modes<Dim>(network, element)) {
     modes.stiffness[0] *= secants.axial(element);

@@ -8,29 +8,30 @@
 
 namespace perilink {
 
-/// The x of a truss's part x x' of the stiffness matrix: sqrt(k) n at its second end and -sqrt(k) n
-/// at its first, on the unknowns; so x'u is sqrt(k) times the extension, but for what prescribed
-/// displacements add.
-/// \param stiffness  k, the stiffness or the part of it that is meant [force/length]
+/// Returns the vector x of a truss's contribution x x' to the stiffness matrix, on the unknowns. It
+/// is sqrt(k) n at the second end and -sqrt(k) n at the first. So x'u is sqrt(k) times the
+/// extension, without the contribution of prescribed displacements.
+/// \param stiffness  k, the element's stiffness or a part of it [force/length]
 SparseVector element_vector(const Network& network, const Unknowns& unknowns, Index element,
                             double stiffness);
 
-/// The part of an element in the stiffness matrix as a sum of x x'.
+/// Contribution of an element to the stiffness matrix as a sum of x x'.
 struct ElementVectors {
   static constexpr int capacity = 6;
   int count = 0;
   std::array<SparseVector, capacity> x;
-  /// What prescribed motions add to x'u at load factor 1: square roots of twice an energy.
+  /// Contributions of prescribed motions to x'u at load factor 1: square roots of twice an energy.
   std::array<double, capacity> prescribed{};
 };
 
-/// That of the axial mode alone.
+/// Returns the vector of the axial mode.
+/// \param fraction  part of the intact stiffness [-]
 ElementVectors axial_vector(const Network& network, const Unknowns& unknowns, Index element,
                             double fraction);
 
-/// One vector per mode that has stiffness: one of a truss; three of a micropolar bond in two
-/// dimensions and six in three (network/frame.hpp), the axial one first.
-/// \param fraction  part of the intact stiffness that is meant
+/// Returns one vector per mode with stiffness, the axial one first. A truss has one; a micropolar
+/// bond has three in two dimensions and six in three (network/frame.hpp).
+/// \param fraction  part of the intact stiffness [-]
 ElementVectors element_vectors(const Network& network, const Unknowns& unknowns, Index element,
                                double fraction);
 

@@ -15,8 +15,8 @@
 namespace perilink {
 namespace {
 
-/// Particles by the unknowns that move them: a free particle is a bundle of its own, those inside a
-/// finite element are one.
+/// Groups of particles that the same unknowns move. A free particle is a group by itself; the
+/// particles in a host element form one group.
 class Bundles {
  public:
   Bundles(const Network& network, const Unknowns& motion)
@@ -47,10 +47,11 @@ class Bundles {
 
   Csr unknowns;                    ///< that move each bundle, ascending
   Csr particles;                   ///< in each bundle
-  std::vector<Index> of_particle;  ///< number of its bundle
+  std::vector<Index> of_particle;  ///< bundle of each particle
 };
 
-/// Which rows a bundle couples its unknowns with: those of all bundles that its elements lead to.
+/// Returns the rows that couple with the unknowns of each bundle: the unknowns of all bundles that
+/// its elements reach.
 Csr coupled_unknowns(const Network& network, const Bundles& bundles, const Csr& neighbourhoods,
                      Index num_unknowns) {
   Csr rows;
@@ -81,7 +82,7 @@ Csr coupled_unknowns(const Network& network, const Bundles& bundles, const Csr& 
   return rows;
 }
 
-/// A matrix of zeros with a place for whatever the bundles couple.
+/// Returns a zero matrix with an entry for every coupled pair of unknowns.
 SparseMatrix lay_out(const Bundles& bundles, const Csr& coupled, Index num_unknowns) {
   const Csr bundles_of = sorted_into_rows(num_unknowns, [&](const auto& add) {
     for (Index b = 0; b < bundles.size(); ++b) {
@@ -131,7 +132,7 @@ class Assembler {
   }
 
  private:
-  /// The columns that the bundle adds to its unknowns, dense.
+  /// Adds the bundle's elements to a dense block of its columns, then to the matrix.
   void add_bundle(Index b) {
     const auto rows = coupled_.row(b);
     const auto columns = bundles_.unknowns.row(b);
@@ -153,7 +154,8 @@ class Assembler {
     }
   }
 
-  /// The rows that the particle's own motion meets, then shared among the unknowns that move it.
+  /// Computes the columns of the particle's own components and distributes them to the unknowns
+  /// that move it.
   void add_particle(Index i, std::span<const Index> columns, std::size_t num_rows) {
     constexpr int width = Element::width;
     const std::size_t slot = static_cast<std::size_t>(i) * width;
@@ -211,9 +213,9 @@ class Assembler {
   Bundles bundles_;
   Csr coupled_;
   SparseMatrix matrix_;
-  std::vector<Index> row_of_;  ///< per unknown: its place among the rows of the present bundle
-  std::vector<double> dense_;  ///< columns of the present bundle
-  std::vector<double> own_;    ///< columns that belong to the components of the present particle
+  std::vector<Index> row_of_;  ///< per unknown: its position among the rows of the current bundle
+  std::vector<double> dense_;  ///< columns of the current bundle
+  std::vector<double> own_;    ///< columns of the components of the current particle
 };
 
 }  // namespace

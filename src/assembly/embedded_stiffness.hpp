@@ -7,9 +7,9 @@
 
 namespace perilink {
 
-/// The stiffness T' K T where something carries particles, lower triangle. Particles that the same
-/// unknowns move are taken together: their elements add up in a small dense matrix before they
-/// reach the sparse one. Zeros between unknowns of elements keep their place.
+/// Returns the lower triangle of the stiffness T' K T with embedded particles. Elements of
+/// particles with the same unknowns are summed in a small dense matrix first. Zeros between
+/// unknowns of elements stay in the pattern.
 SparseMatrix assemble_embedded(const Network& network, Secants secants, const Unknowns& unknowns);
 
 }  // namespace perilink

@@ -11,7 +11,8 @@
 namespace perilink {
 namespace {
 
-/// Weights of the least squares of G xi = u_j - u_i: G = (sum du xi') (sum xi xi')^-1.
+/// Computes the weights of the least-squares fit G xi = u_j - u_i: G = (sum du xi')
+/// (sum xi xi')^-1.
 template <int Dim>
 bool fit_linear(std::span<const double> offsets, std::span<double> weights) {
   using Matrix = Eigen::Matrix<double, Dim, Dim>;
@@ -53,7 +54,7 @@ void fill_principal_strains(const Network& network, const Csr& neighbourhoods, S
   }
 }
 
-/// Calls visit(element, energy).
+/// Calls visit(element, energy [force length]) for every element.
 template <class Visit>
 void for_each_truss_energy(const Network& network, Secants secants,
                            std::span<const double> displacement, Visit visit) {
@@ -95,7 +96,7 @@ void for_each_frame_energy(const Network& network, Secants secants, std::span<co
 std::vector<double> particle_damage(const Network& network, const Csr& neighbourhoods,
                                     Secants secants) {
   std::vector<double> damage(static_cast<std::size_t>(neighbourhoods.rows()), 0.0);
-  if (secants.size() == 0) return damage;  // nothing is damaged
+  if (secants.size() == 0) return damage;  // undamaged
   for (Index i = 0; i < neighbourhoods.rows(); ++i) {
     double all = 0.0;
     double lost = 0.0;
@@ -160,7 +161,7 @@ std::vector<double> face_strains(const Network& network, const Csr& neighbourhoo
   const Shell& shell = *network.shell;
   std::vector<double> strains(static_cast<std::size_t>(neighbourhoods.rows()) * 3, 0.0);
   for (Index i = 0; i < neighbourhoods.rows(); ++i) {
-    // Least squares of G xi = (e + z e') n + (g - z g') t of every bond, z = t/2 and -t/2.
+    // Least squares of G xi = (e + z e') n + (g - z g') t over all bonds, with z = t/2 and -t/2.
     Matrix shape = Matrix::Zero(), faces[2] = {Matrix::Zero(), Matrix::Zero()};
     for (const Index e : neighbourhoods.row(i)) {
       if (!(secants[e] > 0.0)) continue;

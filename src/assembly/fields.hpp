@@ -7,37 +7,40 @@
 #include "network/network.hpp"
 
 /// \file
-/// Quantities per particle for output.
+/// Particle quantities for output.
 
 namespace perilink {
 
-/// Damage: the part of the stiffness that bonds have lost, weighted by the volumes at their
-/// other ends, per particle [-]. Bars that yield are not damaged.
+/// Returns the damage per particle [-]: the lost fraction of the stiffness of its bonds, weighted
+/// with the volumes at their other ends. Yielding of bars is not damage.
 std::vector<double> particle_damage(const Network& network, const Csr& neighbourhoods,
                                     Secants secants);
 
-/// The displacements without the rotations, shape (particles, dim).
+/// Returns the displacements without the rotations, shape (particles, dim) [length].
 /// \param motion  shape (particles, width)
 std::vector<double> translations(const Network& network, std::span<const double> motion);
 
-/// Rotations of the particles [-]: one column in two dimensions, three in three; empty where no
-/// bond carries a moment.
+/// Returns the rotations of the particles [-]: one column in two dimensions, three in three. The
+/// result is empty where no bond carries a moment.
 std::vector<double> rotations(const Network& network, std::span<const double> motion);
 
-/// Half of the energy of the bonds of each particle, and that of its state, per volume
-/// [force/length^2].
+/// Returns the strain energy density per particle [force/length^2]: half of the energy of its
+/// bonds, and the energy of its state.
 /// \param motion  shape (particles, width)
 std::vector<double> strain_energy_density(const Network& network, Secants secants,
                                           std::span<const double> motion);
 
-/// Principal strains, largest first, of the least-squares displacement gradient over the intact
-/// bonds of each particle; shape (particles, dim). Zero where the bonds do not span the space.
+/// Returns the principal strains per particle, largest first, shape (particles, dim) [-]. They
+/// belong to the least-squares displacement gradient over the intact bonds. Zero where the bonds do
+/// not span the space.
 /// \param displacement  shape (particles, dim)
 std::vector<double> principal_strains(const Network& network, const Csr& neighbourhoods,
                                       Secants secants, std::span<const double> displacement);
 
-/// Principal strains of a shell within its faces, largest first, of that face where the largest is
-/// larger, by the same rule; the third is zero. Shape (particles, 3).
+/// Returns the principal strains within the faces of a shell, largest first, shape (particles, 3)
+/// [-]. They are fitted as in principal_strains(), for the face with the larger first strain; the
+/// third is zero.
+/// \param motion  shape (particles, 6)
 std::vector<double> face_strains(const Network& network, const Csr& neighbourhoods, Secants secants,
                                  std::span<const double> motion);
 

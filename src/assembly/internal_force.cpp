@@ -8,22 +8,22 @@
 namespace perilink {
 namespace {
 
-/// All elements of a network, to be gone through like a list.
+/// All elements of a network, as a list of indices.
 struct AllElements {
   Index count;
   Index size() const { return count; }
   Index operator[](Index k) const { return k; }
 };
 
-/// Reading the elements costs most of the time. Those of a particle mostly follow each other: its
-/// motion and its force stay at hand meanwhile.
+/// Reading the elements takes most of the time. Consecutive elements mostly share their first
+/// particle, so its motion and force stay in registers.
 template <int Dim, class Real, class Elements>
 void add_elements(const Network& network, const Elements& elements, Secants secants,
                   std::span<const Real> displacement, ForcesAndEnergy<Real>& result) {
   Real* forces = result.forces.data();
   const Bonds& bonds = network.bonds;
   const auto count = static_cast<Index>(elements.size());
-  Real energy = 0.0;  // in a register: forces might be the same memory as that of the result
+  Real energy = 0.0;  // in a register: forces may alias the result
   for (Index k = 0; k < count;) {
     const Index own = bonds.first[elements[k]];
     std::array<Real, Dim> motion, force;
@@ -73,8 +73,8 @@ std::vector<Real> sums_of_extensions(const Network& network, Secants secants,
   return sums;
 }
 
-/// What the sums of the extensions add: the bond between i and j pulls with c_i s_i + c_j s_j more,
-/// where it counts in these sums.
+/// Adds the forces of the states: c_i s_i + c_j s_j in the bond between i and j, for sums that
+/// include it.
 template <int Dim, class Real>
 void add_states(const Network& network, Secants secants, std::span<const Real> displacement,
                 ForcesAndEnergy<Real>& result) {
@@ -135,7 +135,6 @@ void add_bonds(const Network& network, const Elements& elements, Secants secants
   }
 }
 
-/// Bonds and the finite elements beside them.
 template <class Real, class Elements>
 void add_bonds_and_cells(const Network& network, const Elements& elements, Secants secants,
                          std::span<const Real> displacement, ForcesAndEnergy<Real>& result) {

@@ -14,7 +14,7 @@
 #include "network/unknowns.hpp"
 
 /// \file
-/// A symmetric matrix from the blocks of elements. The blocks come from a class with
+/// Assembles a symmetric matrix from blocks of elements. The blocks come from a class with
 ///
 ///   static constexpr int width;                       components of a particle
 ///   Index num_particles() const;
@@ -22,14 +22,14 @@
 ///                                                     the rows of `other` and the columns of
 ///                                                     `particle`, in one order
 ///
-/// where `block(row, col)` gives an entry, worked out only where a sink asks for it. Blocks between
-/// the same particles add up; zeros keep their place. Any number of threads may visit.
+/// where `block(row, col)` returns an entry, computed only on request. Blocks between the same
+/// particles are summed; zeros stay in the pattern. Several threads may call visit() concurrently.
 
 namespace perilink {
 
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, Index>;
 
-/// The particles that the blocks of each one lead to, itself and those of higher number, ascending.
+/// Particles of equal or higher number that blocks couple to each particle, ascending.
 class CoupledParticles {
  public:
   template <class Blocks>
@@ -69,7 +69,7 @@ class CoupledParticles {
   std::vector<Csr> chunks_;
 };
 
-/// The sink that makes an Eigen matrix between unknowns that nothing carries.
+/// Assembles an Eigen matrix between unknowns without embedded particles.
 template <class Blocks>
 class LowerTriangle {
  public:
@@ -85,7 +85,8 @@ class LowerTriangle {
     }
   }
 
-  /// Columns of particles, each by one thread, so that sums do not depend on how many there are.
+  /// One thread computes all columns of a particle, so that sums do not depend on the number of
+  /// threads.
   SparseMatrix build() const {
     SparseMatrix matrix(unknowns_.count, unknowns_.count);
     lay_out(matrix);
@@ -122,12 +123,12 @@ class LowerTriangle {
     matrix.resizeNonZeros(static_cast<Index>(total));
   }
 
-  /// Numbers of unknowns rise with those of the particles, so that rows come out sorted and the
-  /// columns of a particle lie side by side, each without the first row of the one before.
-  /// \param place  per particle: room for the number of rows above its own; less one and negative
-  ///               where a component of it or of the particle i is held
+  /// Unknowns are numbered in the order of the particles. So rows come out sorted, and the columns
+  /// of a particle are contiguous, each without the first row of the one before.
+  /// \param place  scratch, per particle: number of rows above its own, or -1 minus it if the
+  ///               particle or i has a prescribed component
   void fill_columns(Index i, std::vector<Index>& place, SparseMatrix& matrix) const {
-    std::array<double*, width> values{};  // columns as if they had all rows; null: held
+    std::array<double*, width> values{};  // columns as if they had all rows; null: prescribed
     Index first = no_index, end = 0, skipped = 0;
     for (int col = 0; col < width; ++col) {
       const Index column = unknowns_.at(i, col);

@@ -9,11 +9,11 @@
 #include "discretization/bonds.hpp"
 
 /// \file
-/// The stiffness of a network as blocks between particles, see lower_triangle.hpp.
+/// Stiffness of a network as blocks between particles, see lower_triangle.hpp.
 
 namespace perilink {
 
-/// Blocks of elements and springs of supports, see LowerTriangle.
+/// Blocks of elements and support springs for LowerTriangle.
 template <class Element>
 class NetworkBlocks {
  public:
@@ -62,8 +62,9 @@ class NetworkBlocks {
   std::optional<CellBlocks<Element::dim>> cells_;
 };
 
-/// The same with c h h' of the states of all particles, h u the sum of the extensions of the
-/// particle's bonds, each times its secant: particles that share a neighbour are coupled.
+/// Stiffness blocks of a network with states: NetworkBlocks and c h h' of all particles. The
+/// product h u is the sum of secant times extension over the particle's bonds. So particles with a
+/// common neighbour are coupled.
 template <int Dim>
 class StateBlocks : public NetworkBlocks<Truss<Dim>> {
  public:
@@ -94,13 +95,13 @@ class StateBlocks : public NetworkBlocks<Truss<Dim>> {
     return Eigen::Map<const Vector>(this->network_.bonds.direction(e).data());
   }
 
-  /// What the extension of a bond counts in the sum of its end.
+  /// Returns the weight of a bond's extension in the sum of one end [-].
   double counted(Index e, BondEnd end) const {
     return this->network_.counts_for(e, end) ? this->secants_[e] : 0.0;
   }
 
-  /// Inlined, so that sinks keep what they refer to in registers.
-  /// \param by_i  derivative of the particle's sum of extensions by the motion of i
+  /// Inlined to keep the captures of sinks in registers.
+  /// \param by_i  derivative of the particle's sum of extensions with respect to the motion of i
   [[gnu::always_inline]] void visit_state(Index center, const Vector& by_i, auto&& sink) const {
     const Vector column = this->network_.state_stiffness[center] * by_i;
     const Vector& own = own_[center];
@@ -114,10 +115,11 @@ class StateBlocks : public NetworkBlocks<Truss<Dim>> {
     }
   }
 
-  std::vector<Vector> own_;  ///< derivative of the sum of extensions by the particle's own motion
+  std::vector<Vector> own_;  ///< derivative of the sum of extensions with respect to the particle's
+                             ///< own motion
 };
 
-/// use(blocks) with those of the network at hand.
+/// Returns use(blocks) for the blocks of the network's kind.
 template <class Use>
 auto with_blocks(const Network& network, Secants secants, Use use) {
   const bool plane = network.dim() == 2;

@@ -9,8 +9,8 @@
 namespace perilink {
 namespace {
 
-/// What a particle has in a block of vectors, or in as many of them as fit a register: more would
-/// leave the few registers that there are.
+/// Components of a particle in as many vectors of a block as fit one register. More would exceed
+/// the few registers.
 template <int Dim>
 struct RowOfBlock {
   using Number = float;
@@ -46,7 +46,7 @@ struct RowOfBlock {
   Floats parts[Dim];
 };
 
-/// What it has in one vector: components side by side, in space with a fourth that is zero.
+/// Components of a particle in one vector, in space padded with a zero.
 template <int Dim>
 struct RowOfVector {
   using Number = double;
@@ -59,7 +59,7 @@ struct RowOfVector {
       : parts(*reinterpret_cast<const InMemory*>(numbers)) {}
   void store(double* numbers) const { *reinterpret_cast<InMemory*>(numbers) = parts; }
   struct Pull {
-    /// In space the number behind the components is read with them.
+    /// In space the load reads one number past the components.
     explicit Pull(const float* numbers) {
       if constexpr (Dim == 3) {
         parts = widen(numbers);
@@ -105,7 +105,7 @@ PackedBonds::PackedBonds(const Network& network, Secants secants, std::span<cons
   network.dim() == 2 ? fill<2>(secants) : fill<3>(secants);
 }
 
-/// Calls visit(row, other) for the rows that an element is in, and the place of its end there.
+/// Calls visit(row, other) for every row that contains an element, with the place of its other end.
 template <class Visit>
 void PackedBonds::for_each_row(Index element, Visit visit) const {
   const auto [from, to] =
@@ -148,7 +148,7 @@ void PackedBonds::fill(Secants secants) {
   begin_.pop_back();
 }
 
-/// Bonds between the same two particles are told by what they pull.
+/// Bonds between the same two particles are distinguished by their pull.
 template <int Dim>
 void PackedBonds::set(Index element, double before, double now) {
   const Packed<Dim> old = packed<Dim>(element, before), next = packed<Dim>(element, now);
@@ -159,7 +159,7 @@ void PackedBonds::set(Index element, double before, double now) {
       std::ranges::copy(next.pull, bond.pull);
       return;
     }
-    throw std::logic_error("a bond is not where it was packed");
+    throw std::logic_error("a packed bond was not found");
   });
 }
 
@@ -181,12 +181,12 @@ void PackedBonds::follow(Secants secants) {
   }
 }
 
-/// Forces of the bonds of a place, with what the row holds.
+/// Computes the forces of the bonds at a place.
 template <int Dim, class Row>
 void PackedBonds::region_forces(std::size_t place, const typename Row::Number* motions,
                                 typename Row::Number* forces) const {
   using Pull = typename Row::Pull;
-  constexpr std::size_t ahead = 128;  // one row of memory is read faster than processors foresee
+  constexpr std::size_t ahead = 128;  // the processor's own prefetching is too late
   const Row motion(motions + place * Row::size);
   Row force(forces + place * Row::size);
   const auto tension_of = [&](const Packed<Dim>& own, const Pull& pull) {
@@ -212,7 +212,7 @@ void PackedBonds::region_forces(std::size_t place, const typename Row::Number* m
   force.store(forces + place * Row::size);
 }
 
-/// \param done  called as PlacesDone is
+/// \param done  callback, see PlacesDone
 template <int Dim, class Row, class Done>
 void PackedBonds::part_forces(std::size_t part, const typename Row::Number* motions,
                               typename Row::Number* forces, const Done& done) const {
@@ -224,7 +224,8 @@ void PackedBonds::part_forces(std::size_t part, const typename Row::Number* moti
     for (std::size_t from = 0; from < Row::vectors; from += Row::lanes) {
       region_forces<Dim, Row>(place, motions + from, forces + from);
     }
-    // Bonds behind end at places behind, or add nothing to the other end.
+    // Later bonds end at later places or add nothing to their other end, so earlier places are
+    // complete.
     if (place + 1 < told + together && place + 1 < end) continue;
     done(part, told, place + 1);
     told = place + 1;

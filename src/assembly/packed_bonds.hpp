@@ -11,33 +11,33 @@
 
 namespace perilink {
 
-/// Trusses in single precision, sixteen bytes for each in space, by an order of the particles in
-/// which neighbours are near each other: for searches whose residuals are computed from the network
-/// itself. Each bond's force is that of the network to seven digits of the motions of its ends;
-/// where these move far together few are left of it. Threads take one part of the order each; a
-/// bond between two parts is there twice, for the force on either end.
+/// Truss bonds in single precision, 16 bytes each in space, in a particle order that keeps
+/// neighbours close. They serve iterative solves whose residuals come from the network itself. A
+/// bond force has seven digits relative to the motions of its ends, and few where both ends move
+/// far together. Each thread takes one part of the order. A bond between two parts is stored twice,
+/// once for the force on each end.
 class PackedBonds {
  public:
-  /// \param place  where each particle comes in the order
-  /// \param unit   stiffness that counts as one
-  /// \param part_end  places up to which each part goes
+  /// \param place     position of each particle in the order
+  /// \param unit      stiffness that scales all others [force/length]
+  /// \param part_end  end of each part in the order
   PackedBonds(const Network& network, Secants secants, std::span<const Index> place, double unit,
               std::span<const std::size_t> part_end);
 
-  /// Takes over what has changed since: bonds that differ from then, one by one.
+  /// Updates the bonds whose secants have changed.
   void follow(Secants secants);
 
-  /// Told of the places [begin, end) of a part whose forces are complete, one after the other;
-  /// parts come at the same time.
+  /// Callback for places [begin, end) of a part with complete forces. Calls for one part are in
+  /// order; calls for different parts are concurrent.
   using PlacesDone = std::function<void(std::size_t part, std::size_t begin, std::size_t end)>;
 
-  /// Forces without those of supports, over the unit.
-  /// \param motions  by the order, shape (particles, dim, block_width), as `forces`
+  /// Computes the forces without supports, over the unit.
+  /// \param motions  in the order, shape (particles, dim, block_width), as `forces`
   void forces(std::span<const float> motions, std::span<float> forces,
               const PlacesDone& done) const;
-  /// Numbers of a particle in one vector: in space there is a fourth, which is zero.
+  /// Numbers per particle in one vector: in space a zero is the fourth.
   static constexpr std::size_t row_size(int dim) { return dim == 2 ? 2 : 4; }
-  /// The same of one motion, whose own digits are all there: shape (particles, row_size).
+  /// Computes the forces of one motion in double precision; shape (particles, row_size).
   void forces(std::span<const double> motion, std::span<double> forces) const;
 
   Index place(Index particle) const { return place_[particle]; }
@@ -58,7 +58,7 @@ class PackedBonds {
   void part_forces(std::size_t part, const typename Row::Number* motions,
                    typename Row::Number* forces, const Done& done) const;
 
-  /// n sqrt(k s) over the square root of the unit, and whose other end it is.
+  /// n sqrt(k s) over the square root of the unit, and the place of the other end.
   template <int Dim>
   struct Packed {
     float pull[Dim];
@@ -77,11 +77,11 @@ class PackedBonds {
   std::vector<Index> place_;
   double unit_;
   std::vector<std::size_t> part_end_;
-  /// Two rows of bonds for each place: to places behind it in its part, and to those of others.
+  /// Two rows of bonds per place: to later places in its part, and to places of other parts.
   std::vector<std::size_t> begin_;
   std::vector<Packed<2>> plane_;
   std::vector<Packed<3>> space_;
-  std::unordered_map<Index, double> damaged_;  ///< secants that are not one, as packed
+  std::unordered_map<Index, double> damaged_;  ///< secants other than one, as packed
 };
 
 }  // namespace perilink

@@ -13,12 +13,12 @@ void check_segments(const std::vector<Segment>& segments) {
   for (const Segment& segment : segments) {
     const bool falls = segment.secant > 0.0 && segment.secant < last.secant;
     if (!falls || !(segment.limit > last.limit)) {
-      throw std::invalid_argument("secants of a saw-tooth law fall and its limits rise");
+      throw std::invalid_argument("secants of a saw-tooth law must fall and its limits must rise");
     }
     last = segment;
   }
   if (segments.empty() || segments.front().secant != 1.0) {
-    throw std::invalid_argument("the first secant of a saw-tooth law is one");
+    throw std::invalid_argument("the first secant of a saw-tooth law must be one");
   }
 }
 
@@ -27,14 +27,14 @@ void check_segments(const std::vector<Segment>& segments) {
 BondLaw BondLaw::brittle() { return {Sense::tension, {{1.0, 1.0}}, 0.0}; }
 
 BondLaw BondLaw::plateau(double ratio) {
-  if (!(ratio > 1.0)) throw std::invalid_argument("teeth of a plateau have a ratio above one");
+  if (!(ratio > 1.0)) throw std::invalid_argument("a plateau needs a ratio above one");
   return {Sense::both, {{1.0, std::sqrt(ratio)}}, ratio};
 }
 
 BondLaw BondLaw::both_ways(std::vector<Segment> segments, double ratio) {
   check_segments(segments);
   if (ratio != 0.0 && !(ratio > 1.0)) {
-    throw std::invalid_argument("teeth of a plateau have a ratio above one");
+    throw std::invalid_argument("a plateau needs a ratio above one");
   }
   return {Sense::both, std::move(segments), ratio};
 }
@@ -53,7 +53,7 @@ BondLaw BondLaw::closing() const {
 BondLaw BondLaw::crushing(std::vector<Segment> segments, double scale, bool keeps_shear) const {
   check_segments(segments);
   if (!(scale > 0.0) || endless() || closes_) {
-    throw std::invalid_argument("bonds with teeth in compression neither yield nor close");
+    throw std::invalid_argument("a law with a compressive branch may neither yield nor close");
   }
   for (Segment& segment : segments) segment.limit *= scale;
   BondLaw law = *this;

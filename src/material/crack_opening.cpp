@@ -31,7 +31,7 @@ double band_damage(const CrackOpeningLaw& law, double youngs_modulus, double str
   const double knee_strain =
       law.knee_opening / width + law.knee_ratio * law.strength / youngs_modulus;
   const bool first = strain < knee_strain;
-  // On a branch T = T_0 - m w with w = width (strain - T / E).
+  // The branch is T = T_0 - m w with w = width (strain - T / E).
   const double slope = first ? first_slope(law) : second_slope(law);
   const double at_zero = first ? law.strength : slope * law.critical_opening;
   const double stress = (at_zero - slope * width * strain) / (1.0 - slope * width / youngs_modulus);

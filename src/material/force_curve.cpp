@@ -7,19 +7,19 @@
 namespace perilink {
 namespace {
 
-/// A curve that falls to zero ends where its force has fallen to this part of its largest one; what
-/// is left of its area goes with the last tooth.
+/// A curve that falls to zero ends at this fraction of its largest force; the last segment
+/// dissipates the remaining area.
 constexpr double negligible_end = 0.02;
 
-/// Rise of secants that is round-off.
+/// Rise of secants due to round-off.
 constexpr double round_off = 1e-12;
 
 double secant_of(const std::array<double, 2>& point) { return point[1] / point[0]; }
 
-/// Whether a force is left behind the last point.
+/// Returns whether the force stays above zero after the last point.
 bool stays(const ForceCurve& curve) { return curve.endless && curve.points.back()[1] > 0.0; }
 
-/// The largest deformation at which the secant is at least this.
+/// Returns the largest deformation with at least the given secant.
 double leaves_at(const ForceCurve& curve, double secant) {
   for (std::size_t k = 1; k < curve.points.size(); ++k) {
     const auto& [x, f] = curve.points[k];
@@ -31,7 +31,7 @@ double leaves_at(const ForceCurve& curve, double secant) {
   return curve.points.back()[0];
 }
 
-/// The last deformation that has a tooth of its own.
+/// Returns the last deformation with a segment of its own.
 double end_of(const ForceCurve& curve) {
   double largest = 0.0;
   for (const auto& point : curve.points) largest = std::max(largest, point[1]);
@@ -73,7 +73,7 @@ ForceCurve curve_behind(const ForceCurve& curve, double flow) {
   rest.endless = curve.endless;
   for (std::size_t k = 0; k < curve.points.size(); ++k) {
     const auto& [x, f] = curve.points[k];
-    if (!(x - flow > f)) continue;  // what lies before is behind the elastic line
+    if (!(x - flow > f)) continue;  // points up to the elastic line are dropped
     if (rest.points.empty()) {
       const auto& [before, force] = curve.points[std::max<std::size_t>(k, 1) - 1];
       const double slope = (f - force) / (x - before);
@@ -92,13 +92,13 @@ void check_curve(const ForceCurve& curve) {
     const bool first = last[0] == 0.0;
     if (!(point[0] > last[0])) throw std::invalid_argument("deformations must rise from zero");
     if (first ? !(point[1] > 0.0) : !(point[1] >= 0.0)) {
-      throw std::invalid_argument("forces must be positive, but the last one may be zero");
+      throw std::invalid_argument("forces must be positive; only the last one may be zero");
     }
     if (!first && secant_of(point) > secant_of(last) * (1.0 + round_off)) {
       throw std::invalid_argument("force over deformation must not rise from point to point");
     }
     if (last[0] > 0.0 && last[1] == 0.0) {
-      throw std::invalid_argument("nothing comes behind a force of zero");
+      throw std::invalid_argument("no point may follow a force of zero");
     }
     last = point;
   }
@@ -107,7 +107,7 @@ void check_curve(const ForceCurve& curve) {
 
 BondLaw law_of(const ForceCurve& curve, double ratio) {
   check_curve(curve);
-  if (!(ratio > 1.0)) throw std::invalid_argument("secants fall by a ratio above one");
+  if (!(ratio > 1.0)) throw std::invalid_argument("the ratio of secants must be above one");
   const double stiffness = curve.initial_stiffness(), first = curve.points.front()[0];
   const double end = end_of(curve), last = curve.force(end) / end;
   const double fall = std::log(stiffness / last) / std::log(ratio);

@@ -7,35 +7,37 @@
 
 namespace perilink {
 
-/// Force over deformation of bars and of their bond to the solid, the same in both directions: a
-/// straight line from zero to the first point, then straight pieces from point to point.
+/// Force over deformation of bars or of their bond to the solid, equal in both directions. The
+/// curve is straight from zero to the first point and between points.
 struct ForceCurve {
-  /// Deformation and force [any units]. Deformations rise; no later secant is above an earlier one.
+  /// Deformation and force [any units]. Deformations rise, and secants do not.
   std::vector<std::array<double, 2>> points;
-  bool endless = true;  ///< behind the last point its force stays; false: it falls to zero there
+  bool endless = true;  ///< the force stays constant after the last point; false: it falls to zero
+                        ///< there
 
   double initial_stiffness() const { return points.front()[1] / points.front()[0]; }
   double force(double deformation) const;
-  /// Area below the curve.
+  /// Returns the area below the curve up to a deformation.
   double area(double deformation) const;
 };
 
-/// The curve of an element that has flowed, from the place to which it then unloads: elastic up to
-/// the point where the flow came from, with the rest of the curve behind.
-/// \param curve  over the deformation and force of its first point
-/// \param flow   sum of the sizes of plastic deformations, of the same unit
+/// Returns the curve of an element after plastic flow, from its unloaded state. It is elastic up to
+/// the point of unloading, then follows the rest of the curve.
+/// \param curve  relative to the deformation and force of its first point
+/// \param flow   sum of the magnitudes of plastic deformations, relative to the same deformation
 ForceCurve curve_behind(const ForceCurve& curve, double flow);
 
-/// \throws std::invalid_argument for a curve without points, deformations that do not rise from
-///         above zero, negative forces, a first force of zero, or secants that rise
+/// Checks a curve.
+/// \throws std::invalid_argument for a curve without points, deformations that do not rise above
+///     zero, negative forces, a first force of zero, or rising secants
 void check_curve(const ForceCurve& curve);
 
-/// The curve as falling secants, whose deformations are over that of its first point. Between the
-/// deformations at which two neighbouring secants leave the curve a tooth dissipates exactly what
-/// the curve does (docs/theory/softening.md).
-/// \param ratio  between secants, above one: the force moves by about (ratio - 1) / 2 about
-///               a plateau
-/// \throws std::invalid_argument as check_curve(), or for another ratio
+/// Returns the curve as saw-tooth segments, with stretches relative to its first deformation.
+/// Between the deformations at which two neighbouring secants leave the curve, a segment dissipates
+/// exactly the area of the curve (docs/theory/softening.md).
+/// \param ratio  ratio of neighbouring secants, above one; the overshoot on a plateau is about
+///               (ratio - 1) / 2
+/// \throws std::invalid_argument as check_curve(), or for a ratio of one or less
 BondLaw law_of(const ForceCurve& curve, double ratio);
 
 }  // namespace perilink

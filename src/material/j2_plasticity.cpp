@@ -6,7 +6,7 @@
 namespace perilink {
 namespace {
 
-constexpr int most_iterations = 200;  // Newton needs a few; bisection would end by then
+constexpr int most_iterations = 200;  // Newton needs a few, bisection fewer than this
 
 double product(const SymmetricTensor& a, const SymmetricTensor& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2.0 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
@@ -27,13 +27,13 @@ SymmetricTensor hooke(const HookeConstants& constants, const SymmetricTensor& st
   return stress;
 }
 
-/// A function's value and derivative.
+/// Value and derivative of a function.
 struct Sample {
   double value = 0.0, slope = 0.0;
 };
 
-/// Zero of a function that falls from a positive value at zero, within (0, upper], by Newton's
-/// method from zero; halves the interval where that leaves it.
+/// Returns the zero in (0, upper] of a function that falls from a positive value at zero. Uses
+/// Newton's method from zero, and bisection where a step leaves the interval.
 template <typename Function>
 double falling_zero(const Function& function, double upper) {
   double low = 0.0, high = upper, x = 0.0;
@@ -81,7 +81,8 @@ SymmetricTensor return_radially(const HookeConstants& constants, const YieldCurv
   return stress;
 }
 
-/// In axes of sum and difference the plane-stress return decouples: with the multiplier g,
+/// Returns the plane-stress return, which decouples in sum, difference and shear. With the
+/// multiplier g,
 ///   sum' = sum / (1 + E g / (3 (1 - nu))), difference and shear / (1 + 2 mu g),
 /// where the plastic strain is g times the stress deviator.
 SymmetricTensor return_in_plane(double youngs_modulus, double poissons_ratio,

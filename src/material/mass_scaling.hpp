@@ -2,12 +2,12 @@
 
 namespace perilink {
 
-/// How masses are shared among particles.
+/// Distribution of masses among particles.
 enum class MassScaling {
   none,     ///< density times volume
-  uniform,  ///< in proportion to the stiffness around the particle, so that single short bonds do
-            ///< not rule the time step; the mass of the whole body is the same. For runs to an
-            ///< equilibrium only: waves are not those of the material
+  uniform,  ///< proportional to the stiffness around the particle; single short bonds then do not
+            ///< limit the time step. The mass of the whole body is unchanged. Only for runs to
+            ///< static equilibrium, since wave speeds are wrong
 };
 
 }  // namespace perilink

@@ -42,9 +42,9 @@ LatticeModuli lattice_moduli(Problem problem, std::span<const Vector3> offsets,
     const double nu = 0.5 * (1.0 - shear / biaxial);
     return {1.0 / (cell_volume * shear * (1.0 + nu)), nu};
   }
-  // With C_ijkl = (c V / 2) sum xi n_i n_j n_k n_l every contraction is A = C_iijj = C_ijij
-  // = 2 c V U1: K = A / 9 and the Voigt mean G = (3 C_ijij - C_iijj) / 30 = A / 15, so that
-  // 1 / E = 1 / (9 K) + 1 / (3 G) = 6 / A and nu = 1/4 whatever the lattice.
+  // With C_ijkl = (c V / 2) sum xi n_i n_j n_k n_l every contraction is A = C_iijj = C_ijij = 2 c V
+  // U1. So K = A / 9, the Voigt mean is G = (3 C_ijij - C_iijj) / 30 = A / 15, and
+  // 1 / E = 1 / (9 K) + 1 / (3 G) = 6 / A. Hence nu = 1/4 for every lattice.
   return {6.0 / (2.0 * cell_volume * biaxial), 0.25};
 }
 

@@ -13,14 +13,14 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 void require_ratio(double poissons_ratio, double largest) {
-  // Round-off: at the limit itself the bending modulus is zero.
+  // At the limit the bending modulus is zero; allow round-off.
   if (poissons_ratio > -1.0 && poissons_ratio <= largest + 1e-12) return;
   throw std::invalid_argument("micropolar bonds have Poisson's ratios above -1 and up to " +
                               std::to_string(largest) + ", not " + std::to_string(poissons_ratio));
 }
 
-/// What is left for bending; at the limit of Poisson's ratio it is zero but for round-off, and
-/// bonds with next to no bending stiffness would leave rotations without hold.
+/// Returns the rest of the modulus for bending. At the limit of Poisson's ratio it is round-off;
+/// such bending stiffness would leave rotations unresisted, so it becomes zero.
 double above_round_off(double rest, double youngs_modulus) {
   return rest > 1e-12 * youngs_modulus ? rest : 0.0;
 }

@@ -7,7 +7,8 @@ namespace perilink {
 namespace {
 
 constexpr double exponent = 0.4;
-/// Where the first straight line ends, over the slip at the strength, and the pieces from there on.
+/// End of the first straight line, over the slip at the strength, and the number of pieces of the
+/// curve.
 constexpr double first_slip = 1e-3;
 constexpr int pieces = 60;
 

@@ -4,14 +4,14 @@
 
 namespace perilink {
 
-/// How the concrete around a ribbed bar fails (fib Model Code 2010, Table 6.1-1).
+/// Failure of the concrete around a ribbed bar (fib Model Code 2010, Table 6.1-1).
 enum class BondFailure {
   pull_out,            ///< well confined
   splitting,           ///< unconfined
-  splitting_stirrups,  ///< held together by stirrups
+  splitting_stirrups,  ///< confined by stirrups
 };
 
-/// How the bar lay as it was cast.
+/// Bond conditions, from the position of the bar during casting.
 enum class BondConditions { good, other };
 
 /// Bond stress over slip of ribbed bars, fib Model Code 2010, section 6.1.1.1.
@@ -24,9 +24,9 @@ struct ModelCodeBond {
   double millimetre = 1.0;  ///< 1 mm [length]
 };
 
-/// tau_max (s / s_1)^0.4 up to the bond strength, a plateau up to s_2, a straight fall to the
-/// frictional stress at s_3, which stays. The infinite stiffness at the beginning is cut off at s_1
-/// / 1000.
+/// Returns the bond curve: tau_max (s / s_1)^0.4 up to the bond strength, then a plateau up to s_2.
+/// It falls in a straight line to the frictional stress at s_3 and stays constant. A straight line
+/// up to s_1 / 1000 replaces the infinite initial stiffness.
 ForceCurve model_code_curve(const ModelCodeBond& bond);
 
 }  // namespace perilink

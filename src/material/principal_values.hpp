@@ -5,13 +5,14 @@
 
 namespace perilink {
 
-/// Eigenvalues of a symmetric tensor, from the largest to the smallest.
+/// Eigenvalues of a symmetric tensor, largest first.
 struct PrincipalValues {
   double first = 0.0, middle = 0.0, last = 0.0;
 };
-/// \param dim  2: of the part in the plane; `middle` equals `last`
+/// Returns the eigenvalues of a symmetric tensor.
+/// \param dim  2: of the plane part; `middle` equals `last`
 PrincipalValues principal_values(const SymmetricTensor& tensor, int dim);
-/// Unit vector along the first of them.
+/// Returns the unit vector along the first principal axis.
 Vector3 principal_direction(const SymmetricTensor& tensor, int dim);
 
 }  // namespace perilink

@@ -8,10 +8,10 @@
 namespace perilink {
 namespace {
 
-/// Force at which an exponential curve ends.
+/// Force at the end of an exponential curve.
 constexpr double negligible_force = 1e-4;
 
-/// A tooth that leaves the curve at two points.
+/// A segment that leaves the curve at two points.
 struct SegmentBetween {
   double secant, next_secant, limit;
 
@@ -37,7 +37,7 @@ double softening_energy(const SofteningShape& shape, double end) {
 SofteningCurve::SofteningCurve(const SofteningShape& shape, double energy)
     : knee_(1.0), end_(energy), knee_force_(1.0), decay_(0.0) {
   if (shape.kind == Softening::brittle || !(energy > 1.0)) {
-    throw std::invalid_argument("a bond that softens takes more than its elastic energy");
+    throw std::invalid_argument("a softening bond must dissipate more than its elastic energy");
   }
   if (shape.kind == Softening::bilinear) {
     const double length = (energy - 1.0) / (shape.knee_force + shape.knee_stretch);
@@ -62,7 +62,7 @@ double SofteningCurve::force(double x) const {
 
 double SofteningCurve::area(double x) const {
   if (x <= 1.0) return 0.5 * x * x;
-  // What lies below the end of an exponential curve counts as taken at its end.
+  // The area of an exponential curve beyond its end counts at its end.
   if (decay_ > 0.0) return 0.5 + decay_ * (x < end_ ? 1.0 - force(x) : 1.0);
   const bool drops = end_ == knee_ && x >= knee_;
   const double at_knee = drops ? knee_force_ : force(std::min(x, knee_));
@@ -73,7 +73,8 @@ double SofteningCurve::area(double x) const {
 }
 
 std::vector<Segment> segments_of(const SofteningCurve& curve, double overshoot) {
-  if (!(overshoot > 0.0)) throw std::invalid_argument("teeth rise above the curve");
+  if (!(overshoot > 0.0))
+    throw std::invalid_argument("the overshoot of saw-tooth segments must be positive");
   std::vector<Segment> segments;
   for (double begin = 1.0; begin < curve.end();) {
     double low = begin, end = curve.end();
@@ -87,8 +88,9 @@ std::vector<Segment> segments_of(const SofteningCurve& curve, double overshoot) 
       }
     }
     const SegmentBetween segment(curve, begin, end);
-    if (!(segment.limit >= begin && std::isfinite(segment.limit))) {  // or the loop would not end
-      throw std::invalid_argument("the curve is too flat for secants of its own");
+    if (!(segment.limit >= begin &&
+          std::isfinite(segment.limit))) {  // otherwise the loop would not end
+      throw std::invalid_argument("the curve is too flat for saw-tooth segments");
     }
     segments.push_back({segment.secant, segment.limit});
     begin = end;

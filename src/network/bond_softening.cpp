@@ -17,36 +17,38 @@
 namespace perilink {
 namespace {
 
-/// Ripple of the teeth by which strengths are measured: they add less than 0.3 %.
+/// Overshoot of the segments with which strengths are measured: the strength error is below 0.3 %.
 constexpr double fine_overshoot = 0.02;
 
-/// Teeth with the ripple p raise the strength of strips by about 2 p^2 (docs/theory/softening.md).
+/// Returns the overshoot p for an error of strength; p raises the strength of strips by about 2 p^2
+/// (docs/theory/softening.md).
 double overshoot_of(double error) { return std::sqrt(0.5 * error); }
 
-/// Relative change of beta at which its iteration ends, and the most rounds: each brings a digit.
+/// Relative change of beta at convergence, and the largest number of iterations; each adds a digit.
 constexpr double same_factor = 1e-4;
 constexpr int most_rounds = 30;
 
-/// Young's modulus in the body's kinematics, stresses across the pull zero in the plane.
+/// Returns the uniaxial modulus in the body's kinematics [force/length^2]; lateral stresses are
+/// zero in the plane.
 double uniaxial_modulus(const LameConstants& lame, int dim) {
   const auto& [lambda, mu] = lame;
   return dim == 2 ? 4.0 * mu * (lambda + mu) / (lambda + 2.0 * mu)
                   : mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu);
 }
 
-/// The bonds of a particle inside the body, and the directions in which they are pulled.
+/// Bonds of an interior particle, and the directions in which the cell is loaded.
 struct Pulled {
   std::vector<CellBond> cell;
   std::vector<Vector3> directions;
   int dim;
 
-  /// cell_strength(), the mean over the directions.
+  /// Returns the mean of cell_strength() over the directions.
   double strength(const BondLaw& law) const {
     double sum = 0.0;
     for (const Vector3& direction : directions) sum += cell_strength(cell, dim, direction, law);
     return sum / static_cast<double>(directions.size());
   }
-  /// The same of a law with teeth in compression, pulled or compressed.
+  /// Returns the mean strength in tension or compression for a law with a compressive branch.
   double strength(const BondLaw& law, bool compressed) const {
     double sum = 0.0;
     for (const Vector3& direction : directions) {
@@ -60,14 +62,14 @@ struct Pulled {
   }
 };
 
-/// The bonds about a plane face, one list for each direction that is tried.
+/// Bonds across a plane face, one list per trial direction.
 struct Parted {
   std::vector<std::vector<LayerBond>> directions;
   std::array<double, 2> sides;
   double held;
   double modulus;
 
-  /// What they bear of face_strength() over the modulus, the mean over the directions.
+  /// Returns the mean of `held` times face_strength() over the modulus, over the directions.
   double strength(const BondLaw& law) const {
     double sum = 0.0;
     for (const auto& bonds : directions) sum += face_strength(bonds, sides, law);
@@ -75,7 +77,8 @@ struct Parted {
   }
 };
 
-/// Stiffness of the bonds to the neighbours of a lattice particle of one material.
+/// Returns the stiffness of the bonds between a lattice particle of one material and its
+/// neighbours.
 NeighbourhoodStiffness bulk_stiffness(const Body& body, const NetworkInput& input,
                                       std::span<const Vector3> offsets) {
   if (body.lattice.surface == Surface::calibrated)
@@ -92,17 +95,17 @@ NeighbourhoodStiffness bulk_stiffness(const Body& body, const NetworkInput& inpu
   return stiffness;
 }
 
-/// With so many neighbours a lattice is as good as a continuum, and to pull it bond by bond takes
-/// the square of their number.
+/// Lattices with more neighbours are treated as a continuum; the cost of loading bond by bond is
+/// quadratic.
 constexpr std::size_t many_neighbors = 1000;
 
-/// Horizon over spacing of the lattice that stands for a cloud beside a face.
+/// Horizon over spacing of the lattice that replaces an unstructured particle set at a face.
 constexpr double usual_ratio = 3.0;
 
 /// Cosine of two degrees.
 constexpr double nearly_along = 0.9994;
 
-/// Lattices are pulled along the axes, along which bodies lie and are loaded.
+/// Lattices are loaded along their axes, as bodies usually are.
 Pulled pulled_cell(const Body& body, const NetworkInput& input, const SolidMaterial& material) {
   const Lattice& lattice = body.lattice;
   const std::vector<Vector3> offsets = lattice.pattern == Pattern::irregular
@@ -125,7 +128,7 @@ Pulled pulled_cell(const Body& body, const NetworkInput& input, const SolidMater
   return pulled;
 }
 
-/// A lattice with as many neighbours as clouds usually have, in place of that of a cloud.
+/// Returns a lattice with a usual number of neighbours that replaces an unstructured particle set.
 Body even_body(const Body& body, double horizon) {
   Body even;
   Lattice& lattice = even.lattice;
@@ -139,7 +142,8 @@ Body even_body(const Body& body, double horizon) {
   return even;
 }
 
-/// The direction of a bond that a normal is nearly along; faces of lattices lie across bonds.
+/// Returns the bond direction nearly parallel to a normal, since faces of lattices are normal to
+/// bonds.
 std::optional<Vector3> snapped(std::span<const Vector3> offsets, const Vector3& normal) {
   for (const auto& [x, y, z] : offsets) {
     const double length = std::hypot(x, y, z);
@@ -149,7 +153,7 @@ std::optional<Vector3> snapped(std::span<const Vector3> offsets, const Vector3& 
   return std::nullopt;
 }
 
-/// Faces that lie along no layers are tried along all axes.
+/// A face not parallel to any layer of particles is tried along all axes.
 Parted parted_body(const Body& body, const NetworkInput& input, const SolidMaterial& material,
                    const FaceShape& face) {
   std::vector<Vector3> offsets;
@@ -190,8 +194,9 @@ bool softens(const SolidMaterial& material) {
   return material.softening.shape.kind != Softening::brittle;
 }
 
-/// For two materials the mean constants, the smaller strength and energy and the shape of the
-/// weaker one; stretches of one of them count beside a strength.
+/// Returns the material of bonds between two materials: mean elastic constants, smaller strength
+/// and fracture energy, and the curve of the weaker one. A given stretch takes precedence over a
+/// missing one.
 SolidMaterial mean_of(const SolidMaterial& a, const SolidMaterial& b) {
   const auto strength = [](const SolidMaterial& material) {
     return std::pair(material.softening.tensile_strength, material.softening.stretches[0]);
@@ -213,12 +218,12 @@ SolidMaterial mean_of(const SolidMaterial& a, const SolidMaterial& b) {
   return mean;
 }
 
-/// Tensile strength over the product of modulus and s_0, and of laws with teeth in compression the
-/// compressive one.
+/// Returns the tensile strength over the product of modulus and s_0 [-], or the compressive
+/// strength for laws with a compressive branch.
 using StrengthFactor = std::function<double(const BondLaw&, bool compressed)>;
 
-/// Finds the energy 2 G_s / s_0^2 of bonds with the wanted strength.
-/// \param unit_energy  where beta = 1
+/// Returns the energy 2 G_s / s_0^2 of bonds with the prescribed strength.
+/// \param unit_energy  energy at beta = 1
 double find_energy(const StrengthFactor& factor_of, const SofteningShape& shape,
                    double unit_energy) {
   double factor = 1.0;
@@ -240,7 +245,7 @@ Index count_segments(const BondLaw& law) {
   return count;
 }
 
-/// The curve by teeth; concrete has them in compression too.
+/// Returns the law with saw-tooth segments; concrete also has a compressive branch.
 BondLaw law_of(const SofteningMaterial& softening, double energy, double overshoot) {
   const BondLaw law = saw_tooth_of(SofteningCurve(softening.shape, energy), overshoot);
   if (softening.shape.kind != Softening::concrete) return law;
@@ -250,7 +255,8 @@ BondLaw law_of(const SofteningMaterial& softening, double energy, double oversho
                       !softening.shear_softens);
 }
 
-/// \param modulus  by which the factor counts [force/length^2]
+/// Returns the law and the strength of bonds.
+/// \param modulus  reference modulus of the strength factor [force/length^2]
 MaterialBonds bonds_by(const StrengthFactor& factor_of, double modulus,
                        const SolidMaterial& material, double brittle_stretch) {
   const SofteningMaterial& softening = material.softening;
@@ -294,7 +300,7 @@ TooStrong::TooStrong(Index number, double energy)
 
 MaterialBonds bonds_of_material(const Body& body, const NetworkInput& input,
                                 const SolidMaterial& material, double brittle_stretch) {
-  if (!body.spans.empty()) {  // all bonds of a beam are stretched alike
+  if (!body.spans.empty()) {  // all bonds of a beam have the same stretch
     return bonds_by([](const BondLaw&, bool) { return 1.0; }, material.youngs_modulus, material,
                     brittle_stretch);
   }
@@ -315,8 +321,8 @@ MaterialBonds bonds_of_face(const Body& body, const NetworkInput& input, const F
 
 void soften_bonds(const Body& body, const NetworkInput& input, Network& network) {
   const Particles& particles = network.particles;
-  // Materials, and the stretch where bonds of the same take unlike energies: those of beams near
-  // ends, and those of layers beside other materials. Ties have none.
+  // Materials, and the stretch where bonds of the same materials have different energies: in beams
+  // near ends, and in layers at joints. Slip springs have no such stretch.
   struct Kind {
     std::pair<Index, Index> materials;
     double stretch;
@@ -329,7 +335,7 @@ void soften_bonds(const Body& body, const NetworkInput& input, Network& network)
       return {std::minmax(a, b), network.critical_stretch[element]};
     }
     const double stretch = network.is_beam() ? network.critical_stretch[element] : 0.0;
-    // Between two spans of a beam stands a particle of the first one.
+    // The particle between two beam segments belongs to the first one.
     const Index own = particles.material[network.is_beam() ? j : network.bonds.first[element]];
     const bool solid = particles.kind[j] == ParticleKind::solid;
     return {std::minmax(own, solid ? particles.material[j] : own), stretch};
@@ -364,7 +370,7 @@ void soften_bonds(const Body& body, const NetworkInput& input, Network& network)
   for (Index e = 0; e < network.first_bar_element; ++e) {
     if (!network.has_limit(e)) continue;
     const Kind kind = kind_of(e);
-    // Ties are as tough as what lies beside no other material: the least stretch.
+    // Slip springs take the law with the least stretch, as bonds away from other materials do.
     const auto law = kind.stretch > 0.0 ? number.find(kind) : number.lower_bound(kind);
     if (law == number.end() || law->first.materials != kind.materials) continue;
     network.law_of[e] = law->second;

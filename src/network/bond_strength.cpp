@@ -12,7 +12,7 @@
 namespace perilink {
 namespace {
 
-/// Sums over the inner particles of a cloud and the ends of bonds there.
+/// Sums over the inner particles of an unstructured particle set and the bond ends there.
 struct InnerBonds {
   double volume = 0.0;
   double axial = 0.0;    ///< k xi^3 / 2
@@ -23,7 +23,7 @@ struct InnerBonds {
   }
 };
 
-/// Values of pairs of materials by bond.
+/// Maps a bond to the number of its pair of materials.
 class PairOf {
  public:
   PairOf(const NetworkInput& input, const Network& network)
@@ -38,7 +38,7 @@ class PairOf {
   std::size_t count_;
 };
 
-/// Particles that are bonded to none on a facet.
+/// Flags particles without a bond to a particle on a facet.
 std::vector<std::uint8_t> inner_particles(const Network& network) {
   std::vector<std::uint8_t> inner(static_cast<std::size_t>(network.particles.size()), 1);
   std::vector<std::uint8_t> on_facet(inner.size(), 0);
@@ -50,7 +50,7 @@ std::vector<std::uint8_t> inner_particles(const Network& network) {
   return inner;
 }
 
-/// By material.
+/// Returns the sums per material.
 std::vector<InnerBonds> sum_inner_bonds(const Network& network, std::size_t num_materials) {
   const std::vector<std::uint8_t> inner = inner_particles(network);
   const std::vector<Index>& material = network.particles.material;
@@ -71,6 +71,7 @@ std::vector<InnerBonds> sum_inner_bonds(const Network& network, std::size_t num_
   return sums;
 }
 
+/// Sets the critical stretches of bonds from fracture sums.
 /// \param fracture_sums  Q of every pair of materials; zero: unknown
 void apply_fracture_sums(const NetworkInput& input, const std::vector<double>& fracture_sums,
                          Network& network) {
@@ -89,14 +90,14 @@ void apply_fracture_sums(const NetworkInput& input, const std::vector<double>& f
   }
 }
 
-/// Materials are compared by what it takes to break them.
+/// Returns the key by which strengths of materials are compared.
 auto strength_of(const SolidMaterial& material) {
   const SofteningMaterial& softening = material.softening;
   return std::tuple(material.fracture_energy, softening.tensile_strength, softening.stretches,
                     softening.shape.kind);
 }
 
-/// Facets in the body between breakable materials of different strength.
+/// Returns whether a facet lies between breakable materials of different strength.
 bool is_joint(const NetworkInput& input, const Facets& facets, Index facet) {
   if (facets.on_surface(facet)) return false;
   const SolidMaterial& inside = input.materials[facets.inside[facet]];
@@ -105,8 +106,8 @@ bool is_joint(const NetworkInput& input, const Facets& facets, Index facet) {
          strength_of(inside) != strength_of(outside);
 }
 
-/// The one of a facet's two materials that a direction from its plane leads into; in the plane the
-/// weaker one.
+/// Returns the material of a facet that a direction enters, or the weaker one for a direction
+/// within the facet's plane.
 Index material_entered(const NetworkInput& input, const Facets& facets, Index facet,
                        std::span<const double> direction, double sign) {
   constexpr double in_plane = 1e-6;

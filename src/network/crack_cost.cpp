@@ -8,18 +8,19 @@
 namespace perilink {
 namespace {
 
-/// Ratios lambda / mu of the columns. Poisson's ratio is 0, 1/5, 3/10 and 1/3 there in plane
-/// stress, 0, 1/6, 3/13 and 1/4 in plane strain and in space; the last is that of bonds without
-/// bending.
+/// Ratios lambda / mu of the columns. They mean Poisson's ratios of 0, 1/5, 3/10 and 1/3 in plane
+/// stress, and of 0, 1/6, 3/13 and 1/4 in plane strain and in space. Bonds without bending have the
+/// last ratio.
 constexpr std::array<double, 4> lame_ratios = {0.0, 0.5, 6.0 / 7.0, 1.0};
 
 struct CostRow {
-  double size;  ///< neighbours of a lattice particle; of clouds horizon over spacing
+  double size;  ///< neighbours of a lattice particle; in unstructured particle sets horizon over
+                ///< spacing
   std::array<double, 4> cost;
 };
 
-// Means of strips: verification/studies/toughness. Bonds of cubic lattices with three spacings: the
-// mean of a front without end, 1.080, and of one between free faces, 1.036.
+// Means over strips from verification/studies/toughness. Cubic lattices with a horizon of three
+// spacings: mean of an endless crack front, 1.080, and a front between free faces, 1.036.
 constexpr CostRow rectangular[] = {
     {8, {1.643, 1.887, 2.031, 2.099}},  {12, {1.172, 1.325, 1.663, 1.731}},
     {20, {1.089, 1.142, 1.235, 1.299}}, {24, {1.094, 1.128, 1.190, 1.218}},
@@ -41,7 +42,7 @@ constexpr CostRow face_centred[] = {{18, {1.086, 1.216, 1.396, 1.668}},
                                     {176, {1.024, 1.015, 1.025, 1.001}}};
 constexpr CostRow unstructured_plane[] = {{2.5, {1.116, 1.165, 1.249, 1.297}},
                                           {3.0, {1.082, 1.109, 1.144, 1.156}}};
-// Measured between free faces without bending, 0.93, times 1.02 as for cubic lattices; bonds with
+// Measured between free faces without bending, 0.93, times 1.02 as for cubic lattices. Bonds with
 // bending were not measured.
 constexpr CostRow unstructured_space[] = {{3.0, {0.95, 0.95, 0.95, 0.95}}};
 
@@ -57,8 +58,8 @@ std::span<const CostRow> rows_of(Pattern pattern, int dim) {
                   : std::span<const CostRow>(unstructured_space);
 }
 
-/// Below the table the first row; beyond it the excess falls as one over the number of neighbours,
-/// which goes with the size to the given power.
+/// Interpolates in the table. Below the table it returns the first row. Beyond it the excess over 1
+/// falls as size^-power, the inverse of the number of neighbours.
 double cost_in(std::span<const CostRow> rows, double size, double power, std::size_t column) {
   const auto above =
       std::find_if(rows.begin(), rows.end(), [&](const CostRow& row) { return row.size >= size; });

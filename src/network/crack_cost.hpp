@@ -5,17 +5,17 @@
 
 namespace perilink {
 
-/// What a long straight crack dissipates along the path of the events, over what the sum of the
-/// bonds across it says (B-9) [-]. The body has to be loaded until the next bond at the crack's tip
-/// gives way, which then snaps: more is lost than the bond held, and the more so the fewer bonds
-/// share the work. Measured once, in strips of each lattice and of irregular clouds
-/// (verification/studies/toughness); it depends on the neighbours within the horizon and on the
-/// ratio of Lame's constants, on no length and no modulus. Cracks of lattices run along x, between
-/// two rows.
+/// Returns the fracture-energy correction for lattice trapping [-]. It is the energy that a long
+/// straight crack dissipates along the path of events, over the sum of the bonds across it (B-9).
+/// The load must grow until the next bond at the crack tip breaks, and its excess energy is lost.
+/// The loss is larger with fewer bonds at the tip. The table was measured in strips of each lattice
+/// and of unstructured particle sets (verification/studies/toughness). It depends on the neighbours
+/// within the horizon and on the ratio of Lame's constants, not on lengths or moduli. Cracks in
+/// lattices run along x, between two rows.
 double crack_cost(const Body& body, const NetworkInput& input, const SolidMaterial& material);
 
-/// Horizon over spacing from which on the cost of a crack is the same, within a few percent,
-/// whatever its path.
+/// Smallest horizon over spacing for which the correction is independent of the crack path, within
+/// a few percent.
 inline constexpr double least_ratio_of_cracks = 3.0;
 
 }  // namespace perilink

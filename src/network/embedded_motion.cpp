@@ -11,15 +11,16 @@
 namespace perilink {
 namespace {
 
-/// Shares of motions below this are round-off.
+/// Coefficients of motions below this are round-off.
 constexpr double negligible = 1e-9;
 
 std::size_t slot_of(const Unknowns& unknowns, Index particle, int component) {
   return static_cast<std::size_t>(particle) * unknowns.width + component;
 }
 
-/// By which an element's held particles make the motion of each of its nodes along a component,
-/// shape (held particles, nodes): a column of zeros where they leave the node free.
+/// Returns coefficients that express the motion of each node along a component by the element's
+/// held particles, shape (held particles, nodes). A column is zero where the held particles leave
+/// the node free.
 Eigen::MatrixXd shares_of_nodes(const Hosts& hosts, Index element,
                                 const std::vector<std::size_t>& support_regions) {
   const auto count = static_cast<Index>(hosts.nodes_of.row(element).size());
@@ -38,7 +39,7 @@ Eigen::MatrixXd shares_of_nodes(const Hosts& hosts, Index element,
   return shares;
 }
 
-/// Where a particle stands, from a node on.
+/// Returns the vector from a node to a particle [length].
 Vector3 arm_from(const Hosts& hosts, Index element, std::size_t place, Index node) {
   const auto nodes = hosts.nodes_of.row(element);
   const auto weights = hosts.weights_at(element, place);
@@ -52,8 +53,8 @@ Vector3 arm_from(const Hosts& hosts, Index element, std::size_t place, Index nod
   return arm;
 }
 
-/// Whether the origin is one of some points, lies among them or on their border: whether some mean
-/// of the ways to them is about zero. By the algorithm of von Neumann, on ways of length one.
+/// Returns whether the origin lies in the convex hull of some points or on its boundary, to a
+/// tolerance. Uses von Neumann's algorithm on unit vectors to the points.
 bool lies_among(std::vector<Vector3> ways) {
   constexpr double little = 0.05;
   constexpr int most_steps = 200;
@@ -84,7 +85,7 @@ HeldNodes none_held(const Hosts& hosts, const Unknowns& free) {
   return HeldNodes(static_cast<std::size_t>(hosts.num_nodes()) * free.width, 0);
 }
 
-/// Places in an element of the particles that supports hold along a component.
+/// Returns the positions within an element of the particles that supports hold along a component.
 std::vector<std::size_t> support_regions(const Hosts& hosts, const Unknowns& free, Index element,
                                          int component) {
   const auto inside = hosts.inside.row(element);
@@ -96,7 +97,7 @@ std::vector<std::size_t> support_regions(const Hosts& hosts, const Unknowns& fre
   return places;
 }
 
-/// Adds what the particles of an element hold.
+/// Marks the node components that the held particles of an element fix.
 void hold_nodes(const Hosts& hosts, const Unknowns& free, Index element, HeldNodes& held) {
   const auto nodes = hosts.nodes_of.row(element);
   for (int a = 0; a < free.width; ++a) {
@@ -109,7 +110,7 @@ void hold_nodes(const Hosts& hosts, const Unknowns& free, Index element, HeldNod
   }
 }
 
-/// Whether all particles of an element are held, and the others move, as its nodes make them.
+/// Returns whether the nodes of an element hold and move its particles exactly as prescribed.
 bool fits(const Hosts& hosts, const Unknowns& free, Index element, const HeldNodes& held) {
   const auto nodes = hosts.nodes_of.row(element);
   const auto inside = hosts.inside.row(element);
@@ -128,10 +129,12 @@ bool fits(const Hosts& hosts, const Unknowns& free, Index element, const HeldNod
   return true;
 }
 
-/// Nodes that elements hold beyond the particles that are held: with them the support would grow.
+/// Marks node components that elements would hold outside the held particles, which would enlarge
+/// the support.
 HeldNodes held_beyond_supports(const Hosts& hosts, const Unknowns& free) {
   HeldNodes own = none_held(hosts, free), beyond = own;
-  std::map<std::size_t, std::vector<Vector3>> arms;  // from held nodes, by their components
+  std::map<std::size_t, std::vector<Vector3>> arms;  // from held nodes to particles, by slot of the
+                                                     // node
   for (Index e = 0; e < hosts.size(); ++e) {
     hold_nodes(hosts, free, e, own);
     for (const Index node : hosts.nodes_of.row(e)) {
@@ -149,7 +152,7 @@ HeldNodes held_beyond_supports(const Hosts& hosts, const Unknowns& free) {
   return beyond;
 }
 
-/// Whether an element has a node with both marks on one component.
+/// Returns whether an element has a node component with both marks.
 bool shares_any(const Hosts& hosts, const Unknowns& free, Index element, const HeldNodes& first,
                 const HeldNodes& second) {
   for (const Index node : hosts.nodes_of.row(element)) {
@@ -161,7 +164,7 @@ bool shares_any(const Hosts& hosts, const Unknowns& free, Index element, const H
   return false;
 }
 
-/// What is a combination of particles that something now carries is one of what carries them.
+/// Re-expresses combinations of particles that are now embedded by the unknowns of their hosts.
 void carry_followers(const Unknowns& free, Unknowns& unknowns) {
   if (!free.carries()) return;
   const std::vector<std::size_t> slots = free.slots();
@@ -186,7 +189,7 @@ std::vector<std::uint8_t> fit_supports(const Hosts& hosts, const Unknowns& free)
   for (Index e = 0; e < hosts.size(); ++e) {
     hold_nodes(hosts, free, e, own);
     fitting[e] = fits(hosts, free, e, own) && !shares_any(hosts, free, e, own, beyond);
-    // What an element holds that does not fit by itself counts for no other.
+    // Only elements that fit by themselves hold nodes for other elements.
     for (const Index node : hosts.nodes_of.row(e)) {
       for (int a = 0; a < free.width; ++a) {
         const std::size_t slot = slot_of(free, node, a);

@@ -11,26 +11,26 @@
 ///
 ///   U = 1/2 sum over modes of k_m e_m^2,   e_m = b_first . q_i + b_second . q_j,
 ///
-/// q a particle's displacements and rotations. With the unit vector n along the bond, t across it
-/// and u = u_j - u_i (Gerstle, Sau & Aguilera 2007, Eq. 5 in diagonal form):
+/// with a particle's displacements and rotations q. The unit vector n lies along the bond, t across
+/// it, and u = u_j - u_i (Gerstle, Sau & Aguilera 2007, Eq. 5 in diagonal form):
 ///
 ///   axial    k                       e = u . n
 ///   shear    kb                      e = u . t - xi (a theta_i + (1 - a) theta_j)
 ///   bending  kb xi^2 / 12            e = theta_j - theta_i
 ///   torsion  torsion kb xi^2 / 12    e = (theta_j - theta_i) . n     (three dimensions)
 ///
-/// a is one half in the paper; calibrated bonds have their inflection elsewhere
-/// (Network::inflection), and hinged ones no bending and no torsion (Network::hinged). In three
-/// dimensions shear and bending come twice, for the two directions across the bond. A rigid motion,
-/// rotations included, costs nothing.
+/// a is one half in the paper. Calibrated bonds have their inflection elsewhere
+/// (Network::inflection); hinged ones have no bending and no torsion (Network::hinged). In three
+/// dimensions shear and bending occur twice, for the two directions across the bond. Rigid motions
+/// with their rotations have no energy.
 ///
-/// Bonds of shells are ribbons of the height t: against bending and torsion out of the sheet they
-/// have the stiffnesses t^2/12 times k and kb, against shear across it Shell::shear_ratio times k
+/// Bonds of shells have the depth t. Their stiffnesses against out-of-plane bending and torsion are
+/// t^2/12 times k and kb. Their out-of-plane shear stiffness is Shell::shear_ratio times k
 /// (docs/theory/shells.md).
 
 namespace perilink {
 
-/// The modes of one bond, intact. Components as in Network::width().
+/// Modes of one intact bond, with the components of Network::width().
 template <int Dim>
 struct FrameModes {
   static constexpr int width = Dim == 2 ? 3 : 6;
@@ -40,7 +40,7 @@ struct FrameModes {
   std::array<std::array<double, width>, count> first{};   ///< b of the first end
   std::array<std::array<double, width>, count> second{};  ///< b of the second end
 
-  /// e_m of the motion of all particles, shape (particles, width).
+  /// Returns e_m for the motions of the two ends, each of size width.
   template <class Real>
   Real deformation(int mode, const Real* first_end, const Real* second_end) const {
     Real sum = 0.0;
@@ -51,18 +51,17 @@ struct FrameModes {
   }
 };
 
-/// How a bond is deformed, without the vectors of its modes: what searches and forces need, once
-/// for every bond.
+/// Deformation of a bond without the vectors of its modes, for event searches and forces.
 template <int Dim>
 struct FrameDeformation {
   double extension = 0.0;
   double shear[Dim] = {};              ///< vector across n; in the plane the first entry is along t
-  double bend[Dim == 2 ? 1 : 3] = {};  ///< relative rotation but its part about n
+  double bend[Dim == 2 ? 1 : 3] = {};  ///< relative rotation without its part about n
   double twist = 0.0;                  ///< relative rotation about n
 
-  /// \param n          unit vector from the first end to the second
-  /// \param first_arm  from the first end to the inflection, as the second one [length]
-  /// \param i, j       motions of the first end and the second
+  /// \param n                      unit vector from the first end to the second
+  /// \param first_arm, second_arm  from each end to the inflection [length]
+  /// \param i, j                   motions of the first end and the second
   [[gnu::always_inline]] FrameDeformation(const double* n, double first_arm, double second_arm,
                                           const double* i, const double* j) {
     if constexpr (Dim == 2) {
@@ -102,7 +101,7 @@ inline FrameModes<2> plane_modes(const double* n, double xi, double k, double kb
   return modes;
 }
 
-/// A unit vector across n, from the axis that lies farthest from it.
+/// Returns a unit vector normal to n, from the axis with the largest angle to n.
 inline Vector3 across(const Vector3& n) {
   int axis = 0;
   for (int a = 1; a < 3; ++a) {
@@ -126,8 +125,8 @@ inline FrameModes<3> space_modes(const double* direction, double xi, double k, d
   FrameModes<3> modes;
   modes.stiffness = {k, kb, kb, bending, bending, torsion * bending};
   for (int a = 0; a < 3; ++a) {
-    // A rigid rotation w moves the second end by w x n xi: along t1 by xi w . t2, along t2 by
-    // -xi w . t1.
+    // A rigid rotation w moves the second end by w x n xi: by xi w . t2 along t1, and by
+    // -xi w . t1 along t2.
     const std::array<double, 3> translation{n[a], t1[a], t2[a]};
     for (int m = 0; m < 3; ++m) {
       modes.first[m][a] = -translation[m];
@@ -150,8 +149,8 @@ inline FrameModes<3> space_modes(const double* direction, double xi, double k, d
 
 namespace detail {
 
-/// Bonds of a shell: ribbons as thick as it is. t1 lies in the sheet, t2 = m is its normal. Axial
-/// force and shear in the sheet act at its middle surface, `rise` above the bond.
+/// Returns the modes of a shell bond. t1 lies in the mid-surface, t2 = m is its normal. Axial force
+/// and in-plane shear act at the mid-surface, `rise` above the bond.
 inline FrameModes<3> shell_bond_modes(const Network& network, Index element, double xi, double k,
                                       double kb, double inflection) {
   const Shell& shell = *network.shell;
@@ -184,8 +183,8 @@ inline FrameModes<3> shell_bond_modes(const Network& network, Index element, dou
 
 }  // namespace detail
 
-/// Modes of an element of a network that carries moments; elements without bending stiffness are
-/// trusses, whose other modes have no stiffness.
+/// Returns the modes of an element in a network that carries moments. Elements without bending
+/// stiffness are trusses: only the axial mode has stiffness.
 template <int Dim>
 FrameModes<Dim> frame_modes(const Network& network, Index element) {
   const double* n = network.bonds.direction(element).data();

@@ -34,7 +34,7 @@ LatticeNeighbourhoods::LatticeNeighbourhoods(const Body& body, const NetworkInpu
   }
 }
 
-/// Every lattice vector has whole coordinates in half steps.
+/// Returns integer coordinates in half steps; every lattice vector has them.
 std::array<long, 3> LatticeNeighbourhoods::key(const Vector3& vector) const {
   std::array<long, 3> numbers{};
   for (int axis = 0; axis < lattice_.dim; ++axis) {

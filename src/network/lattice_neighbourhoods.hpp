@@ -11,24 +11,23 @@
 
 namespace perilink {
 
-/// Isotropic stiffness of the bonds inside a lattice, for each material, by the vector between
-/// their ends.
+/// Isotropic stiffness of the interior bonds of a lattice, per material and vector between the
+/// ends.
 class LatticeNeighbourhoods {
  public:
-  /// \throws std::invalid_argument where the horizon holds too few neighbours for an isotropic
-  ///     solid
+  /// \throws std::invalid_argument if the horizon has too few neighbours for an isotropic solid
   LatticeNeighbourhoods(const Body& body, const NetworkInput& input);
 
   Index size() const { return static_cast<Index>(neighbourhood_.offsets.size()); }
   std::span<const Vector3> offsets() const { return neighbourhood_.offsets; }
 
-  /// Number of the neighbour that a bond leads to, no_index where the lattice has none there (close
-  /// pairs at the sides of hexagonal bodies).
+  /// Returns the number of the neighbour at a vector, or no_index without one. Close pairs at the
+  /// sides of hexagonal bodies are an example.
   Index find(std::span<const double> direction, double length) const;
 
   const NeighbourhoodStiffness& stiffness(Index material) const { return stiffness_[material]; }
 
-  /// 1/2 sum k xi^2 of a particle of the material, axial [force length].
+  /// Returns 1/2 sum k xi^2 of a particle of the material, axial [force length].
   double modulus(Index material) const { return modulus_[material]; }
 
  private:

@@ -12,7 +12,7 @@
 namespace perilink {
 namespace {
 
-/// Depths of places that count, over the reach of bonds.
+/// Depth of distinct places under a face, over the reach of bonds.
 constexpr Index counted_reaches = 3;
 
 }  // namespace
@@ -22,14 +22,14 @@ GridPoint LatticePattern::place(const GridPoint& point) const {
   for (int a = 0; a < 3; ++a) {
     const Index above = grid.count[a] - point[a];
     if (small.count[a] == grid.count[a] || point[a] < depth[a]) continue;
-    // In the middle there are two places: points of a face-centred lattice are even or odd.
+    // The middle has two places: points of a face-centred lattice are even or odd.
     like[a] = above < depth[a] ? small.count[a] - above : depth[a] + (point[a] - depth[a]) % 2;
   }
   return like;
 }
 
 double LatticePattern::num_bonds() const {
-  std::array<std::vector<double>, 3> times;  // that a plane of the sample is found in the box
+  std::array<std::vector<double>, 3> times;  // occurrences of each template plane in the box
   for (int a = 0; a < 3; ++a) {
     times[a].assign(static_cast<std::size_t>(small.count[a]) + 1, 0.0);
     GridPoint point{};
@@ -111,7 +111,7 @@ PatternBonds::PatternBonds(const LatticePattern& pattern)
 }
 
 bool PatternBonds::is_loose(const GridPoint& point) const {
-  Bonds bonds;  // to one and the same other end: directions alone count
+  Bonds bonds;  // all to one other end: only directions matter
   bonds.dim = pattern_.grid.dim;
   const Network& sample = pattern_.sample;
   bool turns = !sample.carries_moments();

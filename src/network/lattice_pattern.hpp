@@ -9,46 +9,47 @@
 
 namespace perilink {
 
-/// The bonds of a box of a lattice, however large, by those of a smaller one: bonds at places that
-/// lie alike under the faces are alike, as calibration makes them (calibration/bond_orbits.hpp).
-/// So a process can make the bonds of any part of the box by itself.
+/// Describes the bonds of a large lattice box by a smaller template box. Bonds at equivalent places
+/// under the faces are symmetry-equivalent after calibration (calibration/bond_orbits.hpp). So each
+/// process can generate the bonds of any part of the box.
 struct LatticePattern {
   LatticeGrid grid;              ///< the box
-  LatticeGrid small;             ///< the smaller one
-  std::array<Index, 3> reach{};  ///< farthest that bonds go along each axis [steps]
-  std::array<Index, 3> depth{};  ///< under a face from which on all places are alike [steps]
-  /// Particles and bonds of the smaller box, which has no cracks.
+  LatticeGrid small;             ///< template box
+  std::array<Index, 3> reach{};  ///< largest extent of a bond along each axis [steps]
+  std::array<Index, 3> depth{};  ///< under a face, from which all places are equivalent [steps]
+  /// Particles and bonds of the template box, without cracks.
   Network sample;
-  std::vector<Crack> cracks;  ///< that cut bonds of the box
-  double num_cut = 0.0;       ///< how many they cut
+  std::vector<Crack> cracks;  ///< cracks that cut bonds of the box
+  double num_cut = 0.0;       ///< number of cut bonds
 
-  /// The place in the sample that lies like a point of the box.
+  /// Returns the template place equivalent to a point of the box.
   GridPoint place(const GridPoint& point) const;
-  /// How many bonds the box has.
+  /// Returns the number of bonds of the box.
   double num_bonds() const;
 };
 
-/// A pattern without its sample, whose bonds the caller makes. Depths are three times the reach:
-/// as far as calibrated bonds tell places apart.
+/// Returns a pattern without its template network, which the caller builds. Depths are three times
+/// the reach, as far as calibrated bonds differ between places.
 LatticePattern pattern_of(const LatticeGrid& grid, double horizon);
 
-/// Whether a sample can stand for a box: it is in one piece, no particle of it is loose, it has
-/// nothing but bonds, some turn each particle where they carry moments, and where they were
-/// calibrated, those that lie alike are alike.
+/// Returns whether a template can represent a box. It must be in one piece, without loose
+/// particles, and have only bonds. Where bonds carry moments, some must turn each particle.
+/// Calibrated bonds must preserve symmetry.
 bool can_repeat(const Network& sample);
 
-/// Cuts the bonds of the box that cross cracks; looks only at those around them.
-/// \param by_crack  how many each of them cuts
-/// \return whether the box stays in one piece and no particle of it is loose
+/// Cuts the bonds of the box that cross cracks; only bonds near cracks are tested.
+/// \param by_crack  number of bonds that each crack cuts
+/// \return whether the box stays in one piece without loose particles
 bool cut_bonds(LatticePattern& pattern, const std::vector<Crack>& cracks,
                std::vector<Index>& by_crack);
 
-/// Bonds that have an end in a window, as the box has them.
+/// Bonds of the box with an end in a window.
 class PatternBonds {
  public:
   explicit PatternBonds(const LatticePattern& pattern);
 
-  /// Those whose first end is in the window alone, before cracks cut any.
+  /// Calls visit(first, second, element) for bonds with their first end in the window, before
+  /// cracks cut any.
   template <class Visit>
   void for_each_first(const GridWindow& window, Visit visit) const {
     pattern_.grid.for_each(window, [&](const GridPoint& p) {
@@ -59,15 +60,15 @@ class PatternBonds {
   }
 
   /// Calls visit(first, second, element) for bonds that no crack cuts: points of the box in their
-  /// order, and the element of the sample that is like the bond. At first bonds whose first end is
-  /// in the window, in their order, then the others.
+  /// order, and the equivalent element of the template. Bonds with their first end in the window
+  /// come first, in order.
   template <class Visit>
   void for_each(const GridWindow& window, Visit visit) const {
     for_each_before(window, [&](const GridPoint& first, const GridPoint& second, Index element) {
       if (!is_cut(first, second)) visit(first, second, element);
     });
   }
-  /// The same before cracks cut bonds.
+  /// Calls visit(first, second, element) as for_each() does, before cracks cut bonds.
   template <class Visit>
   void for_each_before(const GridWindow& window, Visit visit) const {
     for_each_first(window, visit);
@@ -78,15 +79,17 @@ class PatternBonds {
       });
     });
   }
+  /// Returns whether a crack cuts the bond between two points.
   /// \param first  end that comes first
   /// \param count  see CrackCutter::cuts()
   bool is_cut(const GridPoint& first, const GridPoint& second, std::span<Index> count = {}) const {
     if (pattern_.cracks.empty()) return false;
     return cutter_.cuts(pattern_.grid.position(first), pattern_.grid.position(second), count);
   }
-  /// Whether too few bonds are left at a point to hold and, where they carry moments, to turn it.
+  /// Returns whether the remaining bonds at a point are too few to hold it and, where bonds carry
+  /// moments, to turn it.
   bool is_loose(const GridPoint& point) const;
-  /// Around all cracks, as far as bonds reach.
+  /// Returns the window around all cracks within the reach of bonds.
   GridWindow around_cracks() const;
 
  private:
@@ -103,8 +106,8 @@ class PatternBonds {
   Index element_between(const GridPoint& first, const GridPoint& second) const;
 
   const LatticePattern& pattern_;
-  Csr neighbourhoods_;             // bonds of each particle of the sample
-  std::vector<GridPoint> points_;  // where these are
+  Csr neighbourhoods_;             // bonds of each template particle
+  std::vector<GridPoint> points_;  // points of the template particles
   CrackCutter cutter_;
 };
 

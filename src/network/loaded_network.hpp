@@ -14,34 +14,36 @@ struct Loads {
   std::vector<double> forces;  ///< shape (particles, width) [force], moments [force length]
 };
 
-/// Reference load or displacement that turns load factors into the two axes of the load curve, each
-/// work-conjugate to the other.
+/// Reference load or displacement that scales load factors to the two axes of the load curve. The
+/// axes are work-conjugate.
 struct ReferenceLoad {
-  bool driven = false;  ///< displacements drive the body (forces may help them)
-  double value = 0.0;   ///< load of all loaded places, or relative displacement of driven ones
+  bool driven = false;  ///< displacement-controlled; forces may act too
+  double value = 0.0;   ///< load of all load regions, or relative displacement of
+                        ///< displacement-controlled ones
 };
 
-/// Loads and prescribed motions that grow together in a stage, at load factor 1.
+/// Loads and prescribed motions of a stage, proportional to one load factor; values at load factor
+/// 1.
 struct LoadCase {
   Loads loads;
-  /// What moves from the set's first stage on: slots that it drives were free until then, those of
-  /// earlier sets stay held.
+  /// Motion from the load case's first stage on. Slots that the case prescribes were free before;
+  /// slots of earlier cases stay held.
   Unknowns unknowns;
   ReferenceLoad reference;
 };
 
-/// What an analysis solves: a network, how its particles may move, and what loads them.
+/// Input of an analysis: a network, the motion of its particles, and the loads.
 struct LoadedNetwork {
   Network network;
   Unknowns unknowns;
   Loads loads;
   ReferenceLoad reference;
-  /// Where a case has stages: what they load the body by. The members above are those of the first.
+  /// Load cases of the stages; the members above belong to the first stage.
   std::vector<LoadCase> sets = {};
-  /// Where finite elements carry particles; `unknowns` is the motion that they begin with.
+  /// Host elements, if any; `unknowns` is then the motion with the initially active hosts.
   std::optional<EmbeddedBody> embedded = {};
-  /// Where processes make the bonds of their parts by themselves: what they make them from. The
-  /// network then has particles alone.
+  /// Template for distributed mesh generation, if processes build their own bonds. The network then
+  /// has only particles.
   std::optional<LatticePattern> pattern = {};
 };
 

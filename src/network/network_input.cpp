@@ -7,7 +7,7 @@ namespace perilink {
 MicropolarModuli moduli_of(const Body& body, const NetworkInput& input,
                            const SolidMaterial& material) {
   const ElasticConstants elastic{material.youngs_modulus, material.poissons_ratio};
-  // Calibration starts from the continuum: a lattice alone may not reach the Poisson's ratio.
+  // Calibration starts from the continuum: a lattice may not reach the given Poisson's ratio.
   const bool continuum =
       input.micromodulus == Constants::continuum || body.lattice.surface == Surface::calibrated;
   if (input.model == BondModel::micropolar) {

@@ -15,16 +15,16 @@ namespace {
 using ModeRow = Eigen::Matrix<double, 6, 1>;
 using Gram = Eigen::Matrix<double, 6, 6>;
 
-/// Smallest squared sine between rigid-body modes that counts as independent: a lever of 1e-6 of
-/// the fragment's radius. Round-off leaves 1e-15.
+/// Smallest squared sine between independent rigid-body modes: a lever of 1e-6 of the fragment's
+/// radius. Round-off leaves 1e-15.
 constexpr double rank_tolerance = 1e-12;
 
-/// The lever itself.
+/// Smallest lever between independent rigid-body modes, the root of rank_tolerance.
 constexpr double rank_lever = 1e-6;
 
-/// Components of the motion of one particle in the rigid-body modes of a fragment: translations,
-/// then rotations about its centroid, scaled to about one at its rim. A particle's own rotation
-/// counts as the displacement that it means at the rim. Unused entries are zero.
+/// Components of one particle's motion in the rigid-body modes of a fragment: translations, then
+/// rotations about its centroid. Rotations are scaled to a displacement of about one at the rim; a
+/// particle's own rotation too. Unused entries are zero.
 class RigidModes {
  public:
   RigidModes(const Network& network, const std::vector<std::uint8_t>& rotating,
@@ -44,7 +44,8 @@ class RigidModes {
 
   int dim() const { return particles_.dim; }
 
-  /// Components that the modes move: displacements, and rotations where bonds turn the particle.
+  /// Returns the number of components that the modes move: displacements, and rotations where bonds
+  /// turn the particle.
   int components(Index particle) const {
     return !rotating_.empty() && rotating_[particle] ? width_ : particles_.dim;
   }
@@ -53,7 +54,7 @@ class RigidModes {
     return static_cast<std::size_t>(particle) * width_ + component;
   }
 
-  /// A component in its own unit, length or radian, per displacement at the rim.
+  /// Returns the unit of a component, length or radian, per displacement at the rim.
   double unit_of(int component) const {
     return component < particles_.dim || radius_ == 0.0 ? 1.0 : 1.0 / radius_;
   }
@@ -66,9 +67,9 @@ class RigidModes {
     }
     const int axis = component;
     modes[axis] = 1.0;
-    if (radius_ == 0.0) return modes;  // one particle does not move as it turns
+    if (radius_ == 0.0) return modes;  // a single particle does not move as it turns
     const Vector3 arm = arm_of(particle);
-    // Rotation about axis k moves the next axis forward and the one after it backward.
+    // Rotation about axis k moves the next axis forward and the one after that backward.
     for (int k = particles_.dim == 2 ? 2 : 0; k < 3; ++k) {
       if (axis == (k + 1) % 3) modes[3 + k] = -arm[(k + 2) % 3] / radius_;
       if (axis == (k + 2) % 3) modes[3 + k] = arm[(k + 1) % 3] / radius_;
@@ -99,7 +100,7 @@ int rank(const Gram& gram) {
   return static_cast<int>((eigenvalues.array() > least).count());
 }
 
-/// Products of the rigid-body modes on all unknowns of a fragment, and on the held ones.
+/// Products of the rigid-body modes over all unknowns of a fragment, and over the held ones.
 struct ModeProducts {
   Gram all = Gram::Zero(), held = Gram::Zero();
 
@@ -115,7 +116,7 @@ struct ModeProducts {
   }
 };
 
-/// Orthonormal rows that the held unknowns span.
+/// Orthonormal basis of the rows of held unknowns.
 class HeldSpan {
  public:
   ModeRow residual(ModeRow row) const {
@@ -123,7 +124,7 @@ class HeldSpan {
     return row;
   }
   void add(const ModeRow& row) {
-    const ModeRow rest = residual(residual(row));  // twice: orthogonal to round-off
+    const ModeRow rest = residual(residual(row));  // twice, for orthogonality to round-off
     if (rest.squaredNorm() > rank_tolerance * row.squaredNorm()) {
       basis_.push_back(rest.normalized());
     }
@@ -133,7 +134,7 @@ class HeldSpan {
   std::vector<ModeRow> basis_;
 };
 
-/// Particles none of whose elements can break.
+/// Flags particles without a breakable element.
 std::vector<std::uint8_t> unbreakable_particles(const Network& network) {
   std::vector<std::uint8_t> unbreakable(static_cast<std::size_t>(network.particles.size()), 1);
   for (Index e = 0; e < network.num_elements(); ++e) {
@@ -289,8 +290,8 @@ void pin_rigid_modes(const Network& network, const Fragment& fragment,
       if (held[modes.slot(i, a)]) span.add(modes.row(i, a));
     }
   }
-  // The unknown that the modes left free move most comes next; one of a particle that cannot be
-  // torn off is taken unless its lever is a thousand times too short.
+  // The next unknown is the one with the largest motion in the free modes. A particle without
+  // breakable bonds takes precedence unless its lever is a thousand times too short.
   constexpr double least_preferred = 1e-3;
   for (int missing = rank(products.all) - rank(products.held); missing > 0; --missing) {
     struct Best {
@@ -300,7 +301,7 @@ void pin_rigid_modes(const Network& network, const Fragment& fragment,
     };
     Best preferred;
     Best any;
-    Best rotation;  // taken where no displacement is left, as along a line of particles
+    Best rotation;  // taken if no displacement is left, as along a line of particles
     for (const Index i : fragment.particles) {
       for (int a = 0; a < modes.components(i) && !network.is_embedded_point(i); ++a) {
         if (held[modes.slot(i, a)]) continue;

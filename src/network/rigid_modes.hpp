@@ -12,43 +12,44 @@
 
 namespace perilink {
 
-/// A part of the body that nothing holds together with the rest.
+/// A part of the body without connection to the rest.
 struct Fragment {
   std::vector<Index> particles;
   int free_modes = 0;  ///< rigid-body modes that prescribed displacements and elastic supports
                        ///< leave free
 };
 
-/// Parts of the network that elements connect, but for those that are broken or have no stiffness,
-/// in the order of their first particles. Their free modes are not counted.
-/// \param in_one_piece  it is known that all particles hold together
+/// Returns the parts of the network that unbroken elements with stiffness connect, in the order of
+/// their first particles. Free modes are not counted.
+/// \param in_one_piece  all particles are known to be connected
 std::vector<Fragment> connected_parts(const Network& network, Secants secants,
                                       bool in_one_piece = false);
 
-/// Components that are held or that elastic supports resist, shape (particles, width).
+/// Flags components that are held or that elastic supports resist, shape (particles, width).
 std::vector<std::uint8_t> held_or_sprung(const Network& network, std::vector<std::uint8_t> held);
 
-/// Connected parts of the network (elements of zero stiffness do not connect) with the number of
-/// rigid-body modes that `held` (shape (particles, width)) leaves free in each. Rotations of
-/// particles that no bond turns hold nothing.
-/// \param in_one_piece  it is known that all particles hold together
+/// Returns the connected parts of the network with the number of rigid-body modes that `held`
+/// leaves free in each. Elements without stiffness do not connect. Rotations of particles that no
+/// bond turns do not count as held.
+/// \param held          shape (particles, width)
+/// \param in_one_piece  all particles are known to be connected
 std::vector<Fragment> find_fragments(const Network& network, const std::vector<std::uint8_t>& held,
                                      bool in_one_piece = false);
 
-/// Number of rigid-body modes of some particles that `held` and bonds to what stands still leave
-/// free.
-/// \param bonds  the particle and the number of each
+/// Returns the number of rigid-body modes of some particles that `held` and bonds to fixed parts
+/// leave free.
+/// \param bonds  particle and number of each bond
 int free_modes(const Network& network, const std::vector<Index>& particles,
                const std::vector<std::uint8_t>& held,
                std::span<const std::pair<Index, Index>> bonds);
 
-/// The rigid-body motions of a fragment that `held` leaves free, each of shape (particles, width)
-/// with zeros at other particles and at what is held; linearly independent, not scaled. Springs of
-/// supports are not looked at.
+/// Returns the rigid-body motions of a fragment that `held` leaves free, each of
+/// shape (particles, width). They are zero at other particles and held components, linearly
+/// independent, and not scaled. Springs of supports are ignored.
 std::vector<std::vector<double>> free_motions(const Network& network, const Fragment& fragment,
                                               const std::vector<std::uint8_t>& held);
 
-/// Sums of the applied loads.
+/// Resultant of the applied loads.
 struct LoadResultant {
   std::vector<double> force;   ///< size dim [force]
   std::vector<double> moment;  ///< about the solid's centroid, size 1 in 2D, 3 in 3D [force length]
@@ -56,9 +57,9 @@ struct LoadResultant {
 };
 LoadResultant load_resultant(const Network& network, const Loads& loads);
 
-/// Holds exactly the rigid-body modes of a free fragment (three unknowns in 2D, six in 3D) by
-/// marking them in `held`; prefers displacements to rotations, and particles whose bonds cannot
-/// break.
+/// Marks unknowns in `held` that fix exactly the rigid-body modes of a free fragment: three
+/// unknowns in 2D, six in 3D. Displacements are preferred to rotations, and particles with
+/// unbreakable bonds to others.
 void pin_rigid_modes(const Network& network, const Fragment& fragment,
                      std::vector<std::uint8_t>& held);
 

@@ -9,10 +9,10 @@
 
 namespace perilink {
 
-/// Present stiffness of every element as a fraction of the intact one [-]. That against a change of
-/// length may differ from the rest: a damaged bond that closes is as stiff as an intact one, but
-/// shears and bends as it did before, and there are bonds that keep shear and bending until they
-/// break. None given: all elements are intact.
+/// Secant stiffness ratio of every element, present over intact stiffness [-]. The axial ratio may
+/// differ from the ratio for shear and bending. A closed damaged bond has intact axial stiffness
+/// with the damaged shear and bending. Bonds with shear retention keep shear and bending until they
+/// break. An empty object means that all elements are intact.
 class Secants {
  public:
   Secants() = default;
@@ -24,11 +24,11 @@ class Secants {
   auto begin() const { return all_.begin(); }
   auto end() const { return all_.end(); }
 
-  /// What damage has left against shear and bending.
+  /// Returns the ratio for shear and bending.
   double operator[](Index element) const { return all_.empty() ? 1.0 : all_[element]; }
   double axial(Index element) const { return axial_.empty() ? 1.0 : axial_[element]; }
-  /// The smaller of the two: of a bond that closes what damage has left, of one that keeps its
-  /// shear the stiffness against a change of length.
+  /// Returns the smaller ratio: the damage ratio of a closed bond, the axial ratio of a bond with
+  /// shear retention.
   double least(Index element) const { return std::min((*this)[element], axial(element)); }
 
  private:

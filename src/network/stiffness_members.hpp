@@ -2,8 +2,8 @@
 
 namespace perilink {
 
-/// Visits what tells the stiffness of a network's elements, in one order: what a process has to
-/// send that gives a part of them to another.
+/// Calls visit(member) for the members that define the stiffness of a network's elements, in a
+/// fixed order. Processes exchange elements with it.
 /// \param network  a Network, constant or not
 template <class AnyNetwork, class Visit>
 void for_each_stiffness_member(AnyNetwork& network, Visit visit) {

@@ -53,7 +53,7 @@ std::vector<Index> Unknowns::owners() const {
 }
 
 void expect_nothing_embedded(const Unknowns& unknowns) {
-  if (unknowns.carries()) throw std::invalid_argument("particles cannot be carried here");
+  if (unknowns.carries()) throw std::invalid_argument("embedded particles are not supported here");
 }
 
 Unknowns number_unknowns(int width, const std::vector<std::uint8_t>& held,
@@ -70,7 +70,8 @@ Unknowns number_unknowns(int width, const std::vector<std::uint8_t>& held,
 
 namespace {
 
-/// Components of an anchor that follow its particles: rotations only those of one particle.
+/// Returns the number of components in which an embedded point follows its particles; it follows
+/// rotations only of a single particle.
 int following(const Network& network, Index embedded_point) {
   return network.embedded_points.particles.row(embedded_point).size() == 1 ? network.width()
                                                                            : network.dim();
@@ -147,10 +148,10 @@ std::vector<std::uint8_t> rotating_particles(const Network& network) {
 
 namespace {
 
-/// In space a straight bar that bends turns freely about itself: marks one rotation of its first
-/// node as held. Nothing is strained by that, since the whole bar turns until it is zero.
+/// In space a straight bar that bends turns freely about its axis. Marks one rotation of its first
+/// node as held; this causes no strain, since the whole bar turns.
 void hold_twist_of_bars(const Network& network, std::vector<std::uint8_t>& held) {
-  constexpr double straight = 1.0 - 1e-9;  // least cosine between pieces
+  constexpr double straight = 1.0 - 1e-9;  // least cosine between bar elements
   const std::vector<Index>& bar = network.bars.bar;
   if (network.dim() < 3 || !network.carries_moments()) return;
   for (std::size_t begin = 0, end = 0; begin < bar.size(); begin = end) {

@@ -10,38 +10,38 @@
 
 namespace perilink {
 
-/// How particles move: u = T q + prescribed, q the unknowns. A component of a particle (a "slot")
-/// is free (its own unknown), carried (a combination of unknowns, such as those of an element's
-/// nodes) or prescribed.
+/// Motion of the particles: u = T q + prescribed, with the unknowns q. A component of a particle (a
+/// "slot") is free with its own unknown, embedded, or prescribed. An embedded slot is a combination
+/// of unknowns, such as the unknowns of a host element's nodes.
 struct Unknowns {
   int width = 2;  ///< components of the motion of a particle, Network::width()
   Index count = 0;
-  /// Shape (particles, width): number of the unknown of a free slot, no_index of a prescribed one,
-  /// below that of a carried one, see carry().
+  /// Number of the unknown of each slot, shape (particles, width). It is no_index for a prescribed
+  /// slot and less for an embedded one, see carry().
   std::vector<Index> number;
-  /// Shape (particles, width): displacement [length] or rotation [-] at load factor 1 where no
-  /// unknown moves the slot, else 0.
+  /// Displacement [length] or rotation [-] at load factor 1 of slots without unknowns, else 0;
+  /// shape (particles, width).
   std::vector<double> prescribed;
 
-  /// What an unknown adds to a carried slot, per unit.
+  /// Coefficient of an unknown in an embedded slot.
   struct Share {
     Index unknown;
     double weight;
   };
 
-  /// Lets a combination of unknowns move a slot that was prescribed; at least one, each once.
+  /// Embeds a prescribed slot as a combination of unknowns: at least one, each once.
   void carry(std::size_t slot, std::span<const Share> shares) {
     number[slot] = no_index - static_cast<Index>(rows_.size());
     shares_.insert(shares_.end(), shares.begin(), shares.end());
     rows_.push_back(shares_.size());
   }
-  /// One unknown more, that moves no slot by itself: a component of a node.
-  /// \param node  number that the unknowns of the node have in common and no particle has
+  /// Adds an unknown without a slot of its own, a component of a node.
+  /// \param node  common number of the node's unknowns, not the number of a particle
   Index add_shared(Index node) {
     nodes_.push_back(node);
     return count++;
   }
-  /// Whether any slot is carried.
+  /// Returns whether any slot is embedded.
   bool carries() const { return rows_.size() > 1; }
   bool is_embedded(std::size_t slot) const { return number[slot] < no_index; }
 
@@ -58,16 +58,17 @@ struct Unknowns {
     }
   }
 
-  /// T q + prescribed: the motion of all particles, shape (particles, width).
+  /// Returns T q + prescribed, the motion of all particles, shape (particles, width).
   std::vector<double> expand(std::span<const double> q) const;
-  /// The same of some slots alone, into the motion of all particles.
+  /// Computes T q + prescribed in some slots of the motion of all particles.
   void expand(std::span<const double> q, std::span<const std::size_t> slots,
               std::span<double> displacement) const;
-  /// T' f: forces on particles, shape (particles, width), as forces on the unknowns.
+  /// Returns T' f: forces on the unknowns from forces on particles, shape (particles, width).
   std::vector<double> restrict(std::span<const double> forces) const;
-  /// A slot that each unknown moves: its own, or the first that it carries. Size count.
+  /// Returns one slot per unknown: its own, or the first embedded slot that it moves. Size count.
   std::vector<std::size_t> slots() const;
-  /// Whose each unknown is, a particle's or a node's; those of one lie side by side. Size count.
+  /// Returns the owner of each unknown, a particle or a node; unknowns of one owner are
+  /// consecutive. Size count.
   std::vector<Index> owners() const;
 
   Index at(Index particle, int component) const {
@@ -75,40 +76,40 @@ struct Unknowns {
   }
 
  private:
-  std::vector<std::size_t> rows_ = {0};  // where the shares of each carried slot begin, and an end
+  std::vector<std::size_t> rows_ = {0};  // begin of each embedded slot's shares, and an end
   std::vector<Share> shares_;
-  std::vector<Index> nodes_;  // whose the last unknowns are
+  std::vector<Index> nodes_;  // owners of the last unknowns
 };
 
-/// For analyses that move every particle by itself.
-/// \throws std::invalid_argument where something carries particles
+/// Checks the input of analyses without embedded particles.
+/// \throws std::invalid_argument if a slot is embedded
 void expect_nothing_embedded(const Unknowns& unknowns);
 
-/// Fills `number` and `count` in the order of the particles. `held` has shape (particles, width):
-/// nonzero where the displacement or rotation is prescribed.
+/// Numbers the unknowns in the order of the particles.
+/// \param held  shape (particles, width): nonzero where the displacement or rotation is prescribed
 Unknowns number_unknowns(int width, const std::vector<std::uint8_t>& held,
                          std::vector<double> prescribed);
 
-/// Marks the anchors as held, shape (particles, width): they have no unknowns of their own.
+/// Marks the embedded points as held, shape (particles, width): they have no unknowns of their own.
 void hold_embedded_points(const Network& network, std::vector<std::uint8_t>& held);
 
-/// Lets anchors move with their particles, beside what is prescribed for them.
+/// Makes embedded points follow their particles, in addition to their prescribed motion.
 void carry_embedded_points(const Network& network, Unknowns& unknowns);
 
-/// Sums over the particles of anchors with their weights, in place of the motions of anchors, shape
-/// (particles, width).
+/// Sets the motions of embedded points to the weighted sums over their particles,
+/// shape (particles, width).
 void follow_particles(const Network& network, std::span<double> motion);
 
-/// The other way round: adds the forces of anchors to those of their particles, and takes them from
-/// the anchors.
+/// Moves the forces of embedded points to their particles, with the weights of the motion.
 void load_particles(const Network& network, std::span<double> forces);
 
-/// Particles that a bond with bending stiffness ends at, or all (Network::all_turn); others have
-/// no rotations, which must not be unknown. Empty where no bond carries a moment.
+/// Flags particles at an end of a bond with bending stiffness, or all with Network::all_turn.
+/// Rotations of other particles must not be unknowns. The result is empty where no bond carries a
+/// moment.
 std::vector<std::uint8_t> rotating_particles(const Network& network);
 
-/// Marks the rotations of all particles that nothing turns as held, shape (particles, width). In
-/// space also one of the first node of each straight bar that bends: it turns freely about itself.
+/// Marks rotations without stiffness as held, shape (particles, width). In space this includes one
+/// rotation of the first node of each straight bar that bends.
 void hold_idle_rotations(const Network& network, std::vector<std::uint8_t>& held);
 
 }  // namespace perilink

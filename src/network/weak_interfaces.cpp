@@ -15,23 +15,22 @@
 namespace perilink {
 namespace {
 
-/// A face is plane where so much of its area is seen along its mean normal.
+/// A face is plane if its projection along the mean normal has at least this fraction of its area.
 constexpr double plane = 0.98;
 
-/// Normals and sums at single particles are those of so many rounds of neighbours across the face.
+/// Rounds of averaging over neighbours across the face, for normals and sums at particles.
 constexpr int rounds_of_spreading = 3;
 
-/// Bonds shorter than so many spacings tell which materials lie beside a face.
+/// Bonds up to this length, in spacings, show the materials on either side of a face.
 constexpr double short_bonds = 1.5;
 
-/// Mark of particles in both regions beside a face.
+/// Mark of particles in both regions of a face.
 constexpr std::uint8_t both_sides = 3;
 
-/// Stiffnesses of places of a face that differ by less, in their logarithm, are taken together:
-/// each is a law of its own.
+/// Steps in the logarithm of the stiffness along a face; each step has its own law.
 constexpr double step_of_places = 0.05;
 
-/// Bonds that cross the face if particles that lie in both regions are on the given side.
+/// Returns the bonds that cross the face if particles in both regions are on the given side.
 std::vector<Index> crossing_bonds(const Body& body, const WeakInterface& face, std::uint8_t shared,
                                   const Network& network) {
   std::vector<Index> crossing;
@@ -55,7 +54,8 @@ std::vector<Index> crossing_bonds(const Body& body, const WeakInterface& face, s
   return crossing;
 }
 
-/// Materials at the ends of a bond: a ghost, the second end, has that of the solid particle.
+/// Returns the materials at the ends of a bond. A ghost, always the second end, has the material of
+/// the solid particle.
 std::array<Index, 2> materials_at(const Network& network, Index bond) {
   const std::vector<Index>& material = network.particles.material;
   const Index first = material[network.bonds.first[bond]];
@@ -63,8 +63,8 @@ std::array<Index, 2> materials_at(const Network& network, Index bond) {
   return {first, second == no_index ? first : second};
 }
 
-/// Whether particles may be on either side: where regions have more than joints of materials in
-/// common, the face is where the second one begins.
+/// Returns whether the face may be at either side of shared particles. It may not if the regions
+/// share more than joints of materials; the second region then begins at the face.
 bool can_turn(const NetworkInput& input, const WeakInterface& face, const Network& network) {
   if (input.materials.size() < 2) return false;
   std::vector<std::uint8_t> in_joint(static_cast<std::size_t>(network.particles.size()), 0);
@@ -97,8 +97,9 @@ void add(const Sums& other, Sums& sums) {
   for (std::size_t a = 0; a < sums.size(); ++a) sums[a] += other[a];
 }
 
-/// Sums at each particle with crossing bonds, those of particles around it along such bonds added.
-/// \param own  sums of a bond
+/// Returns sums at each particle with crossing bonds, including the sums of its neighbours along
+/// such bonds.
+/// \param own  returns the sums of a bond
 template <class Own>
 std::map<Index, Sums> sums_along_face(const Network& network, std::span<const Index> crossing,
                                       Own own) {
@@ -119,31 +120,32 @@ std::map<Index, Sums> sums_along_face(const Network& network, std::span<const In
   return sums;
 }
 
-/// Stiffness of the bonds at a place of a face over that which they would have if all materials
-/// had the mean constants.
+/// Stiffness of the bonds at a location of a face, over that with mean constants in all materials
+/// [-].
 struct Place {
-  double force = 1.0;   ///< by sums of k xi, which a strain needs
-  double energy = 1.0;  ///< by sums of k xi^2
+  double force = 1.0;   ///< from sums of k xi, for the force
+  double energy = 1.0;  ///< from sums of k xi^2, for the energy
   auto operator<=>(const Place&) const = default;
 };
 
-/// What the bonds that cross a face make of it.
+/// Properties of a face from the bonds that cross it.
 struct Face {
   double area = 0.0;          ///< [length^2]
-  double fracture_sum = 0.0;  ///< sum of k xi^2 over the area, as held at the end [force/length]
+  double fracture_sum = 0.0;  ///< sum of k xi^2 times held_at_the_end(), over the area
+                              ///< [force/length]
   double held = 1.0;          ///< mean of held_at_the_end()
   Vector3 axis{};             ///< mean normal
   bool plane = false;
   SolidMaterial material;  ///< mean constants of the bonds, with the law of the face
-  std::map<Place, std::vector<Index>> places;  ///< with their bonds
+  std::map<Place, std::vector<Index>> places;  ///< bonds by location
 };
 
-/// Stiffness of a bond, and the ratio to it of its bending stiffness.
+/// Axial stiffness of a bond [force/length], and its bending stiffness over the axial one [-].
 struct BondStiffnesses {
   double axial = 0.0, bending = 0.0;
 };
 
-/// Measures the bonds that cross a face.
+/// Measures a face by the bonds that cross it.
 class Measure {
  public:
   Measure(const NetworkInput& input, const Network& network, const EvenBonds& even,
@@ -169,12 +171,12 @@ class Measure {
   const Network& network_;
   const EvenBonds& even_;
   std::span<const Index> crossing_;
-  std::vector<double> dilatation_;  ///< stress of a uniform dilatation of one, per material
-  double stress_ = 0.0;             ///< its mean over the bonds
-  std::map<Index, double> cosine_;  ///< between each bond and its normal
+  std::vector<double> dilatation_;  ///< stress of a unit uniform dilatation, per material
+  double stress_ = 0.0;             ///< mean over the bonds
+  std::map<Index, double> cosine_;  ///< cosine between each bond and its normal
 };
 
-/// Mean constants of the ends of the bonds.
+/// Computes the mean constants over the ends of the bonds.
 void Measure::mix(Face& face) {
   std::vector<double> parts(input_.materials.size(), 0.0);
   for (const Index e : crossing_) {
@@ -194,7 +196,7 @@ BondStiffnesses Measure::stiffness_of(Index bond) const {
   return {axial, network_.carries_moments() ? network_.bending[bond] / axial : 0.0};
 }
 
-/// Stiffness of a bond if all materials had the mean constants.
+/// Returns the stiffness of a bond with the mean constants in all materials.
 BondStiffnesses Measure::even_stiffness(Index bond) const {
   if (even_.stiffness.empty()) return stiffness_of(bond);
   const double axial = even_.stiffness[bond];
@@ -202,18 +204,18 @@ BondStiffnesses Measure::even_stiffness(Index bond) const {
           axial > 0.0 && network_.carries_moments() ? even_.bending[bond] / axial : 0.0};
 }
 
-/// What a bond of one holds when it breaks by an opening along the normal, over k xi^2 s_c^2 / 2.
-/// Bonds that carry moments break by a ratio of k_b to k that calibration has left behind.
-/// \param bending  ratio of its bending stiffness
+/// Returns the energy of a bond at breaking by an opening along the normal, over k xi^2 s_c^2 / 2
+/// [-]. Bonds with moments break by the ratio k_b / k before calibration.
+/// \param bending  present ratio of bending to axial stiffness [-]
 double Measure::held_at_the_end(Index bond, double cosine, double bending) const {
   if (!network_.carries_moments()) return 1.0;
   const double along = cosine * cosine, across = 1.0 - along;
   return (along + bending * across) / (along + network_.ratio_of_bending(bond) * across);
 }
 
-/// A uniform dilatation of one brings a stress of dim lambda + 2 mu, which bonds carry across the
-/// face by k xi: that settles the area that they carry. The normal where a bond crosses is the axis
-/// along which the bonds at its ends lie most.
+/// Measures area, normal and fracture sum. A unit uniform dilatation causes a stress of dim
+/// lambda + 2 mu, and bonds carry k xi across the face; the ratio gives their area. The local
+/// normal is the main axis of the crossing bonds at a bond's ends.
 void Measure::measure_area(Face& face) {
   const int dim = network_.dim();
   const std::map<Index, Sums> axes = sums_along_face(network_, crossing_, [&](Index e) {
@@ -223,7 +225,7 @@ void Measure::measure_area(Face& face) {
   Sums mean{};
   for (const auto& own : axes) add(own.second, mean);
   face.axis = principal_direction(mean, dim);
-  double along = 0.0, fracture_along = 0.0;  // the same seen along the mean normal
+  double along = 0.0, fracture_along = 0.0;  // seen along the mean normal
   double squares = 0.0;
   for (const Index e : crossing_) {
     Sums both = axes.at(network_.bonds.first[e]);
@@ -252,12 +254,12 @@ void Measure::measure_area(Face& face) {
   face.held = face.fracture_sum / squares;
 }
 
-/// Bonds by the stiffness around them, in few steps. In the mean over the places the face has the
-/// strength and the energy that it has if all materials have the mean constants.
+/// Groups the bonds by local stiffness in few steps. In the mean over the groups the face keeps the
+/// strength and energy for mean constants.
 void Measure::find_places(Face& face) const {
   const auto own_sums = [&](Index e) {
     const double length = network_.bonds.length(e), along = std::pow(cosine_.at(e), 2);
-    // Opening over length at which the equivalent stretch is one.
+    // Opening over length at an equivalent stretch of one.
     const double ratio = network_.carries_moments() ? network_.ratio_of_bending(e) : 0.0;
     const double opening = std::sqrt(along + ratio * (1.0 - along));
     Sums sums{};
@@ -301,7 +303,8 @@ Face Measure::face() {
   return face;
 }
 
-/// Young's moduli of the ends of bonds behind a face and where its normal points.
+/// Returns the mean Young's moduli behind a face and ahead of it (along its normal)
+/// [force/length^2].
 std::array<double, 2> moduli_beside(const NetworkInput& input, const Network& network,
                                     std::span<const Index> crossing, const Vector3& axis) {
   std::array<double, 2> moduli{};
@@ -315,7 +318,7 @@ std::array<double, 2> moduli_beside(const NetworkInput& input, const Network& ne
   return moduli;
 }
 
-/// Law of the bonds of a place.
+/// Returns the law of the bonds at one location.
 MaterialBonds bonds_of(const Body& body, const NetworkInput& input, const Network& network,
                        const Face& face, const Place& place, std::span<const Index> crossing) {
   SolidMaterial material = face.material;

@@ -10,18 +10,18 @@
 namespace perilink {
 namespace {
 
-/// Pivots below this part of the largest: the bonds do not resist every strain. Those of a quarter
-/// of a family, at a corner, are above 1e-3.
+/// The bonds do not resist every strain where a pivot is below this fraction of the largest. At a
+/// corner, with a quarter of a neighbourhood, pivots are above 1e-3.
 constexpr double smallest_strain_pivot = 1e-7;
 
 /// Number of components of a symmetric tensor.
 template <int Dim>
 constexpr int components = Dim*(Dim + 1) / 2;
 
-/// Axes of the components behind the diagonal, in the order of SymmetricTensor.
+/// Axes of the off-diagonal components, in the order of SymmetricTensor.
 constexpr std::array<std::array<int, 2>, 3> mixed_pairs = {{{0, 1}, {1, 2}, {0, 2}}};
 
-/// (a b + b a) / 2 as a vector whose products are those of the tensors.
+/// Returns (a b + b a) / 2 as a vector; dot products of such vectors equal tensor products.
 template <int Dim>
 Eigen::Vector<double, components<Dim>> product_of(const Eigen::Vector<double, Dim>& a,
                                                   const Eigen::Vector<double, Dim>& b) {
@@ -39,8 +39,8 @@ struct Virial {
   using Tensor = Eigen::Vector<double, components<Dim>>;
   using Vector = Eigen::Vector<double, Dim>;
 
-  Tensor present = Tensor::Zero();  ///< that of the forces as they are
-  /// The virial of intact bonds in every strain.
+  Tensor present = Tensor::Zero();  ///< virial of the present forces [force length]
+  /// Virial of intact bonds as a linear map of the strain.
   Eigen::Matrix<double, components<Dim>, components<Dim>> intact =
       Eigen::Matrix<double, components<Dim>, components<Dim>>::Zero();
 
@@ -51,7 +51,8 @@ struct Virial {
   }
   void add_shear(const Vector& n, double length, double stiffness, const Vector& force) {
     for (int a = 0; a < Dim; ++a) {
-      // Axes, less what of them lies along the bond: the sum is that over two directions across.
+      // Axes without their part along the bond: the sum over them equals that over two directions
+      // across.
       Vector across = -n[a] * n;
       across[a] += 1.0;
       const Tensor part = product_of<Dim>(n, across);
@@ -68,7 +69,7 @@ void add_bond(const Network& network, Secants secants, std::span<const double> m
   const auto width = static_cast<std::size_t>(network.width());
   const Vector n = Eigen::Map<const Vector>(network.bonds.direction(e).data());
   const double length = network.bonds.length(e), stiffness = network.stiffness[e];
-  // An open bond across a pre-crack is no part of the intact body.
+  // The intact body does not contain open bonds across a pre-crack.
   const bool cut = is_cut(network, e);
   const double whole = cut ? secants.axial(e) : 1.0, whole_shear = cut ? secants[e] : 1.0;
   const double* first = motion.data() + network.bonds.first[e] * width;

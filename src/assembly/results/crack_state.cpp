@@ -8,10 +8,10 @@
 namespace perilink {
 namespace {
 
-/// Bonds of a crack have no more than this left.
+/// Largest secant of the bonds of a crack [-].
 constexpr double half_of_stiffness = 0.5;
 
-/// Sum of what the damaged bonds of a particle have lost, times n n.
+/// Returns the sum of the lost stiffness fraction times n n over the damaged bonds of a particle.
 SymmetricTensor lost_at(const Network& network, const Csr& neighbourhoods, Secants secants,
                         Index particle) {
   SymmetricTensor sum{};
@@ -48,7 +48,8 @@ double opening_of(const Network& network, const Csr& neighbourhoods, Secants sec
   return std::max(0.0, opening);
 }
 
-/// Number of the connected set that each of the bonds belongs to, in the order of their first ones.
+/// Returns the number of the connected set of each bond; sets are numbered in the order of their
+/// first bonds.
 std::vector<Index> connected_sets(const Network& network, std::span<const Index> bonds) {
   JoinedParts parts(network.particles.size());
   for (const Index e : bonds) parts.join(network.bonds.first[e], network.bonds.second[e]);

@@ -12,32 +12,31 @@ namespace perilink {
 struct CrackState {
   Index bonds = 0;
   double mean = 0.0, largest = 0.0;  ///< opening [length]
-  Index widest = no_index;           ///< the bond with the largest
+  Index widest = no_index;           ///< bond with the largest opening
 };
 
-/// How far a body has opened along the bonds that have lost more than half of their stiffness
-/// against a change of length.
+/// Openings of the bonds that have lost more than half of their axial stiffness.
 struct CrackOpenings {
   std::vector<Index> bonds;        ///< ascending
   std::vector<double> opening;     ///< per such bond [length]
   std::vector<Index> crack;        ///< number of its crack, per such bond
-  std::vector<CrackState> cracks;  ///< most bonds first
+  std::vector<CrackState> cracks;  ///< sorted by number of bonds, largest first
 };
 
-/// The opening of a bond is what its damage adds to the distance of its ends across the crack:
-/// (1 - secant) (u_j - u_i) . m, none where that is negative. The normal m of the crack is the axis
-/// along which the damaged bonds at both ends lie most, each counted with what it has lost. So a
-/// bond that runs obliquely through a crack shows the same opening as one that runs straight.
-/// \param families  bonds of each particle (bonds_of_particles)
-/// \param motion    shape (particles, width)
+/// Returns the openings of damaged bonds. An opening is the part of the distance between the ends,
+/// across the crack, that the damage adds: (1 - secant) (u_j - u_i) . m, at least zero. The normal
+/// m of the crack is the main axis of the damaged bonds at both ends, each weighted with its lost
+/// stiffness. So a bond oblique to the crack has the same opening as a straight one.
+/// \param neighbourhoods  bonds of each particle (bonds_of_particles)
+/// \param motion          shape (particles, width)
 CrackOpenings crack_openings(const Network& network, const Csr& neighbourhoods, Secants secants,
                              std::span<const double> motion);
 
-/// The largest opening of the bonds of each particle; shape (particles) [length].
+/// Returns the largest opening among the bonds of each particle, shape (particles) [length].
 std::vector<double> openings_at_particles(const Network& network, const CrackOpenings& openings);
 
-/// Mean and largest opening of some of the bonds.
-/// \param places  in CrackOpenings::bonds
+/// Returns the mean and the largest opening of some of the bonds.
+/// \param places  positions in CrackOpenings::bonds
 CrackState summed_up(const CrackOpenings& openings, std::span<const std::size_t> places);
 
 }  // namespace perilink

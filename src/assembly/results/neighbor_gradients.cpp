@@ -9,12 +9,12 @@
 namespace perilink {
 namespace {
 
-/// Kinds in a table: a block of a box has some hundred. Clouds, where no two are alike, fill it in
-/// vain.
+/// Most local environments in a table. A block of a box has about a hundred. In an unstructured
+/// particle set no two are equal, and the table only fills up.
 constexpr std::size_t most_kinds = 256;
 
-/// Error of the difference of two positions over the larger coordinate: each is a product and a
-/// sum.
+/// Error of the difference of two positions over the larger coordinate: each coordinate is a
+/// product and a sum.
 constexpr double round_off = 8.0 * std::numeric_limits<double>::epsilon();
 
 double largest_coordinate(const Particles& particles, Index particle) {

@@ -10,34 +10,34 @@
 
 namespace perilink {
 
-/// Gradients of a motion at particles from the displacements of their neighbours, which are linear
-/// in these: sums with weights that depend on where the neighbours lie alone. Particles of lattices
-/// lie in few kinds of surroundings, so the weights found for one are taken for all that differ
-/// from it by the round-off of positions. What comes out depends on which particle was asked first,
-/// in the last digits: results are those of blocks, each with a table of its own, whatever the
-/// number of threads.
+/// Computes gradients of a motion at particles. They are linear in the displacements of the
+/// neighbours, with weights that depend only on the neighbours' positions. Particles of lattices
+/// have few local environments, so weights are reused where offsets differ only by round-off. The
+/// last digits depend on the first particle of an environment. Each block of particles has its own
+/// table, so results do not depend on the number of threads.
 template <int Dim>
 class NeighborGradients {
  public:
   using Gradient = Eigen::Matrix<double, Dim, Dim>;  ///< row a, column b: du_a / dx_b
 
-  /// Finds the weights.
+  /// Computes the weights.
   /// \param offsets  from the particle to the neighbours, shape (neighbors, Dim) [length]
-  /// \param weights  as many of them [1/length]
-  /// \return whether the neighbours settle the gradient
+  /// \param weights  the same shape as `offsets` [1/length]
+  /// \return whether the neighbours determine the gradient
   using Fit = bool (*)(std::span<const double> offsets, std::span<double> weights);
 
-  /// Particles of a block.
+  /// Number of particles in a block.
   static constexpr Index block = 4096;
 
   /// \param motion  shape (particles, width), displacements first
   NeighborGradients(const Particles& particles, std::span<const double> motion, int width, Fit fit);
 
-  /// \return whether the neighbours settle it; else it stays as it was
+  /// Computes the gradient at a particle.
+  /// \return whether the neighbours determine it; otherwise `gradient` is unchanged
   bool find(Index particle, std::span<const Index> neighbors, Gradient& gradient);
 
  private:
-  /// Surroundings of a particle.
+  /// Local environment of a particle.
   struct Kind {
     std::vector<double> offsets, weights;  ///< shape (neighbors, Dim)
     double reach = 0.0;                    ///< largest component of an offset [length]
@@ -52,9 +52,11 @@ class NeighborGradients {
   std::span<const double> motion_;
   std::size_t width_;
   Fit fit_;
-  std::vector<double> offsets_;                    ///< those of the present particle
-  std::unordered_map<std::uint64_t, Kind> kinds_;  ///< by what the numbers of neighbours add up to
-  Kind single_;                                    ///< where the table is full, or has another
+  std::vector<double> offsets_;                    ///< offsets of the current particle
+  std::unordered_map<std::uint64_t, Kind> kinds_;  ///< by the sum of the neighbours' relative
+                                                   ///< numbers
+  Kind single_;                                    ///< if the table is full or holds another
+                                                   ///< environment for the key
 };
 
 }  // namespace perilink

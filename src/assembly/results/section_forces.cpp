@@ -21,7 +21,8 @@ SectionForces section_forces(const Network& beam, Secants secants, std::span<con
     const double middle =
         0.5 * (beam.particles.position(first)[0] + beam.particles.position(last)[0]);
     for (Index i = first; i <= last; ++i) {
-      // Particles inside the bond have it on both sides, its ends, unless the beam ends, on one.
+      // Inner particles have the bond on both sides. An end particle has it on one, with half
+      // weight unless the beam ends there.
       const bool at_end = i == first || i == last;
       const bool outermost = i == 0 || i == beam.particles.size() - 1;
       const double part = at_end && !outermost ? 0.5 : 1.0;

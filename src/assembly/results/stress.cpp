@@ -12,18 +12,17 @@
 namespace perilink {
 namespace {
 
-/// Pivots of the normal equations, scaled to bonds of length one, below this fraction of the
-/// largest mean that the neighbours do not settle the polynomial: those of regular families are
-/// above 1e-3.
+/// Smallest pivot of the normal equations over the largest, scaled to bonds of length one. Below it
+/// the neighbours do not determine the polynomial; regular neighbourhoods have more than 1e-3.
 constexpr double smallest_stress_pivot = 1e-7;
 
-/// Whether a pre-crack cuts a bond that is not closed.
+/// Returns whether a bond is cut by a pre-crack and open.
 bool is_open(const StressInput& input, Index element) {
   return input.secants.axial(element) == 0.0 && is_cut(input.network, element);
 }
 
-/// Solid particles of the same material that are bonded to a particle, and theirs; ascending. An
-/// open pre-crack hides the particles behind it.
+/// Finds the solid particles of the same material bonded to a particle, and optionally their
+/// neighbours, ascending. Bonds across an open pre-crack do not count.
 void find_neighbors(const StressInput& input, Index particle, std::vector<Index>& found) {
   const Network& network = input.network;
   const Particles& particles = network.particles;
@@ -46,7 +45,7 @@ void find_neighbors(const StressInput& input, Index particle, std::vector<Index>
   found.erase(std::unique(found.begin(), found.end()), found.end());
 }
 
-/// Columns 0 to Dim - 1 are linear, the others of second degree.
+/// Terms 0 to Dim - 1 are linear, the others quadratic.
 template <int Dim, int Terms>
 Eigen::Vector<double, Terms> terms_at(const Eigen::Vector<double, Dim>& x) {
   Eigen::Vector<double, Terms> terms;
@@ -60,8 +59,8 @@ Eigen::Vector<double, Terms> terms_at(const Eigen::Vector<double, Dim>& x) {
   return terms;
 }
 
-/// Weights of the polynomial that fits best: least squares are linear in what is fitted.
-/// \param size  length that scales the offsets
+/// Computes the weights of the least-squares polynomial.
+/// \param size  length that scales the offsets [length]
 template <int Dim, int Terms>
 bool fit_polynomial(std::span<const double> offsets, double size, std::span<double> weights) {
   const std::size_t count = offsets.size() / Dim;
@@ -88,7 +87,7 @@ bool fit_polynomial(std::span<const double> offsets, double size, std::span<doub
   return true;
 }
 
-/// The fit is of second degree where the neighbours settle that, else linear.
+/// Fits a quadratic polynomial where the neighbours determine it, else a linear one.
 template <int Dim>
 bool fit_gradient(std::span<const double> offsets, std::span<double> weights) {
   double square = 0.0;
@@ -102,8 +101,8 @@ bool fit_gradient(std::span<const double> offsets, std::span<double> weights) {
          fit_polynomial<Dim, Dim>(offsets, size, weights);
 }
 
-/// Open bonds across a pre-crack damage no particle unless others are closed: only forces tell then
-/// what passes the crack. Closed bonds that carry moments do not shear.
+/// Open bonds across a pre-crack damage a particle only where other such bonds are closed: then
+/// only forces show the load across the crack. Closed bonds that carry moments do not shear.
 bool is_damaged(const StressInput& input, Index particle) {
   if (input.secants.size() == 0) return false;
   bool open = false, closed = false;
@@ -115,7 +114,6 @@ bool is_damaged(const StressInput& input, Index particle) {
   return closed && (open || input.network.carries_moments());
 }
 
-/// Finds stresses of a block of particles.
 template <int Dim>
 class StressFinder {
  public:

@@ -11,7 +11,7 @@
 namespace perilink {
 namespace {
 
-/// The box of each particle; no_index: it is in none.
+/// Returns the subdomain of each particle, or no_index without one.
 std::vector<Index> numbers_of_subdomains(const std::vector<std::vector<Index>>& subdomains,
                                          Index particles) {
   std::vector<Index> subdomain_of(static_cast<std::size_t>(particles), no_index);
@@ -21,7 +21,7 @@ std::vector<Index> numbers_of_subdomains(const std::vector<std::vector<Index>>& 
   return subdomain_of;
 }
 
-/// With fewer the start of threads takes longer than the work.
+/// Fewer subdomains take less time than starting the threads.
 constexpr Index subdomains_for_threads = 100;
 
 }  // namespace
@@ -98,7 +98,7 @@ void SubdomainMotions::find_centres(const Particles& particles) {
     for (const Index p : subdomain) {
       for (std::size_t a = 0; a < dim; ++a) square += arms_[p * dim + a] * arms_[p * dim + a];
     }
-    // A particle alone turns only where its bonds carry moments: any length does.
+    // A single particle turns only where its bonds carry moments; any length works.
     const double size =
         square > 0.0 ? std::sqrt(square / static_cast<double>(subdomain.size())) : 1.0;
     for (const Index p : subdomain) {
@@ -108,7 +108,8 @@ void SubdomainMotions::find_centres(const Particles& particles) {
   }
 }
 
-/// Shares of the motions of its box in components of a particle that are not held.
+/// Calls visit(component, motion, share) for the free components of a particle and the rigid
+/// motions of its subdomain.
 template <class Visit>
 void SubdomainMotions::for_each_move(Index particle, Visit visit) const {
   const double* arm = arms_.data() + static_cast<std::size_t>(particle) * dim_;
@@ -121,7 +122,7 @@ void SubdomainMotions::for_each_move(Index particle, Visit visit) const {
     visit(c, c, 1.0);
     if (dim_ == 2) {
       visit(c, 2, c == 0 ? -arm[1] : arm[0]);
-    } else {  // turn x arm
+    } else {  // rotation x arm
       const int next = (c + 1) % 3, last = (c + 2) % 3;
       visit(c, 3 + next, arm[last]);
       visit(c, 3 + last, -arm[next]);
@@ -137,7 +138,8 @@ std::array<double, 6> SubdomainMotions::row(Index particle, int component) const
   return row;
 }
 
-/// Adds forces and moments of the components of a particle, zero where it is held.
+/// Adds a particle's forces and moments to the sums of its subdomain; components that are held have
+/// zero force.
 template <int Dim>
 void SubdomainMotions::add_to_sums(Index particle, const double* force, double* sums) const {
   const double* arm = arms_.data() + static_cast<std::size_t>(particle) * Dim;
@@ -153,7 +155,7 @@ void SubdomainMotions::add_to_sums(Index particle, const double* force, double* 
   for (int a = Dim; a < unknowns_.width; ++a) sums[a] += force[a] / size_[subdomain_of_[particle]];
 }
 
-/// Components of a particle when its box moves.
+/// Computes the components of a particle from the rigid motion of its subdomain.
 template <int Dim>
 void SubdomainMotions::find_motion(Index particle, const double* values, double* motion) const {
   const double* arm = arms_.data() + static_cast<std::size_t>(particle) * Dim;
@@ -161,7 +163,7 @@ void SubdomainMotions::find_motion(Index particle, const double* values, double*
     motion[0] = values[0] - arm[1] * values[2];
     motion[1] = values[1] + arm[0] * values[2];
   } else {
-    for (int a = 0; a < 3; ++a) {  // turn x arm
+    for (int a = 0; a < 3; ++a) {  // rotation x arm
       const int b = (a + 1) % 3, c = (a + 2) % 3;
       motion[a] = values[a] + (values[3 + b] * arm[c] - values[3 + c] * arm[b]);
     }

@@ -11,47 +11,47 @@
 
 namespace perilink {
 
-/// Splits boxes of particles: parts of one that no element inside joins become boxes of their own.
-/// \return those of the first box first
+/// Splits subdomains of particles where cracks cut them: parts without a connecting element become
+/// subdomains.
+/// \return the parts of the first subdomain first
 std::vector<std::vector<Index>> split_by_cracks(const std::vector<std::vector<Index>>& subdomains,
                                                 const Network& network, Secants secants);
 
-/// Rigid motions of boxes of neighbouring particles, as fields P of the unknowns: the coarse space
-/// of conjugate gradients for bodies too large for a factor (docs/theory/large_bodies.md). What
-/// cracks have cut apart inside a box moves by itself.
+/// Rigid-body coarse space P of the subdomains, for conjugate gradients on bodies too large for a
+/// factor (docs/theory/large_bodies.md). Parts that cracks separate within a subdomain move
+/// independently.
 class SubdomainMotions {
  public:
-  /// \param most  particles of a box, at most
+  /// \param most  largest number of particles in a subdomain
   SubdomainMotions(const Network& network, Secants secants, const Unknowns& unknowns, Index most);
 
-  /// Brings what is known of particles that other processes own up to date: numbers of shape
-  /// (particles, width).
+  /// Updates the values at particles of other processes, shape (particles, width).
   using Exchange = std::function<void(std::span<double> known, int width)>;
-  /// Boxes of the first particles of a body, which this process owns and cracks have split; other
-  /// boxes are known by their numbers and centres.
-  /// \param first_box  boxes of the processes before
-  /// \param unknowns   those of all particles
+  /// Builds the coarse space of one process. It owns the first particles of the body, with their
+  /// subdomains already split by cracks. Of other subdomains it has the numbers and centres.
+  /// \param own              subdomains of this process
+  /// \param first_subdomain  number of subdomains of the processes before
+  /// \param unknowns         unknowns of all particles
   SubdomainMotions(const Particles& particles, const Unknowns& unknowns,
                    std::vector<std::vector<Index>> own, Index first_subdomain, Index num_subdomains,
                    const Exchange& exchange);
 
   Index num_subdomains() const { return static_cast<Index>(subdomains_.size()); }
-  /// Motions of a box: three in the plane, six in space.
+  /// Number of motions per subdomain: three in the plane, six in space.
   int num_motions() const { return dim_ == 2 ? 3 : 6; }
   std::span<const Index> particles(Index subdomain) const { return subdomains_[subdomain]; }
   Index subdomain_of(Index particle) const { return subdomain_of_[particle]; }
-  /// Row of P of a component of a particle: how it moves with the motions of its box; zero where it
-  /// is held.
+  /// Returns the row of P of a particle's component, zero if the component is held.
   std::array<double, 6> row(Index particle, int component) const;
 
-  /// coarse = P' residual, shape (boxes, motions)
+  /// Computes coarse = P' residual, shape (subdomains, motions).
   void restrict(std::span<const double> residual, std::span<double> coarse) const;
-  /// result += P coarse
+  /// Computes result += P coarse.
   void add(std::span<const double> coarse, std::span<double> result) const;
 
-  /// The same of many vectors side by side, of all particles: those of shape (particles, width,
-  /// block_width), zero where something is held, and coarse ones of shape (block_width, boxes,
-  /// motions).
+  /// Apply restrict() and add() to block_width vectors of all particles. Fine vectors have the
+  /// shape (particles, width, block_width), zero where a component is held; coarse ones have the
+  /// shape (block_width, subdomains, motions).
   void restrict_block(std::span<const double> residuals, std::span<double> coarse) const;
   void add_block(std::span<const double> coarse, std::span<double> results) const;
 
@@ -68,8 +68,8 @@ class SubdomainMotions {
   const Unknowns& unknowns_;
   std::vector<std::vector<Index>> subdomains_;
   std::vector<Index> subdomain_of_;
-  std::vector<double> arms_;  ///< from the centre of the box over its size, shape (particles, dim)
-  std::vector<double> size_;  ///< by which rotations of each box are scaled [length]
+  std::vector<double> arms_;  ///< from the subdomain's centre over its size, shape (particles, dim)
+  std::vector<double> size_;  ///< scale of the rotations of each subdomain [length]
 };
 
 }  // namespace perilink

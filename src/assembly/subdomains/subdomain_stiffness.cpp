@@ -11,18 +11,18 @@
 namespace perilink {
 namespace {
 
-/// What a box and those of lower number around it resist when they move.
+/// Coarse stiffness between a subdomain and its neighbours of lower number.
 struct SubdomainRow {
   std::vector<Index> others;
-  std::vector<Eigen::MatrixXd> blocks;  ///< shape (6, 6), columns those of the other
+  std::vector<Eigen::MatrixXd> blocks;  ///< shape (6, 6), columns belong to the neighbour
 };
 
-constexpr int most_motions = 6;  // in the plane the last three are idle
+constexpr int most_motions = 6;  // in the plane the last three are unused
 
 /// Rows of P of all components, shape (particles, width).
 using MotionRows = std::vector<std::array<double, most_motions>>;
 
-/// Goes through the particles of a box once.
+/// Assembles the coarse row of a subdomain and the diagonal blocks of its particles.
 template <class Blocks>
 SubdomainRow assemble_subdomain(const Blocks& blocks, const Unknowns& unknowns,
                                 const SubdomainMotions& motions, const MotionRows& moves,
@@ -31,7 +31,7 @@ SubdomainRow assemble_subdomain(const Blocks& blocks, const Unknowns& unknowns,
   using Field = Eigen::Matrix<double, width, count>;
   using Moved = Eigen::Map<const Eigen::Matrix<double, 1, count>>;
   SubdomainRow row;
-  std::vector<Field> fields;                    // K P of one particle, by the other box
+  std::vector<Field> fields;                    // K P of one particle, per neighbour
   if (!motions.particles(subdomain).empty()) {  // a held particle may have no bonds left
     row.others = {subdomain};
     row.blocks = {Eigen::MatrixXd::Zero(count, count)};
@@ -39,7 +39,7 @@ SubdomainRow assemble_subdomain(const Blocks& blocks, const Unknowns& unknowns,
   for (const Index i : motions.particles(subdomain)) {
     fields.assign(row.others.size(), Field::Zero());
     std::size_t last = 0;
-    std::array<double, width * width> whole{};  // block of the particle alone
+    std::array<double, width * width> whole{};  // diagonal block of the particle
     blocks.visit(i, [&](Index j, const auto& block) {
       if (j == i) {
         for (int r = 0; r < width; ++r) {
@@ -83,9 +83,10 @@ SubdomainRow assemble_subdomain(const Blocks& blocks, const Unknowns& unknowns,
   return row;
 }
 
-/// What a box of few particles cannot do (a pair does not turn about its own axis, what is held
-/// does not move) gets the mean stiffness of the box, everything else nothing, so that what moves
-/// without resistance stays singular.
+/// Returns a stiffness for the motions that a small subdomain cannot have. For example, a pair does
+/// not turn about its own axis, and a held particle does not move. These motions get the mean
+/// stiffness of the subdomain. All other motions get zero, so that unresisted motions stay
+/// singular.
 Eigen::MatrixXd stiffness_of_idle(const SubdomainMotions& motions, Index subdomain, int width,
                                   const Eigen::MatrixXd& own) {
   constexpr double idle = 1e-9;
@@ -110,7 +111,7 @@ Eigen::MatrixXd stiffness_of_idle(const SubdomainMotions& motions, Index subdoma
   return added;
 }
 
-/// Lower triangle of the boxes' blocks.
+/// Returns the lower triangle of the coarse matrix.
 SparseMatrix coarse_matrix(std::vector<SubdomainRow>& rows, const SubdomainMotions& subdomains,
                            int width) {
   const int motions = subdomains.num_motions();

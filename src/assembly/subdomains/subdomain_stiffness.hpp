@@ -7,12 +7,12 @@
 
 namespace perilink {
 
-/// The stiffness of boxes that move rigidly, and that of each particle alone.
+/// Coarse stiffness of rigid subdomains, and the diagonal block of each particle.
 struct SubdomainStiffness {
   SparseMatrix coarse;         ///< P' K P, lower triangle
-  std::vector<double> blocks;  ///< K of each particle alone, one where a component is held; shape
-                               ///< (particles, width, width)
-  /// Puts inverses in place of the blocks. \return whether all are positive definite
+  std::vector<double> blocks;  ///< diagonal block of K per particle, one where a component is held;
+                               ///< shape (particles, width, width)
+  /// Replaces the blocks by their inverses. \return whether all are positive definite
   bool invert_blocks(int width);
 };
 SubdomainStiffness assemble_subdomain_stiffness(const Network& network, Secants secants,

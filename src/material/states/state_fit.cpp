@@ -7,12 +7,13 @@
 namespace perilink {
 namespace {
 
-constexpr double exact_fit = 1e-9;  ///< residuals of regular families are round-off
-/// Energy that a state must leave of its bonds' in the deformation that it softens most.
+constexpr double exact_fit = 1e-9;  ///< residuals of regular neighbourhoods are round-off
+/// Smallest fraction of the bonds' energy that a state may leave in the most softened deformation.
 constexpr double least_energy = 1e-3;
-constexpr double same = 1e-6;  ///< singular values over the largest below which columns are alike
+constexpr double same = 1e-6;  ///< ratio of singular values below which columns are linearly
+                               ///< dependent
 
-using Strain = Eigen::VectorXd;  ///< or n n', Mandel's components: 3 in the plane, 6 in space
+using Strain = Eigen::VectorXd;  ///< or n n', in Mandel's components: 3 in the plane, 6 in space
 using Tensor = Eigen::MatrixXd;
 
 Strain product(const Vector3& n, int dim) {
@@ -32,10 +33,10 @@ Tensor hooke_tensor(Problem problem, double youngs_modulus, double poissons_rati
   return d;
 }
 
-/// What each constant contributes to the stiffness of a family.
+/// Contributions of the constants to the stiffness of a neighbourhood.
 struct Parts {
   Tensor own, far, state;
-  bool two_kinds = false;  ///< near and far ones
+  bool two_kinds = false;  ///< near and far bonds
   bool singular = false;
 
   Parts(std::span<const NeighbourhoodBond> neighbourhood, int dim, double volume) {
@@ -63,8 +64,9 @@ struct Parts {
   }
 };
 
-/// The energy sum_j L_j (own + far_j) S_j^2 + state (sum_j L_j S_j)^2 is positive for every
-/// deformation where each bond's part is and what the state takes away is less.
+/// Returns whether the energy sum_j L_j (own + far_j) S_j^2 + state (sum_j L_j S_j)^2 is positive
+/// in every deformation. Each bond's part must be positive, and the state must remove less than
+/// their sum.
 bool is_positive(const ParticleModuli& moduli, std::span<const NeighbourhoodBond> neighbourhood) {
   double reach = 0.0;
   for (const NeighbourhoodBond& bond : neighbourhood) {
@@ -79,8 +81,8 @@ Eigen::Map<const Eigen::VectorXd> entries(const Tensor& tensor) {
   return {tensor.data(), tensor.size()};
 }
 
-/// Least squares of own + state (+ far) = wanted.
-/// \param unique  becomes false where constants can take each other's place
+/// Returns the least-squares solution of own + state (+ far) = wanted.
+/// \param unique  set to false if the constants are linearly dependent
 ParticleModuli solve(const Parts& parts, const Tensor& wanted, bool with_far, bool& unique) {
   Eigen::MatrixXd columns(wanted.size(), with_far ? 3 : 2);
   columns.col(0) = entries(parts.own);

@@ -12,21 +12,23 @@ namespace {
 using CellStrain = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
 using Stiffness = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 
-/// Bonds whose ratios differ by less are alike by symmetry and pass their teeth together.
+/// Bonds whose ratios differ by less are symmetry-equivalent and have their events together.
 constexpr double alike_in_cell = 1e-9;
 
-/// A cell this much softer than the intact one has failed.
+/// A cell has failed at this fraction of its intact stiffness.
 constexpr double failed = 1e-3;
 
-/// Directions of isotropic_cell(): over a half circle in the plane; in space over a half sphere
-/// about x, by equal angles to the axis, so that some come close to it, and around it.
+/// Directions of isotropic_cell(): over a half circle in the plane, and over a half sphere about x
+/// in space. The sphere has equal steps of the angle to the axis, so that some directions are close
+/// to it.
 constexpr int plane_directions = 60, polar_directions = 16, directions_around = 5;
 
-/// Bonds in tension, as the search of damage analyses has it.
+/// Smallest squared ratio of axial to equivalent stretch that counts as tension, as in the event
+/// search.
 constexpr double least_cell_tension = 1e-12;
 
-/// A symmetric tensor as the vector of its components, the shear ones times the square root of two,
-/// so that products of tensors are products of vectors.
+/// Returns the symmetric product of two vectors as a vector of components. Shear components have a
+/// factor of sqrt(2), so that dot products equal tensor products.
 CellStrain vector_of(const Vector3& a, const Vector3& b, int dim) {
   const double half = std::sqrt(0.5);
   if (dim == 2) {
@@ -38,7 +40,7 @@ CellStrain vector_of(const Vector3& a, const Vector3& b, int dim) {
   return result;
 }
 
-/// Cell whose bonds lose stiffness.
+/// A cell with bonds that lose stiffness.
 class Cell {
  public:
   Cell(std::span<const CellBond> bonds, int dim, const Vector3& pull, Across across = Across::free)
@@ -46,7 +48,7 @@ class Cell {
     const auto size = pull_.size();
     for (const CellBond& bond : bonds) {
       const CellStrain axial = vector_of(bond.direction, bond.direction, dim);
-      // The square of the strain times the direction.
+      // Square of the strain times the direction.
       Stiffness square = Stiffness::Zero(size, size);
       for (int a = 0; a < dim && bond.shear_ratio > 0.0; ++a) {
         Vector3 axis{};
@@ -62,7 +64,7 @@ class Cell {
     lost_axial_.assign(bonds.size(), 0.0);
   }
 
-  /// Strain per unit of stress. \return false when the cell has failed
+  /// Computes the strain per unit of stress. \return false if the cell has failed
   bool solve() {
     Stiffness sum = Stiffness::Zero(pull_.size(), pull_.size());
     for (std::size_t b = 0; b < bonds_.size(); ++b) {
@@ -85,16 +87,17 @@ class Cell {
 
   double intact_softness() const { return intact_; }
   double softness() const { return pull_.dot(strain_); }
-  /// Equivalent stretch of a bond per unit of stress; zero in compression.
+  /// Returns the equivalent stretch of a bond per unit of stress, zero in compression
+  /// [length^2/force].
   double stretch(std::size_t bond) const {
     const double axial = axial_[bond].dot(strain_);
     const double square = strain_.dot(square_[bond] * strain_);
     return axial > 0.0 && axial * axial > least_cell_tension * square ? std::sqrt(square) : 0.0;
   }
-  /// Axial stretch per unit of stress.
+  /// Returns the axial stretch of a bond per unit of stress [length^2/force].
   double axial_stretch(std::size_t bond) const { return axial_[bond].dot(strain_); }
   void set_secant(std::size_t bond, double secant) { secants_[bond] = secant; }
-  /// A bond that keeps its shear until it breaks.
+  /// Sets the axial secant of a bond with shear retention.
   void set_axial_secant(std::size_t bond, double secant) {
     secants_[bond] = secant > 0.0 ? 1.0 : 0.0;
     lost_axial_[bond] = secant > 0.0 ? 1.0 - secant : 0.0;
@@ -107,17 +110,17 @@ class Cell {
   std::vector<CellStrain> axial_;
   std::vector<Stiffness> square_;
   std::vector<double> secants_;
-  std::vector<double> lost_axial_;  ///< part of the axial stiffness that went before the rest
+  std::vector<double> lost_axial_;  ///< fraction of the axial stiffness lost before the rest
   double intact_ = 0.0;
 };
 
-/// Bonds of one law with the tooth that each is on.
+/// Bonds of one law and their present segments.
 class CellBonds {
  public:
   CellBonds(std::size_t count, const BondLaw& law, double critical_stretch)
       : law_(law), critical_(critical_stretch), segment_(count, 0) {}
 
-  /// Stretch over the limit of the next event at the stress of one [length^2/force].
+  /// Returns the stretch over the limit of the next event, per unit of stress [length^2/force].
   double ratio(const Cell& cell, std::size_t bond, double sign) const {
     if (!law_.crushes())
       return sign * cell.stretch(bond) / (critical_ * law_.segment(segment_[bond]).limit);
@@ -163,8 +166,8 @@ std::vector<CellBond> isotropic_cell(Problem problem, double lame_ratio) {
   const int dim = dimension_of(problem);
   const double shear = dim == 2 ? (1.0 - lame_ratio) / (1.0 + lame_ratio)
                                 : 2.0 * (1.0 - lame_ratio) / (2.0 + 3.0 * lame_ratio);
-  // Bonds that do not bend are alike at every length. Otherwise the shells hold equal shares of the
-  // stiffness, which grows with the power dim + 1 of the length.
+  // Bonds without bending are equivalent at every length. Otherwise the shells have equal shares of
+  // the stiffness, which grows with length^(dim + 1).
   const int shells = shear > 1e-12 ? 3 : 1;
   const auto shell_end = [&](int k) {
     return std::pow(static_cast<double>(k) / shells, (dim - 1.0) / (dim + 1.0));

@@ -7,22 +7,24 @@
 namespace perilink {
 namespace {
 
-/// Bonds whose ratios differ by less are alike by symmetry and pass their teeth together.
+/// Bonds whose ratios differ by less are symmetry-equivalent and have their events together.
 constexpr double alike = 1e-9;
 
-/// Bonds in tension, as the search of damage analyses has it.
+/// Smallest squared ratio of axial to equivalent stretch that counts as tension, as in the event
+/// search.
 constexpr double least_tension = 1e-12;
 
-/// Heights of neighbours that are closer, in the longest one, are the same; more layers within the
-/// horizon than this are none.
+/// Heights closer than this times the longest bond are equal. Lattices with more layers within the
+/// horizon than most_layers are rejected.
 constexpr double same_height = 1e-6;
 constexpr int most_layers = 12;
 
-/// Layers that may move otherwise than by the uniform strain, on either side, in the longest bonds.
+/// Layers on either side that may deviate from the uniform strain, in multiples of the longest
+/// bond.
 constexpr int depth = 3;
 
-/// The energy of a bond of unit weight in the strain g along the normal and t across it is
-/// (normal g^2 + 2 both g t + across t^2) / 2.
+/// Terms of the energy (normal g^2 + 2 both g t + across t^2) / 2 of a bond of unit weight. The
+/// strains are g along the normal and t across it.
 struct Terms {
   double normal, both, across;
 };
@@ -40,8 +42,8 @@ struct Crossing {
   int segment = 0;
 };
 
-/// Layers numbered from 0, the face in their middle. Those in front do not move but by the uniform
-/// strain; those behind all move by the last unknown beside it.
+/// Layers numbered from 0, with the face in the middle. Layers below 0 follow the uniform strain;
+/// layers above the last also move by the last unknown.
 class Chain {
  public:
   Chain(std::span<const LayerBond> bonds, std::array<double, 2> sides) : bonds_(bonds) {
@@ -55,7 +57,7 @@ class Chain {
       sum.across += bond.weight * terms.across;
       longest = std::max(longest, bond.layers);
     }
-    // By a stress of one; both sides contract alike.
+    // Strains at unit stress; both sides contract equally.
     const double modulus = sum.normal - sum.both * sum.both / sum.across;
     across_ = -sum.both / sum.across / modulus;
     for (int side = 0; side < 2; ++side) {
@@ -80,7 +82,7 @@ class Chain {
 
   std::vector<Crossing>& crossing() { return crossing_; }
 
-  /// Motion under the stress of one. \return false when the face has failed
+  /// Computes the motion at unit stress. \return false if the face has failed
   bool solve() {
     Eigen::MatrixXd stiffness = stiffness_;
     Eigen::VectorXd force = force_;
@@ -96,7 +98,7 @@ class Chain {
     return motion_.allFinite();
   }
 
-  /// Equivalent stretch; zero in compression.
+  /// Returns the equivalent stretch, zero in compression.
   double stretch(const Crossing& one) const {
     const LayerBond& own = bonds_[one.bond];
     const double n = own.cosine * own.cosine;
@@ -112,7 +114,7 @@ class Chain {
  private:
   int unknown(int layer) const { return layer < 0 ? -1 : std::min(layer, 2 * half_); }
   double moved(int layer) const { return layer < 0 ? 0.0 : motion_[unknown(layer)]; }
-  /// Strain along a bond by the uniform strains of both sides alone.
+  /// Returns the strain along a bond from the uniform strains of both sides.
   double uniform(std::size_t b, int lower) const {
     const double from = lower - half_ + 0.5, to = from + bonds_[b].layers;
     const auto height = [&](double z) { return strain_[z < 0.0 ? 0 : 1] * z; };
@@ -140,9 +142,9 @@ class Chain {
   std::vector<Terms> terms_;
   std::vector<Crossing> crossing_;
   double across_ = 0.0;             ///< strain across the normal
-  std::array<double, 2> strain_{};  ///< along it, below and above
+  std::array<double, 2> strain_{};  ///< strain along the normal, below and above
   int half_ = 0;                    ///< layers on either side
-  Eigen::MatrixXd stiffness_;       ///< without the bonds that cross
+  Eigen::MatrixXd stiffness_;       ///< without the bonds across the face
   Eigen::VectorXd force_, motion_;
 };
 
@@ -167,7 +169,7 @@ std::optional<std::vector<LayerBond>> layer_bonds(std::span<const Vector3> offse
     const auto& [x, y, z] = offsets[k];
     const double squared = x * x + y * y + z * z, length = std::sqrt(squared);
     if (heights[k] < -same_height * longest) continue;
-    // Those along the layers come twice, and hold them together in contraction alone.
+    // Bonds along the layers occur twice; they act only in contraction.
     const bool along = heights[k] < same_height * longest;
     const double number = along ? 1.0 : heights[k] / lowest;
     const int layers = static_cast<int>(std::lround(number));

@@ -15,14 +15,14 @@
 namespace perilink {
 namespace {
 
-/// Ties are not stiffer than those of this length, in spacings.
+/// Length below which slip springs do not become stiffer, in spacings.
 constexpr double shortest_slip_spring = 0.1;
 
-/// Stiffness of ties that are meant to be rigid, over that of the segments of their bar: loads pass
-/// from the bar to the solid within a third of a segment.
+/// Stiffness of rigid slip springs over the stiffness of the bar elements. Loads pass from the bar
+/// to the solid within a third of a bar element.
 constexpr double rigid = 10.0;
 
-/// Nodes of bars whose ties do not break.
+/// Flags nodes of bars with unbreakable slip springs.
 std::vector<std::uint8_t> perfectly_tied(const RebarMesh& mesh, const NetworkInput& input,
                                          Index num_particles) {
   std::vector<std::uint8_t> perfect(static_cast<std::size_t>(num_particles), 0);
@@ -34,7 +34,7 @@ std::vector<std::uint8_t> perfectly_tied(const RebarMesh& mesh, const NetworkInp
   return perfect;
 }
 
-/// Bonds of nodes to the particles of the solid around them.
+/// Adds slip springs between bar nodes and the solid particles around them.
 void add_bonded_slip_springs(const Body& body, const NetworkInput& input, RebarMesh& mesh,
                              const std::function<SlipSpringConstants(Index)>& constants_of,
                              Network& network) {
@@ -56,7 +56,7 @@ void add_bonded_slip_springs(const Body& body, const NetworkInput& input, RebarM
   }
 }
 
-/// Ways from nodes of bars to particles of the solid near them that do not leave it.
+/// Returns the vectors from bar nodes to nearby particles of the solid that do not leave the solid.
 Bonds ways_to_solid(const Body& body, const NetworkInput& input, const RebarMesh& mesh,
                     const Particles& particles) {
   const int dim = particles.dim;
@@ -78,7 +78,7 @@ Bonds ways_to_solid(const Body& body, const NetworkInput& input, const RebarMesh
     const auto x = particles.position(mesh.embedded[k].particle);
     const auto holds = [&](const Box& box) { return box.contains(x, 1e-6 * body.lattice.spacing); };
     if (!input.solid.empty() && std::none_of(input.solid.begin(), input.solid.end(), holds)) {
-      continue;  // it stands out of the body
+      continue;  // the node is outside the body
     }
     for (const Index i : near.row(k)) ways.append(particles, i, mesh.embedded[k].particle);
   }
@@ -94,7 +94,7 @@ Bonds ways_to_solid(const Body& body, const NetworkInput& input, const RebarMesh
   return ways;
 }
 
-/// Unit vectors: along the bar and across it.
+/// Returns unit vectors along the bar and across it.
 std::vector<Vector3> frame_of(const Vector3& along, int dim) {
   if (dim == 2) return {along, {-along[1], along[0], 0.0}};
   Vector3 axis{};
@@ -110,12 +110,13 @@ std::vector<Vector3> frame_of(const Vector3& along, int dim) {
   return {along, first, cross(along, first)};
 }
 
-/// Laws of the bars, each once: elements of one bar have one law.
+/// Stores the law of each bar once for all its elements.
 class BarLaws {
  public:
   explicit BarLaws(Network& network) : network_(network) {}
 
-  /// Gives the newest element the law of its bar. \param make  makes it
+  /// Assigns the law of its bar to the newest element.
+  /// \param make  creates the law
   template <class Make>
   void give(Index bar, Make make) {
     if (bar != bar_) {
@@ -139,7 +140,7 @@ void append_element(Network& network, Index first, Index second, double length,
   network.stiffness.push_back(stiffness);
 }
 
-/// An anchor at the place of a particle.
+/// Adds an embedded point at the position of a particle and returns its number.
 Index add_embedded_point(Network& network, Index at, std::span<const Index> particles,
                          std::span<const double> weights) {
   Particles& all = network.particles;
@@ -153,8 +154,8 @@ Index add_embedded_point(Network& network, Index at, std::span<const Index> part
   return all.size() - 1;
 }
 
-/// The anchor of each node and its ties: one along the bar, by the law of its bond, and rigid ones
-/// across it.
+/// Adds the embedded point of each bar node and its slip springs: one along the bar with the bond
+/// law, and rigid ones across it.
 class EmbeddedSlipSprings {
  public:
   EmbeddedSlipSprings(const Body& body, const NetworkInput& input, const RebarMesh& mesh,
@@ -191,7 +192,7 @@ class EmbeddedSlipSprings {
       particles.push_back(ways_.first[begin + k]);
       weights.push_back(all[k]);
     }
-    if (particles.empty()) return;  // it hangs on its bar
+    if (particles.empty()) return;  // only its bar holds the node
     const Index embedded_point = add_embedded_point(network_, node.particle, particles, weights);
     add_slip_springs(node, embedded_point);
   }
@@ -203,7 +204,8 @@ class EmbeddedSlipSprings {
     const std::vector<Vector3> frame = frame_of(node.along, network_.particles.dim);
     const bool hooked = (node.begins && bond.hook_from) || (node.ends && bond.hook_to);
     for (std::size_t k = 0; k < frame.size(); ++k) {
-      // From node to anchor, against the bar: what moves the node along it lengthens the tie.
+      // From node to embedded point, against the bar: the spring lengthens if the node moves along
+      // the bar.
       const Vector3 against = {-frame[k][0], -frame[k][1], -frame[k][2]};
       const bool slips = k == 0 && bond.curve && !hooked;
       const double stiffness =
@@ -233,7 +235,7 @@ void add_segments(const NetworkInput& input, const RebarMesh& mesh, Network& net
     const Index first = mesh.segments.first[segment];
     Index second = mesh.segments.second[segment];
     if (bar.shifts) {
-      // It ends at a point that goes with the node but for what the bar is longer or shorter by.
+      // The second end follows the node with an offset, the prestrain or flow of the bar.
       const double one = 1.0;
       second = add_embedded_point(network, second, {&second, 1}, {&one, 1});
     }

@@ -7,15 +7,15 @@
 
 namespace perilink {
 
-/// What a bond between particles of one material is made from.
+/// Constants of a slip spring to particles of one material.
 struct SlipSpringConstants {
   double micromodulus = 0.0;  ///< c [force/length^6]
   double critical_stretch = 0.0;
 };
 
-/// Adds the bars of a body to the network of its solid: particles, ties and segments.
-/// \param constants_of  those of the bonds of a material
-/// \throws std::invalid_argument where nothing can hold an anchored bar
+/// Adds the bars of a body to the network of its solid: particles, slip springs and bar elements.
+/// \param constants_of  constants of the bonds of a material
+/// \throws std::invalid_argument if the solid cannot hold an embedded bar
 void add_bars(const Body& body, const NetworkInput& input,
               const std::function<SlipSpringConstants(Index)>& constants_of, Network& network);
 

@@ -10,7 +10,7 @@
 namespace perilink {
 namespace {
 
-/// Bonds of a span: their shares of the section, and the critical stretch.
+/// Bonds of a beam segment: their shares of the section, and the critical stretch.
 class SpanBonds {
  public:
   SpanBonds(const BeamSpan& span, double step, double horizon)
@@ -33,10 +33,12 @@ class SpanBonds {
   }
 
   Index reach() const { return reach_; }
-  /// Share of the bond between two particles of the span, counted from its first (Be-2).
+  /// Returns the share of the bond between two particles, counted from the first of the beam
+  /// segment (Be-2).
   double share(Index i, Index j) const { return share_ + (j == i + 1 ? missing_[i] : 0.0); }
-  /// All bonds across a section, each with its share, release G_F (Be-4). Those across one near an
-  /// end are shorter in the mean: the shortest takes what is left.
+  /// Returns the critical stretch for which all bonds across a section, with their shares, release
+  /// G_F (Be-4). Sections near an end have shorter bonds in the mean; the shortest bond takes the
+  /// rest.
   double critical_stretch(const SolidMaterial& material, Index i, Index j) const {
     const double length = (2.0 * static_cast<double>(reach_) + 1.0) / 3.0;
     const double square =
@@ -48,9 +50,9 @@ class SpanBonds {
  private:
   double step_;
   Index reach_;                  ///< longest bond over the shortest
-  double share_;                 ///< that a bond has far from the ends
-  std::vector<double> missing_;  ///< share that nothing has yet, between neighbours
-  std::vector<double> length_;   ///< mean of the bonds across these, over the step
+  double share_;                 ///< share of a bond far from the ends
+  std::vector<double> missing_;  ///< unassigned share between neighbours
+  std::vector<double> length_;   ///< mean length of the bonds across each interval, over the step
 };
 
 }  // namespace

@@ -5,8 +5,8 @@
 
 namespace perilink {
 
-/// The bonds of a beam: frames along its axis between particles of one span within the horizon,
-/// each with a share of the section (docs/theory/beams.md).
+/// Builds a beam: frame elements along its axis between particles of one beam segment within the
+/// horizon. Each has a share of the section (docs/theory/beams.md).
 Network make_beam(const Body& body, const NetworkInput& input);
 
 }  // namespace perilink

@@ -8,8 +8,8 @@
 namespace perilink {
 namespace {
 
-/// The rigid-body motion of a fragment for which the sum over slots of weight times the square of
-/// its distance from a field is smallest, shape (particles, width).
+/// Returns the rigid-body motion of a fragment nearest to a field in weighted least squares over
+/// slots, shape (particles, width).
 std::vector<double> nearest_motion(const Network& network, const Fragment& fragment,
                                    const std::vector<double>& field,
                                    const std::vector<double>& weight) {
@@ -82,7 +82,7 @@ void balance_loads(const Network& network, const Fragment& fragment, std::vector
                    Loads& loads) {
   std::fill(mass.begin() + std::ptrdiff_t{network.first_embedded_point()} * network.width(),
             mass.end(),
-            0.0);  // anchors are moved by their particles
+            0.0);  // embedded points follow their particles
   std::vector<double> acceleration(mass.size(), 0.0);
   for (std::size_t slot = 0; slot < mass.size(); ++slot) {
     if (mass[slot] > 0.0) acceleration[slot] = loads.forces[slot] / mass[slot];

@@ -10,23 +10,23 @@
 namespace perilink {
 namespace {
 
-/// Determinant of the sum of n n' over bonds, over the power of its trace, below which the bonds
-/// lie in one line or plane.
+/// Bonds lie in one line or plane where the determinant of the sum of n n' is below this times the
+/// power of its trace.
 constexpr double flat_determinant = 1e-10;
 
-/// Rigid parts of a body with its pre-cracks open. A part grows from bonded particles, two in the
-/// plane and three in space, by all that bonds in independent directions hold to it; a bond that
-/// carries moments holds by itself. Particles that no part reaches are parts of their own.
+/// Rigid parts of a body with open pre-cracks. A part grows from bonded particles, two in the plane
+/// and three in space. It takes particles that bonds in independent directions connect to it; one
+/// bond with moments suffices. Each remaining particle is a part of its own.
 class RigidParts {
  public:
   explicit RigidParts(const Network& network);
 
   const std::vector<std::vector<Index>>& parts() const { return parts_; }
-  /// Whether what cannot come loose is the first part.
+  /// Returns whether the first part consists of fixed particles.
   bool begins_fixed() const { return begins_fixed_; }
   Index part_of(Index particle) const { return part_[particle]; }
 
-  /// Calls visit(element, other end) for the bonds of a particle that are no open crack.
+  /// Calls visit(element, other end) for the bonds of a particle that do not cross an open crack.
   template <class Visit>
   void for_each_bond(Index particle, Visit visit) const {
     for (const Index e : neighbourhoods_.row(particle)) {
@@ -48,7 +48,7 @@ class RigidParts {
   bool begins_fixed_ = false;
   std::vector<Index> part_;
   std::vector<Eigen::Matrix3d> directions_;  ///< sum of n n' over bonds to the growing part
-  std::vector<Index> attempt_of_;            ///< in which that was summed
+  std::vector<Index> attempt_of_;            ///< attempt in which the sum was computed
   Index attempt_ = 0;
 };
 
@@ -99,7 +99,8 @@ bool RigidParts::holds(Index particle) const {
   return determinant > flat_determinant * std::pow(sum.trace(), network_.dim());
 }
 
-/// \return whether the part has got more than the fewest particles; else all is as it was
+/// Grows a part from `members`.
+/// \return whether it has more than `fewest` particles; otherwise no state changes
 bool RigidParts::grow(std::vector<Index> members, std::size_t fewest) {
   const auto number = static_cast<Index>(parts_.size());
   ++attempt_;

@@ -8,9 +8,9 @@
 
 namespace perilink {
 
-/// Parts of a body that shift or turn freely while all pre-cracks are open: particles and pieces
-/// that cracks cut off, and those that too few bonds hold to the rest. The largest rigid part
-/// counts as held, as do vertices of finite elements and anchors of bars.
+/// Returns the parts of a body that can shift or turn freely while all pre-cracks are open. These
+/// are particles and pieces that cracks cut off, and parts with too few bonds to the rest. The
+/// largest rigid part counts as held, also vertices of finite elements and embedded points of bars.
 /// \param held  nonzero where a displacement is prescribed, shape (particles, width)
 std::vector<Fragment> find_loose_parts(const Network& network,
                                        const std::vector<std::uint8_t>& held);

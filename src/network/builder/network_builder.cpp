@@ -45,13 +45,12 @@ void check_input(const Body& body, const NetworkInput& input) {
   }
 }
 
-/// What a bond is made from.
+/// Constants of the bonds between two materials.
 struct BondConstants {
-  MicropolarModuli moduli;  ///< means of those at its ends
+  MicropolarModuli moduli;  ///< means of the two materials
   double critical_stretch = 0.0;
 };
 
-/// The constants of every pair of materials.
 class PairConstants {
  public:
   PairConstants(const Body& body, const NetworkInput& input) : count_(input.materials.size()) {
@@ -65,7 +64,7 @@ class PairConstants {
     for (std::size_t a = 0; a < count_; ++a) {
       for (std::size_t b = 0; b < count_; ++b) {
         const double c = 0.5 * (moduli[a].micromodulus + moduli[b].micromodulus);
-        // Peri2D, whose grid has ghosts, takes the mean.
+        // Peri2D, which uses ghosts, takes the mean.
         const double energy =
             body.lattice.surface == Surface::ghost
                 ? 0.5 * (input.materials[a].fracture_energy + input.materials[b].fracture_energy)
@@ -118,7 +117,8 @@ void add_bonds(const PairConstants& constants, const NetworkInput& input, Networ
   }
 }
 
-/// Pre-cracks drawn so that those along a joint or an interface cut the bonds of its weaker side.
+/// Returns the pre-cracks, oriented so that one along a joint or an interface cuts the bonds of its
+/// weaker side.
 std::vector<Crack> cracks_on_weaker_sides(const Body& body, const NetworkInput& input,
                                           const Network& network) {
   std::vector<Crack> cracks = input.cracks;
@@ -144,7 +144,7 @@ std::vector<Crack> cracks_on_weaker_sides(const Body& body, const NetworkInput& 
     Crack turned = crack;
     std::reverse(turned.points.begin(), turned.points.end());
     const std::vector<std::uint8_t> keep = cut_by(crack), keep_turned = cut_by(turned);
-    // Mean of the short bonds that one way of drawing cuts and the other does not.
+    // Means over the short bonds that only one orientation of the crack cuts.
     std::array<double, 2> sum{}, count{};
     for (Index b = 0; b < network.bonds.size(); ++b) {
       if (keep[b] == keep_turned[b] || network.bonds.length(b) > 1.5 * body.lattice.spacing)
@@ -157,7 +157,7 @@ std::vector<Crack> cracks_on_weaker_sides(const Body& body, const NetworkInput& 
   return cracks;
 }
 
-/// Takes out the bonds that cross a pre-crack, but for those that close.
+/// Removes the bonds that cross a pre-crack, except bonds with crack closure.
 void cut_bonds(const Body& body, const NetworkInput& input, Network& network) {
   CutBonds cut = find_cut_bonds(network.particles, network.bonds,
                                 cracks_on_weaker_sides(body, input, network), body.lattice.spacing);
@@ -181,13 +181,13 @@ void cut_bonds(const Body& body, const NetworkInput& input, Network& network) {
 
 namespace {
 
-/// They are most of what the network of a large elastic body takes, and calibrations come on top.
+/// Shares equal directions of many bonds, which take most of the memory of a large elastic network.
 void share_directions_of_many(const NetworkInput& input, Bonds& bonds) {
   constexpr Index many = 100'000;
   if (input.elastic && bonds.size() > many) share_directions(bonds);
 }
 
-/// Bonds of the solid and their stiffness.
+/// Builds the bonds of the solid with calibrated stiffnesses.
 Network make_calibrated_bonds(const Body& body, const NetworkInput& input,
                               const PairConstants& constants) {
   Network network;
@@ -208,7 +208,7 @@ Network make_calibrated_bonds(const Body& body, const NetworkInput& input,
   return network;
 }
 
-/// Critical stretches of bonds that were calibrated in a smaller box.
+/// Sets the critical stretches of bonds calibrated in a template box.
 void set_stretches(const Body& body, const NetworkInput& input, const PairConstants& constants,
                    Network& network) {
   if (input.elastic) return;
@@ -223,7 +223,7 @@ void set_stretches(const Body& body, const NetworkInput& input, const PairConsta
                          network);
 }
 
-/// The same, made in a smaller box where that will do, without those that pre-cracks cut.
+/// Builds calibrated bonds, from a template box if possible, and removes those that pre-cracks cut.
 Network build_bonds(const Body& body, const NetworkInput& input, const PairConstants& constants) {
   const auto make = [&](const Body& whole_or_part, const NetworkInput& its_input) {
     return make_calibrated_bonds(whole_or_part, its_input, constants);
@@ -232,13 +232,13 @@ Network build_bonds(const Body& body, const NetworkInput& input, const PairConst
   if (repeated) set_stretches(body, input, constants, *repeated);
   Network network = repeated ? std::move(*repeated) : make(body, input);
   if (!input.cracks.empty()) {
-    // After the calibration: a crack is not a surface on which a uniform strain finds its stress.
+    // After the calibration: crack faces must not balance uniform stresses as surfaces do.
     cut_bonds(body, input, network);
   }
   return network;
 }
 
-/// Bonds of a part of the body, and cells of the rest.
+/// Builds the bonds of one part of the body, and the cells of the rest.
 Network build_bonds_and_cells(const Body& body, const NetworkInput& input,
                               const PairConstants& constants) {
   const BondedPart part = bonded_part(body, input.thickness);
@@ -247,8 +247,9 @@ Network build_bonds_and_cells(const Body& body, const NetworkInput& input,
   return network;
 }
 
-/// Empty without interfaces or with materials of one stiffness. Calibration of a body of several
-/// materials as a whole gives bonds near their joints any stiffness between theirs, and others.
+/// Returns the bonds as if all materials had equal constants; empty without interfaces or with
+/// materials of one stiffness. Calibrating a body of several materials gives bonds near joints
+/// stiffnesses between the values of the materials, or outside this range.
 EvenBonds even_bonds(const Body& body, const NetworkInput& input, const Network& network) {
   NetworkInput even = input;
   bool unlike = false;
@@ -314,9 +315,10 @@ std::vector<Index> find_loose_particles(const Network& network) {
   const std::vector<std::uint8_t> rotating = rotating_particles(network);
   const std::vector<std::uint8_t> in_cells = vertices_of_cells(network);
   std::vector<Index> loose;
-  for (Index i = 0; i < network.first_embedded_point(); ++i) {  // anchors go with their particles
+  for (Index i = 0; i < network.first_embedded_point(); ++i) {  // embedded points follow their
+                                                                // particles
     if (!in_cells.empty() && in_cells[i] != 0) continue;
-    // One frame holds every direction.
+    // One frame element resists every direction.
     if (is_loose[i] && (rotating.empty() || !rotating[i])) loose.push_back(i);
   }
   return loose;

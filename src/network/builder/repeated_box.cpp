@@ -11,7 +11,7 @@
 namespace perilink {
 namespace {
 
-/// Particles over those of the smaller box from which on it pays.
+/// Smallest ratio of particles, body over template box, for which the template saves time.
 constexpr double enough = 2.0;
 
 bool is_uniform(const Body& body, const NetworkInput& input) {
@@ -22,7 +22,7 @@ bool is_uniform(const Body& body, const NetworkInput& input) {
   return std::ranges::all_of(material, [&](Index m) { return same[m] != 0; });
 }
 
-/// Without its sample.
+/// Returns the pattern without its template network.
 std::optional<LatticePattern> find_pattern(const Body& body, const NetworkInput& input) {
   const bool can_repeat = body.particles.dim == 3 && body.lattice.surface == Surface::calibrated &&
                           !input.shell && input.interfaces.empty();
@@ -34,7 +34,7 @@ std::optional<LatticePattern> find_pattern(const Body& body, const NetworkInput&
   return body.particles.size() < particles ? std::nullopt : std::optional(std::move(pattern));
 }
 
-/// Values of the bonds of the sample that those of the body are like.
+/// Returns the values of the template bonds equivalent to the bonds of the body.
 std::vector<double> repeated(const std::vector<double>& values, std::span<const Index> like) {
   std::vector<double> result;
   if (values.empty()) return result;

@@ -9,15 +9,15 @@
 
 namespace perilink {
 
-/// Whether the calibrated bonds of a body are those of a smaller one over and over: it is a box of
-/// a lattice in space with one set of elastic constants, twice as large as the box that has every
-/// kind of place (LatticePattern) at least.
+/// Returns whether the calibrated bonds of a template box can be repeated in a body. The body must
+/// be a box of a lattice in space with one set of elastic constants. It must have at least twice as
+/// many particles as the template box with all equivalence classes of places (LatticePattern).
 bool repeats_smaller_box(const Body& body, const NetworkInput& input);
 
-/// Bonds and stiffnesses of such a body.
-/// \param make  makes the calibrated network of the smaller box
-/// \return none where its calibration has not made alike what lies alike. Critical stretches are
-///         left to the caller, and `calibration` is that of the smaller box.
+/// Returns the bonds and stiffnesses of such a body.
+/// \param make  builds the calibrated network of the template box
+/// \return empty if the calibration of the template does not preserve symmetry. The caller sets
+///     critical stretches; `calibration` is the report of the template box.
 std::optional<Network> repeat_smaller_box(
     const Body& body, const NetworkInput& input,
     const std::function<Network(const Body& body, const NetworkInput& input)>& make);

@@ -9,7 +9,8 @@
 namespace perilink {
 namespace {
 
-/// The surface: a plane, or a cylinder about a line along y that touches it at x = 0 from below.
+/// The mid-surface: a plane, or a cylinder with its axis along y that touches the plane at x = 0
+/// from below.
 struct MiddleSurface {
   double radius;  ///< 0: flat
 
@@ -22,7 +23,7 @@ struct MiddleSurface {
     if (radius == 0.0) return {0.0, 0.0, 1.0};
     return {std::sin(x / radius), 0.0, std::cos(x / radius)};
   }
-  /// Mean height over the chord between two points `around` apart along x.
+  /// Returns the mean height over the chord between two points `around` apart along x [length].
   double rise(double around) const {
     if (radius == 0.0) return 0.0;
     const double half = 0.5 * std::abs(around) / radius;
@@ -39,10 +40,10 @@ void refuse_overlap(const Particles& mid_surface, double radius) {
     upper = std::max(upper, mid_surface.position(i)[0]);
   }
   if (upper - lower < 2.0 * std::numbers::pi * radius) return;
-  throw std::invalid_argument("the sheet is longer than its cylinder is around");
+  throw std::invalid_argument("the mid-surface is longer than the circumference of its cylinder");
 }
 
-/// The same particles with a third coordinate, zero.
+/// Returns the particles with a third coordinate of zero.
 Particles in_space(const Particles& plane) {
   Particles mid_surface = plane;
   mid_surface.dim = 3;
@@ -54,8 +55,8 @@ Particles in_space(const Particles& plane) {
   return mid_surface;
 }
 
-/// Stiffness of a ribbon against shear across the sheet over k: that of a beam that bends, and that
-/// of the material, one after the other.
+/// Returns the out-of-plane shear stiffness of a shell bond over k [-]. Bending of the bond and
+/// shear of the material are in series.
 double shear_ratio(double poissons_ratio, double length, double thickness) {
   const double of_material = 5.0 * (1.0 - poissons_ratio) / (12.0 * (1.0 + poissons_ratio));
   return 1.0 / (1.0 / of_material + length * length / (thickness * thickness));

@@ -5,10 +5,12 @@
 
 namespace perilink {
 
-/// Lays the network of a sheet in the plane on its surface in space, flat or a cylinder of which x
-/// runs around, with the top at x = 0 (docs/theory/shells.md): its particles move along three axes
-/// and rotate about three, its bonds become ribbons that bend and twist, its facets turn with it.
-/// \throws std::invalid_argument  where the sheet is longer than around the cylinder
+/// Maps the network of a flat mid-surface to its surface in space (docs/theory/shells.md). The
+/// surface is flat, or a cylinder with x around it and its top at x = 0. Particles get three
+/// displacements and three rotations, bonds become shell bonds that bend and twist, and facets turn
+/// with the surface.
+/// \throws std::invalid_argument if the mid-surface is longer than the circumference of the
+///     cylinder
 void make_shell(const NetworkInput& input, Network& network);
 
 }  // namespace perilink

@@ -15,7 +15,7 @@ namespace {
 
 using Corners = std::array<Index, 3>;
 
-/// Ascending, in the numbers of the whole body.
+/// Returns the corners of a facet, ascending, in the numbers of the whole body.
 Corners corners_of(const Facets& facets, Index facet, const std::vector<Index>& whole_of) {
   Corners corners = {no_index, no_index, no_index};
   const auto row = facets.corners.row(facet);
@@ -43,7 +43,7 @@ LinearElements elements_of(Simplices cells, const Particles& particles, const Ne
                               materials);
 }
 
-/// Tractions on the surface act by the shares that the bonds balance.
+/// Copies the nodal area fractions that the bonds balance; surface tractions act by them.
 void copy_shares(const Facets& from, const std::vector<Index>& whole_of, Facets& to) {
   const std::map<Corners, Index> number = facets_by_corners(to);
   for (Index f = 0; f < from.size(); ++f) {
@@ -58,7 +58,7 @@ void copy_shares(const Facets& from, const std::vector<Index>& whole_of, Facets&
   }
 }
 
-/// Edges of cells as bonds that carry nothing.
+/// Appends the edges of cells as bonds without stiffness.
 void append_edges(const Bonds& edges, bool elastic, Network& network) {
   for (Index e = 0; e < edges.size(); ++e) {
     network.bonds.append(network.particles, edges.first[e], edges.second[e]);

@@ -8,27 +8,27 @@
 #include "network/network_input.hpp"
 
 /// \file
-/// Bodies that are bonds in one part and ordinary finite elements in another. At the face between
-/// them the network ends as at a surface: its calibrated bonds balance the tractions of every
-/// uniform stress, which are what the linear elements beyond put on the same vertices.
+/// Bodies with bonds in one part and tied finite elements in the other. At the common face the
+/// network ends as at a surface. Its calibrated bonds balance the tractions of every uniform
+/// stress, and the linear elements exert these tractions on the same vertices.
 
 namespace perilink {
 
-/// The part of a body that has bonds, a body of its own without groups.
+/// The bonded part of a body, as a body without groups.
 struct BondedPart {
   Body body;
-  std::vector<Index> whole_of;  ///< its particles' numbers in the whole body, ascending
+  std::vector<Index> whole_of;  ///< numbers of its particles in the whole body, ascending
 };
 
-/// \param thickness  two-dimensional bodies only [length]
+/// \param thickness  thickness of two-dimensional bodies [length]
 BondedPart bonded_part(const Body& whole, double thickness);
 
-/// Makes the network of the bonded part that of the whole body: particles, facets with the shares
-/// that the bonds balance, cells, and their edges as bonds without stiffness.
+/// Extends the network of the bonded part to the whole body: particles, facets with nodal area
+/// fractions, cells, and their edges as bonds without stiffness.
 void join_cells(const Body& whole, const BondedPart& part, const NetworkInput& input,
                 Network& network);
 
-/// Per particle, nonzero for vertices of the cells of a network; empty: it has none.
+/// Flags the vertices of the cells of a network, per particle; empty without cells.
 std::vector<std::uint8_t> vertices_of_cells(const Network& network);
 
 }  // namespace perilink

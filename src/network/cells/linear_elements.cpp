@@ -10,8 +10,8 @@
 namespace perilink {
 namespace {
 
-/// With x = x_0 + J xi the gradients of the last Dim shape functions xi are the rows of J^-1, and
-/// all sum to zero.
+/// With x = x_0 + J xi, the gradients of the last Dim shape functions are the rows of J^-1, and all
+/// gradients sum to zero.
 template <int Dim>
 void fill_geometry(std::span<const double> positions, double thickness, LinearElements& elements) {
   for (Index number = 0; number < elements.cells.size(); ++number) {

@@ -9,10 +9,10 @@ namespace {
 /// A bond between two slots.
 struct LatticeBond {
   Index first = 0, second = 0;
-  int own = 0;  ///< number of the own bond, which settles length and modulus
+  int own = 0;  ///< index of the directed bond that determines length and modulus
 };
 
-/// Every bond once, sorted by its ends.
+/// Returns every bond once, sorted by its ends.
 std::vector<LatticeBond> bonds_of(const LatticeRows& lattice) {
   std::vector<LatticeBond> bonds;
   const int own = lattice.own_bonds();
@@ -32,7 +32,8 @@ std::vector<LatticeBond> bonds_of(const LatticeRows& lattice) {
   return bonds;
 }
 
-/// Takes out the bonds of loose particles until there are none. \return whether each particle stays
+/// Removes the bonds of loose particles until no particle is loose. \return whether each particle
+/// stays
 std::vector<std::uint8_t> leave_out_loose(Network& network) {
   for (;;) {
     const auto loose = loosely_held(network.bonds, network.particles.size());

@@ -12,14 +12,14 @@
 namespace perilink {
 namespace {
 
-/// Second neighbours are farther than this times the farthest one: in the face-centred lattice
-/// those at sqrt(2) spacings, the farthest, but not those at one.
+/// Second neighbours are farther than this fraction of the farthest neighbour. In the face-centred
+/// lattice these are at sqrt(2) spacings, the first at one.
 constexpr double far_from = 0.85;
-constexpr double tie = 1e-6;  ///< distances this close, relatively, count as equal
-/// Candidates per neighbour: some are lost to slits, some families need more than the nearest.
+constexpr double tie = 1e-6;  ///< relative difference of distances that count as equal
+/// Candidates per neighbour: slits remove some, and some neighbourhoods need more than the nearest.
 constexpr int spare = 4;
 
-/// Pairs near enough to be neighbours that see each other within the body.
+/// Returns pairs close enough to be neighbours whose connection stays within the body.
 Bonds find_candidates(const Body& body, int count) {
   const Particles& particles = body.particles;
   std::vector<double> radius =
@@ -42,12 +42,12 @@ Bonds find_candidates(const Body& body, int count) {
   return bonds;
 }
 
-/// The neighbours of a particle among its candidates, and their constants.
+/// Neighbours of a particle among its candidates, and their constants.
 struct Neighbourhood {
-  std::vector<Index> elements;  ///< those chosen among the candidates
+  std::vector<Index> elements;  ///< chosen candidates
   std::vector<NeighbourhoodBond> bonds;
   ParticleFit fit;
-  bool enlarged = false;  ///< beyond the nearest, which left some strain free
+  bool enlarged = false;  ///< has more than the nearest neighbours, which left some strain free
 };
 
 class Neighbourhoods {
@@ -76,7 +76,7 @@ class Neighbourhoods {
   }
 
  private:
-  /// As many as `count` of those sorted by distance, with all that are as far as the last one.
+  /// Returns the nearest `count` candidates and all at the distance of the last one.
   Neighbourhood of_nearest(Index particle, std::span<const Index> nearest,
                            std::size_t count) const {
     Neighbourhood neighbourhood;
@@ -89,7 +89,7 @@ class Neighbourhoods {
         bond.length = candidates_.length(e);
         bond.far = bond.length > far_from * last;
         const auto n = candidates_.direction(e);
-        // Signs do not matter: products n n'.
+        // Signs do not matter in the products n n'.
         std::copy(n.begin(), n.end(), bond.direction.begin());
         neighbourhood.bonds.push_back(bond);
       }
@@ -127,7 +127,7 @@ void note(const Neighbourhood& neighbourhood, Index particle, ParticleFitReport&
   report.worst = particle;
 }
 
-/// Candidates that became neighbours of at least one end, with what their states make them.
+/// Keeps candidates that are neighbours of at least one end, with their stiffness.
 void keep_neighbours(const Bonds& candidates, std::span<const double> stiffness,
                      std::span<const std::uint8_t> state_of, Network& network) {
   network.bonds.dim = candidates.dim;
