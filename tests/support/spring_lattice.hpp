@@ -9,9 +9,9 @@
 #include "solver/factor.hpp"
 
 /// \file
-/// Small symmetric positive definite matrices with the structure of a bond network, made without
-/// any module but the solver: a square lattice of particles with springs to all neighbours within a
-/// radius, and a spring from every particle to ground.
+/// Small symmetric positive definite matrices with the structure of a bond network, made with the
+/// solver module only. A square lattice of particles has springs to all neighbours within a radius,
+/// and a spring from every particle to ground.
 
 namespace perilink::test {
 
@@ -19,7 +19,7 @@ struct SpringLattice {
   Index size = 0;
   SparseMatrix lower;
   std::vector<Index> groups;
-  std::vector<SparseVector> springs;  ///< x of every spring: K = sum x x' + ground
+  std::vector<SparseVector> springs;  ///< vector x of every spring: K = sum x x' + ground
 
   Eigen::MatrixXd dense() const { return Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>(); }
 };
@@ -74,13 +74,13 @@ inline double relative_difference(const std::vector<double>& a, const std::vecto
   return difference / size;
 }
 
-/// Rows and columns in another order, order[k] the one that comes k-th.
+/// Reorders rows and columns; order[k] is the index that comes k-th.
 inline SparseMatrix reordered(const SparseMatrix& lower, const std::vector<Index>& order) {
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, Index> place(lower.cols());
   for (Index k = 0; k < static_cast<Index>(order.size()); ++k) place.indices()[order[k]] = k;
   SparseMatrix result(lower.rows(), lower.cols());
   result.selfadjointView<Eigen::Lower>() = lower.selfadjointView<Eigen::Lower>().twistedBy(place);
-  return SparseMatrix(result.transpose()).transpose();  // rows of a column in ascending order
+  return SparseMatrix(result.transpose()).transpose();  // sorts the rows of every column
 }
 
 }  // namespace perilink::test
