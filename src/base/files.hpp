@@ -30,8 +30,8 @@ bool is_temporary_of(std::string_view name, std::string_view temporary);
 
 /// Reads a regular file. Refuses pipes, devices and directories without waiting for them.
 /// \param most    largest number of bytes to read; the rest of a longer file is skipped
-/// \param memory  bytes that the caller needs per byte of the file, including that byte; a file
-///     that needs more than the available memory is refused before it is read
+/// \param memory  bytes that the caller needs per byte of the file, including that byte. Larger
+///     files than memory allows are refused unread.
 /// \throws FileError
 std::string read_regular_file(const std::string& path,
                               std::size_t most = std::numeric_limits<std::size_t>::max(),

@@ -8,7 +8,7 @@
 
 namespace perilink {
 
-/// Disjoint sets of the members 0 … count - 1. The smallest member of a part is its number.
+/// Disjoint sets of the indices 0 … count - 1. The number of a set is its smallest index.
 class JoinedParts {
  public:
   explicit JoinedParts(Index count) : parent_(static_cast<std::size_t>(count)) {

@@ -5,8 +5,8 @@
 
 namespace perilink {
 
-/// \return memory that this process can still allocate [bytes]: the machine's free memory, or less
-///     under ulimit -v or -d; infinity if the system does not report it
+/// \return memory that this process can still allocate [bytes]: free memory, or less under ulimit
+///     -v or -d. Infinity if unknown.
 double available_memory();
 
 /// \return address space that ulimit -v and -d still allow [bytes]; infinity without a limit

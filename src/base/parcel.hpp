@@ -33,7 +33,7 @@ class Parcel {
     put_bytes(values.data(), values.size() * sizeof(T));
   }
 
-  /// Writes values without their number, which the receiver must know.
+  /// Writes values without their number; the receiver must read as many.
   template <class T>
   void put_values(std::span<const T> values) {
     static_assert(std::is_trivially_copyable_v<T>);

@@ -42,7 +42,7 @@ class EnergyGains {
   void add(double gain) { gains_.push_back(gain); }
   bool empty() const { return gains_.empty(); }
   /// \return estimated error in the energy norm: square root of the last window's energy plus the
-  ///     geometric series of later windows; infinite before there are two windows
+  ///     geometric series of later windows. Infinite before there are two windows.
   double error() const {
     const std::size_t window = std::max(shortest, gains_.size() / 8);
     if (gains_.size() < 2 * window) return std::numeric_limits<double>::infinity();

@@ -38,7 +38,7 @@ class Factor {
   /// \throws SolverError if K is not positive definite or memory is too small
   virtual void factorize(const SparseMatrix& matrix, std::span<const Index> groups) = 0;
 
-  /// Factorises another matrix of the same pattern.
+  /// Factorises another matrix with the pattern of factorize().
   virtual void refactorize(const SparseMatrix& matrix) = 0;
 
   /// Computes solution = K^-1 rhs, both of size n; they may share memory.
@@ -59,16 +59,16 @@ class Factor {
   ///     zero
   virtual std::vector<double> columns(std::span<const SparseVector> x) = 0;
 
-  /// Computes x_a' K^-1 x_b of a few vectors that share a path, such as those of one bond, shape
-  /// (count, count).
+  /// Computes x_a' K^-1 x_b of a few vectors that share a path, such as the vectors of one bond,
+  /// shape (count, count).
   virtual void compliance(std::span<const SparseVector> x, std::span<double> result) = 0;
 
   /// \return downdate pivot 1 - x' K^-1 x = det(K - x x') / det(K). At or below zero, removing x x'
   ///     would leave a mechanism.
   virtual double pivot(const SparseVector& x);
 
-  /// Changes K to K - sum x x' and f to f + sum load_change x for vectors that do not interact:
-  /// x_a' K^-1 x_b = 0 for a != b.
+  /// Changes K to K - sum x x' and f to f + sum load_change x for vectors that do not interact.
+  /// Then x_a' K^-1 x_b = 0 for a != b.
   /// \param pivots    pivot(x) of each vector, all positive
   /// \param solution  updated from before to after the removal; empty: no solution
   virtual void downdate(std::span<const SparseVector> x, std::span<const double> load_changes,
@@ -86,7 +86,7 @@ class Factor {
   /// \param b  few entries, each row once
   virtual void add_solution(const SparseVector& b, std::span<double> solution);
 
-  /// Changes K to K + x x' (a ground spring); the pattern of x must lie in that of the matrix.
+  /// Changes K to K + x x' (a ground spring); the pattern of x x' must lie in the pattern of K.
   virtual void update(const SparseVector& x) = 0;
 
   /// \return number of numerical factorisations

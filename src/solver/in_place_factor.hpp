@@ -71,7 +71,7 @@ class InPlaceFactor final : public Factor {
   CholmodFactorPtr factor_;
   Index size_ = 0;
   int factorizations_ = 0;
-  double flops_ = 0.0;  ///< of one factorisation
+  double flops_ = 0.0;  ///< operations of one factorisation
 
   std::vector<Index> position_;  ///< per unknown: position in the factor's order
   SupernodeTree tree_;

@@ -49,7 +49,7 @@ class Ranks {
   virtual void exchange(std::span<Exchange> with) = 0;
 
   /// Collective: perilink::conjugate_gradients() of a system with unknowns divided among the ranks.
-  /// All vectors are the rank's own parts, also those of both maps.
+  /// All vectors are the rank's own parts, including the arguments of both maps.
   virtual GradientsReport conjugate_gradients(const LinearMap& product,
                                               const LinearMap& precondition,
                                               std::span<const double> right,

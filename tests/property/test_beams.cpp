@@ -45,9 +45,10 @@ std::vector<double> deflections(const CaseFile& input) {
 
 constexpr double EI = 2.0 * 3.0 * 0.125 / 12.0;
 
-/// Deflections are P L^3 / 3 E I, and P ((L^3 - l^3) / 3 E I + l^3 / 24 E I) for the stepped beam
-/// with l = 4, eight times as stiff. They are exact for any horizon: every bond is a beam, and
-/// bonds share the section. Tolerance: round-off of a matrix with a condition number of 1e6.
+/// Deflections are P L^3 / 3 E I, and P ((L^3 - l^3) / 3 E I + l^3 / 24 E I) for the stepped beam.
+/// Its stiffer part has l = 4 and is eight times as stiff. Both are exact for any horizon: every
+/// bond is a beam, and bonds share the section. Tolerance: round-off of a matrix with a condition
+/// number of 1e6.
 TEST(Beams, LoadedAtTheirEndsAreExactAtTheirParticles) {
   const std::string load = "[[point_loads]]\nat = [12, 0]\nforce = [0, -0.001]\n";
   const double L = std::pow(12.0, 3), l = std::pow(4.0, 3);
@@ -75,9 +76,8 @@ TEST(Beams, BetweenClampsConvergeWithOrderFour) {
   EXPECT_NEAR(std::log2(errors[1] / errors[2]), 4.0, 0.1);
 }
 
-/// The deflection under a middle load is w = P b / 2 k with b^4 = k / 4 E I for an infinite beam on
-/// springs k per length (Hetenyi 1946). By symmetry this beam extends to 12 / b = 6.4 on either
-/// side.
+/// The deflection of an infinite beam on springs k per length under a point load is w = P b / 2 k,
+/// b^4 = k / 4 E I (Hetenyi 1946). By symmetry this beam extends to 12 / b = 6.4 on either side.
 TEST(Beams, OnSpringsDeflectAsWinklersBeam) {
   const double beta = std::pow(0.01 / (4 * EI), 0.25), exact = 0.001 * beta / (2 * 0.01);
   const CaseFile input = parse_case(
@@ -130,7 +130,7 @@ DamageResult broken(const std::string& loads, const std::string& elements) {
 }
 
 /// The peak is f_t A, raised 1 % by the segments and 2 % by the first of them (measured). The
-/// dissipated energy is G_F A; bonds beside the crack before it opens and the path between segments
+/// dissipated energy is G_F A; bonds near the crack before it opens and the path between segments
 /// add 1.7 %.
 TEST(Beams, PulledTakeTheStrengthAndTheFractureEnergy) {
   const DamageResult result = broken(
@@ -166,7 +166,8 @@ TEST(Beams, BreakWhereTheyBendToAnS) {
 }
 
 /// In bending the face stress is sqrt 3 times the strength where a bond of mean length begins to
-/// soften; beside the load it is slightly larger. Host elements released early change nothing.
+/// soften. Near the load it is slightly larger. Host elements that are released before do not
+/// change the result.
 TEST(Beams, BendToSqrtThreeTimesTheStrength) {
   const std::string loads =
       "[[supports]]\nregion = \"right\"\nfix = [\"y\"]\n"

@@ -216,7 +216,7 @@ TEST(BodiesInMotion, FreeOnesUnderBalancedLoadsKeepNoMomentumNoSpinAndTheirSymme
   EXPECT_LT(spin, 1e-13);
 }
 
-/// \return random supports or prescribed motion: nothing, one component, an edge, springs, a
+/// \return random supports or prescribed motion: no support, one component, an edge, springs, a
 ///     velocity
 std::string held_by(RandomBodies& random, const RandomBody& body) {
   const std::string springs = fmt::format("[[springs]]\nregion = \"lo\"\ntotal = {}\n",

@@ -78,7 +78,7 @@ TEST(ConcreteCells, StayElasticWhereNothingIsPulled) {
   EXPECT_TRUE(path_of({Problem::plane_stress, true, Across::held, -1.0, 0.0}).empty());
 }
 
-/// Where bonds do not shear, the path equals that of a law with the same segments in tension only.
+/// Where bonds do not shear, the path equals the path of a law with equal segments in tension only.
 TEST(ConcreteCells, AgreeWithOtherLawsInTension) {
   const std::vector<CellBond> cell = isotropic_cell(Problem::plane_stress, 1.0);
   const SofteningShape shape{Softening::concrete};

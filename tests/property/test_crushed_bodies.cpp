@@ -98,7 +98,7 @@ TEST(CrushedBodies, TornByALoadThatStaysHaveCollapsed) {
 
 /// After an event a bond exceeds its limit at a load factor where another bond closes. If the load
 /// grows, the other bond opens and loads the first one more. If the load falls, the other bond
-/// closes with the same effect. The first bond therefore fails at this load factor.
+/// closes, which also loads the first one. The first bond therefore fails at this load factor.
 TEST(CrushedBodies, BondsThatBearNoLoadFactorNearByFailAtTheirOwn) {
   const WholeRun run(crushed_block(
       "[body]\nproblem = \"plane_strain\"\nmodel = \"micropolar\"\nspacing = 10\nhorizon_ratio = "

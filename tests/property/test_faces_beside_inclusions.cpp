@@ -64,9 +64,9 @@ std::string case_of(const Block& block) {
   return text + "[[displacements]]\nregion = \"upper\"\ny = 1\n[stop]\nload_fraction = 1e-4\n";
 }
 
-/// Short blocks of one material exceed their strength by 3 to 8 %, due to saw-tooth segments (up to
-/// 5 %) and the contraction prevented at their ends. Inclusions of another stiffness make parts of
-/// the face soften one after another, which reduces the peak.
+/// Short blocks of one material exceed their strength by 3 to 8 %. Saw-tooth segments cause up to 5
+/// %, prevented contraction at the ends the rest. Inclusions of another stiffness make parts of the
+/// face soften one after another, which reduces the peak.
 TEST(FacesBesideInclusions, KeepTheirStrengthAndEnergy) {
   std::mt19937 random(54);
   const auto among = [&](int first, int last) {

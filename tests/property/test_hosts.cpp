@@ -99,7 +99,7 @@ TEST(Hosts, ConversionKeepsTheEventsAndTheEnergies) {
   EXPECT_GT(some.conversions, 0);
   EXPECT_EQ(some.missed_releases, 0);
   // Bonds and loads agree until the crack reaches an ambiguous event. The tolerance 0.02 is the
-  // excess stiffness of such wide elements beside the load.
+  // excess stiffness of such wide elements near the load.
   ASSERT_GT(embedded.elements.size(), 40u);
   for (std::size_t k = 0; k < 40; ++k) {
     EXPECT_EQ(embedded.elements[k], free.elements[k]) << k;

@@ -144,9 +144,9 @@ type = "elastic"
 )";
   const Model model = build_model(parse_case(free, "test"));
   const ElasticResult elastic = run_elastic_analysis(model);
-  // Along x: force 1 on stiffness 5. Along y: force 3/2 on 20. The couple of 3 x and of the uniform
-  // force along x at y = 0 about the centre of the springs is the integral of 3 x (x - 1/2) = 1/4.
-  // It acts on the lumped second moment of the springs, 20 (1/12 + h^2 / 6) with h = 1/4.
+  // Along x: force 1 on stiffness 5. Along y: force 3/2 on 20. The force 3 x and the uniform force
+  // along x at y = 0 have the couple 1/4 about the centre of the springs, the integral of 3 x (x -
+  // 1/2). It acts on the lumped second moment of the springs, 20 (1/12 + h^2 / 6) with h = 1/4.
   const double turn = 0.25 / (20.0 * (1.0 / 12.0 + 1.0 / 96.0));
   for (Index i = 0; i < 5; ++i) {
     const double x = model.network.particles.position(i)[0];

@@ -267,7 +267,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& tested) { return tested.param.name; });
 
 /// An interior particle in a homogeneous strain without rotation has no force and no moment. Its
-/// energy is that of the given solid.
+/// energy equals the energy of the given solid.
 TEST(MicropolarBulk, HasYoungsModulusAndPoissonsRatio) {
   for (const double nu : {-0.2, 0.0, 0.2, 0.3}) {
     const LatticeInput body = body_input({"", Pattern::hexagonal, Surface::none}, 10);
@@ -353,8 +353,8 @@ TEST_P(Inflected, SearchMeasuresTheEnergy) {
 INSTANTIATE_TEST_SUITE_P(InPlaneAndSpace, Inflected, testing::Values(2, 3));
 
 /// In a homogeneous strain the bonds of a calibrated body break by direction and length, not by
-/// their calibrated stiffness. The order of breaking is that of s^2 + b (g / xi)^2 / xi^2 with s =
-/// n.eps n, g / xi = t.eps n and one b for the whole body.
+/// their calibrated stiffness. Bonds break in the order of s^2 + b (g / xi)^2 / xi^2. Here s =
+/// n.eps n, g / xi = t.eps n, and b is one number for the body.
 TEST(UnstructuredMicropolar, BreaksByTheStrainAlone) {
   const Network network =
       build_network(make_unstructured(1, 10), unstructured_micropolar_input(10));

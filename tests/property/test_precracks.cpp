@@ -129,9 +129,9 @@ std::vector<double> damaged(const Network& network, const std::vector<double>& p
   return secants;
 }
 
-/// In one motion the stress beside an open crack equals that of a body without the cut bonds. If
-/// all cut bonds are closed, it equals that of a body without a crack. Both are the same sums of
-/// about thirty terms.
+/// In one motion the stress near an open crack equals the stress in a body without the cut bonds.
+/// If all cut bonds are closed, it equals the stress in an uncracked body. Both are identical sums
+/// of about thirty terms.
 TEST(StressBesidePreCracks, DoesNotCountOpenBonds) {
   double open = 0.0, closed = 0.0;
   for (int body = 0; body < num_bodies; ++body) {
@@ -245,7 +245,7 @@ TEST(ElasticPreCracks, AreClosedWhereTheyAreCompressed) {
     Plate plate = drawing.plate();
     plate.cracks.push_back(drawing.line(plate, 12.0));
     Model model = plate.build();
-    // Balanced forces: those of a random uniform stress.
+    // Forces balance, because they come from a random uniform stress.
     const double xx = drawing.between(-1.0, 1.0), yy = drawing.between(-1.0, 1.0);
     for (Index i = 0; i < model.network.particles.size(); ++i) {
       model.loads.forces[2 * i] *= xx;

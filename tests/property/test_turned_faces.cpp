@@ -106,7 +106,7 @@ INSTANTIATE_TEST_SUITE_P(Meshes, TurnedFaces,
                                          TurnedFace{"micropolar_cube", 3, "micropolar", 4, 6.0}),
                          [](const auto& tested) { return tested.param.name; });
 
-/// A physical group and its two sides select the same bonds.
+/// A physical group and its two sides select identical bonds.
 TEST(FacesOfGroups, AreThoseBetweenTheHalves) {
   for (const TurnedFace& tested : {TurnedFace{"square", 2, "bond_based", 8, 5.0, 4.0},
                                    TurnedFace{"cube", 3, "bond_based", 4, 6.0, 4.0}}) {

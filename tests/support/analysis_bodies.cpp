@@ -124,7 +124,7 @@ AnalysisBody make_block(const BlockCase& block) {
     }
   }
   AnalysisBody body = free_body(build_network(make_body(input), constants));
-  std::mt19937 random(11);  // fixed: the same body in every run
+  std::mt19937 random(11);  // fixed: one body in all runs
   std::uniform_real_distribution<double> scatter(1.0 - block.scatter, 1.0 + block.scatter);
   for (Index e = 0; e < body.network.num_elements(); ++e) {
     const double factor = scatter(random);

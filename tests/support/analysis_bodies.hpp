@@ -59,8 +59,8 @@ AnalysisBody make_chains(int columns, int rows, bool driven, double stiffness, d
 
 /// Four particles at the corners of a unit square, every pair bonded with stiffness 1 and critical
 /// stretch 0.01. The left two are fixed, the right ones move along x only with the force 1 each.
-/// With horizontal bonds (stiffness 1) and diagonals (1/2 along x) the right ones are independent:
-/// u = 1 / (1 + 1/2) = 2/3, or 1 / (1/2) = 2 without the horizontal bond.
+/// Horizontal bonds have the stiffness 1 and diagonals 1/2 along x, so the right ones are
+/// independent. Thus u = 1 / (1 + 1/2) = 2/3, or 1 / (1/2) = 2 without the horizontal bond.
 AnalysisBody make_square();
 
 /// \return number of the bond between two points

@@ -29,7 +29,7 @@ inline SpringLattice make_spring_lattice(int columns, int rows, double radius,
   SpringLattice lattice;
   lattice.size = 2 * columns * rows;
   std::vector<Eigen::Triplet<double, Index>> entries;
-  std::mt19937_64 random(7);  // fixed: the same matrix in every run
+  std::mt19937_64 random(7);  // fixed: one matrix in all runs
   std::uniform_real_distribution<double> stiffness(0.5, 1.5);
   for (Index k = 0; k < lattice.size; ++k) {
     entries.emplace_back(k, k, ground);

@@ -17,7 +17,8 @@ using ElementMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 1
 ElementMatrix plane_beam(double L, double EA, double EI);
 
 /// \return stiffness of a beam in space along x, unknowns (u, v, w, theta_x, theta_y, theta_z) per
-///     end: two plane beams, the second with opposite rotation, and a rod in torsion
+///     end. It consists of two plane beams, the second with opposite rotation, and a rod in
+///     torsion.
 ElementMatrix space_beam(double L, double EA, double EI, double GJ);
 
 /// \return stiffness of an intact truss or beam between all components of its ends

@@ -61,7 +61,7 @@ struct LatticeGrid {
 /// \return grid with exactly the particles of a body; empty if the body is no such grid
 std::optional<LatticeGrid> grid_of(const Body& body);
 
-/// \return body of one material that fills another grid of the same lattice
+/// \return body of one material on a grid with the given lattice
 /// \param thickness  in the plane [length]
 Body body_of(const LatticeGrid& grid, const Lattice& lattice, double thickness);
 

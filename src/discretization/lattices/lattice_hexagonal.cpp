@@ -86,7 +86,7 @@ class HexagonalCells {
   }
 
   /// Adds the triangles between two rows. Triangles with their base on the even row lie between
-  /// columns. Triangles with their base on the odd row straddle a column; at a vertical side only
+  /// columns. Triangles with their base on the odd row straddle a column. At a vertical side only
   /// half of such a triangle counts, with a particle at its right angle.
   void share_strip(Index lower_row) {
     const Index even = lower_row % 2 == 0 ? lower_row : lower_row + 1;

@@ -16,8 +16,8 @@ using Step = std::array<int, 3>;
 using RowBasis = std::array<Vector3, 3>;
 using RowKey = std::pair<int, int>;  ///< second and third lattice coordinate
 
-/// Rows are padded with empty slots to a multiple of this number; otherwise the remainder of a
-/// vectorised loop would process one particle at a time.
+/// Rows are padded with empty slots to a multiple of this number. Otherwise vectorised loops would
+/// process the remainder one particle at a time.
 constexpr int lanes = 8;
 
 Vector3 turned(const Vector3& v, double angle) {

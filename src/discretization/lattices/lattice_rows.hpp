@@ -25,9 +25,9 @@ struct LatticeRow {
 };
 
 /// Particles of a lattice, stored row after row. Within a row the partner of own bond k of slot s
-/// is slot s + shift, so that loops over a row only read contiguous memory. Empty slots surround
-/// each row, so that every shift ends at a slot. Missing particles and bonds are zeros of masks,
-/// without branches.
+/// is slot s + shift. Loops over a row therefore read contiguous memory. Empty slots surround each
+/// row, so that every shift ends at a slot. Missing particles and bonds are zeros of masks, without
+/// branches.
 struct LatticeRows {
   int dim = 2;
   double spacing = 0.0;        ///< to nearest neighbours [length]
@@ -39,7 +39,7 @@ struct LatticeRows {
                                  ///< bonds)
   std::vector<Index> row_out;    ///< row of own bond k's partners or no_index: the row itself or a
                                  ///< later one, same shape
-  std::vector<Index> row_in;     ///< row whose own bonds k end here or no_index, same shape
+  std::vector<Index> row_in;     ///< row with own bonds k that end here, or no_index, same shape
   Index reach = 0;               ///< largest difference between a row and its row_out
   Index slots = 0;
   std::vector<double> positions;     ///< [length], shape (dim, slots)

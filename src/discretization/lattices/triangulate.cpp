@@ -68,7 +68,7 @@ Simplices split_grid(const LatticeInput& input, const Body& body, const Box& bou
 }
 
 /// Where a vertical side of the body begins at a row, its particle halves the base of a whole
-/// triangle in the next strip. That triangle is split too.
+/// triangle in the next strip. This triangle is split too.
 Simplices split_hexagons(const LatticeInput& input, const Body& body, const Outline& outline) {
   Simplices whole;
   fill_conforming_hexagonal(input, body.lattice, outline, whole);

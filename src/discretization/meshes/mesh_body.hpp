@@ -9,8 +9,8 @@
 
 namespace perilink {
 
-/// \return material of every cell of a mesh, from the last region that contains the cell: its
-///     group's cells, or the cells with their centre in its shape; no_index without a region
+/// \return material of every cell of a mesh, from the last region that contains the cell, or
+///     no_index. A region contains its group's cells, or the cells with their centre in its shape.
 /// \param material  per region
 std::vector<Index> materials_of_cells(const Mesh& mesh, std::span<const Region> regions,
                                       std::span<const Index> material);

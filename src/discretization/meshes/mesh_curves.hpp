@@ -16,7 +16,7 @@ namespace perilink {
 /// - Points at one position are one point.
 /// \param points  shape (points, 3) [length]
 /// \param lines   ends, shape (lines, 2); lines without length are ignored
-/// \throws std::invalid_argument if two lines have the same ends, or more than 100 meet in a point
+/// \throws std::invalid_argument if two lines have equal ends, or more than 100 meet in a point
 std::vector<std::vector<Vector3>> curves_of(std::span<const double> points,
                                             std::span<const Index> lines);
 

@@ -66,8 +66,8 @@ bool separated_across_edges(const Cell& a, const Cell& b, double tolerance) {
   return false;
 }
 
-/// Two convex bodies are apart if and only if an axis separates them that is normal to a side of
-/// one or, in space, to an edge of each (Gottschalk, Lin & Manocha 1996).
+/// Tests the axes normal to a side of one body or, in space, to an edge of each. Two convex bodies
+/// overlap if none of these axes separates them (Gottschalk, Lin & Manocha 1996).
 bool overlap(const Cell& a, const Cell& b) {
   const double tolerance = contact * std::min(a.size, b.size);
   if (separated_by_side(a, a, b, tolerance) || separated_by_side(b, a, b, tolerance)) return false;

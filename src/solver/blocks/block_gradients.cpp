@@ -261,7 +261,7 @@ void add_gains(const Square& sides, const Square& steps, std::array<EnergyGains,
   }
 }
 
-/// Least estimated error over the allowed one; smaller residuals count as none, also in soft
+/// Least estimated error over the allowed one; smaller residuals count as zero, also in soft
 /// bodies.
 constexpr double gone = 1e-3;
 

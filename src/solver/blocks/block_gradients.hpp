@@ -51,8 +51,8 @@ struct BlockSpace {
 /// last right side has converged. Vectors have shape (n, block_width).
 /// \param right     overwritten
 /// \param solution  set to the solution, or to its part since the last correction
-/// \param sizes     reference energies; a solution has converged when the square root of its
-///     missing energy is at most `enough` times that of its size
+/// \param sizes     reference energy of each solution. A solution has converged when its missing
+///     energy is at most enough^2 times this size.
 /// \param correct   for numbers of few digits: adds the solution to one of more digits and sets the
 ///     right side to its residual. It is called when the estimated error has fallen by five digits.
 ///     If the true error has not fallen by one digit, the solution fails. Empty: no corrections

@@ -2,7 +2,8 @@
 
 #include <Eigen/Core>
 
-/// \file Dense matrices by BLAS and LAPACK with one thread per call, so that results are
+/// \file
+/// Dense matrices by BLAS and LAPACK with one thread per call, so that results are
 /// independent of the number of threads.
 
 namespace perilink {

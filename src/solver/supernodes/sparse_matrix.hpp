@@ -9,7 +9,7 @@
 
 namespace perilink {
 
-/// Symmetric matrix of which the lower triangle is stored.
+/// Symmetric matrix, stored as its lower triangle.
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, Index>;
 
 /// Adds a column of the matrix's lower triangle to `values`, which hold zeros: the number of row r

@@ -6,9 +6,9 @@
 /// Dense kernels on one supernode of a factor L D L'. A supernode is a trapezoid of `columns`
 /// columns and `rows` rows, column-major with leading dimension `rows`. Its top is a unit lower
 /// triangle with D on the diagonal. Numbers above the diagonal are never read. `local` is the part
-/// of a vector on the supernode's rows. Each kernel reads L once, in order, so its speed is that of
-/// memory for factors larger than the caches. L may be in single precision (Number is float); the
-/// arithmetic is in double precision.
+/// of a vector on the supernode's rows. Each kernel reads L once, in order. Memory bandwidth limits
+/// its speed for factors larger than the caches. L may be in single precision (Number is float);
+/// the arithmetic is in double precision.
 
 namespace perilink::supernodal {
 
@@ -24,9 +24,9 @@ template <class Number>
 void backward(const Number* block, Index rows, Index columns, double* local);
 
 /// Backward substitution with the old columns as in backward(), combined with the rank-one change
-/// of the columns to those of L D L' - x x' (Gill, Golub, Murray & Saunders 1974, method C1). With
-/// p = L^-1 x, column j becomes l_j + beta_j w_j, where w_j is x reduced by columns up to j. From
-/// the last column backward, w follows from p: w_(j-1) = w_j + p_j l_j. One pass over the block
+/// of the columns for L D L' - x x'. Source: Gill, Golub, Murray & Saunders 1974, method C1. With p
+/// = L^-1 x, column j becomes l_j + beta_j w_j, where w_j is x reduced by columns up to j. From the
+/// last column backward, w follows from p: w_(j-1) = w_j + p_j l_j. One pass over the block
 /// replaces three. The diagonal stays unchanged.
 /// \param p      p on the columns, size `columns`
 /// \param beta   beta on the columns, size `columns`
