@@ -7,14 +7,14 @@
 
 namespace perilink {
 
-/// \return version of the program, such as "0.1.0"
+/// Returns the version of the program, such as "0.1.0".
 std::string program_version();
 
-/// \return abbreviated git commit, or "unknown" outside a git checkout
+/// Returns the abbreviated git commit, or "unknown" outside a git checkout.
 std::string program_commit();
 
-/// \return text for bug reports with one "name  value" line each: version, commit, compiler, build
-///     type and libraries
+/// Returns a text for bug reports with one "name  value" line each: version, commit, compiler,
+/// build type and libraries.
 std::string build_summary();
 
 }  // namespace perilink

@@ -48,14 +48,14 @@ class Descriptor {
   Descriptor& operator=(const Descriptor&) = delete;
 
   int number() const { return number_; }
-  /// \return 0 or the fault
+  /// Returns 0 or the fault.
   int close() { return ::close(std::exchange(number_, -1)) == 0 ? 0 : errno; }
 
  private:
   int number_;
 };
 
-/// \return number of bytes written; sets `fault` if some are missing
+/// Returns the number of bytes written; sets `fault` if some are missing.
 std::size_t write_bytes(int descriptor, std::string_view bytes, int& fault) {
   std::size_t written = 0;
   while (written < bytes.size()) {
@@ -88,7 +88,7 @@ const char* kind_of(mode_t mode) {
   return "a device";
 }
 
-/// \return size of the file [bytes]
+/// Returns the size of the file [bytes].
 std::size_t check_regular(const std::string& path, const struct stat& status) {
   if (!S_ISREG(status.st_mode)) {
     throw FileError(fmt::format("{}: is {}, not a file", path, kind_of(status.st_mode)));

@@ -25,7 +25,7 @@ class DiskFull : public FileError {
 /// \throws FileError
 void write_whole_file(const std::string& path, std::string_view bytes);
 
-/// \return whether `temporary` is a temporary name of write_whole_file() for a file `name`
+/// Returns whether `temporary` is a temporary name of write_whole_file() for a file `name`.
 bool is_temporary_of(std::string_view name, std::string_view temporary);
 
 /// Reads a regular file. Refuses pipes, devices and directories without waiting for them.

@@ -28,8 +28,8 @@ constexpr std::size_t register_bytes = 32;
 constexpr std::size_t register_bytes = 16;
 #endif
 
-/// \return how many of `count` numbers one register holds. Files are compiled for different
-///     registers, so this function must only be evaluated at compile time.
+/// Returns how many of `count` numbers one register holds. Files are compiled for different
+/// registers, so this function must only be evaluated at compile time.
 template <class Number>
 consteval std::size_t lanes_of(std::size_t count) {
   return std::min(count, register_bytes / sizeof(Number));
@@ -76,7 +76,7 @@ inline Lanes<double, 4> widen(const float* numbers) {
 #endif
 }
 
-/// \return sum in the order (0 + 2) + (1 + 3)
+/// Returns the sum in the order (0 + 2) + (1 + 3).
 inline double add_up(Lanes<double, 4> numbers) {
 #ifdef __AVX__
   const __m128d pairs =

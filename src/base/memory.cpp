@@ -16,7 +16,7 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
-/// \return free memory of the machine [bytes]
+/// Returns the free memory of the machine [bytes].
 double free_memory() {
   std::ifstream file("/proc/meminfo");
   double kilobytes = 0.0;
@@ -26,7 +26,7 @@ double free_memory() {
   return unknown;
 }
 
-/// \return limit of the process [bytes]
+/// Returns the limit of the process [bytes].
 double limit_of(decltype(RLIMIT_AS) resource) {
   rlimit limit{};
   if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unknown;

@@ -32,7 +32,7 @@ class ThreadChoice {
     });
   }
 
-  /// \return number of threads for the next piece of work
+  /// Returns the number of threads for the next piece of work.
   int threads() const { return several_ ? most_ : 1; }
   /// Records the time of a piece of work.
   /// \param seconds  measured time

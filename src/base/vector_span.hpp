@@ -21,8 +21,8 @@ class VectorSpan {
   void clear();
   /// Adds a vector unless it depends linearly on the others up to round-off.
   void add(const SparseVector& x, Index number);
-  /// \return coefficients of a linear combination that equals `x` to 1e-12 of its length. Empty if
-  ///     the vectors do not span `x`, or only by coefficients that are too large to be exact.
+  /// Returns coefficients of a linear combination that equals `x` to 1e-12 of its length. Empty if
+  /// the vectors do not span `x`, or only by coefficients that are too large to be exact.
   std::optional<std::vector<Part>> parts_of(const SparseVector& x) const;
 
  private:

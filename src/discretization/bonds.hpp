@@ -50,12 +50,12 @@ void share_directions(Bonds& bonds);
 /// by construction.
 inline constexpr double horizon_tolerance = 1e-9;
 
-/// \return bonds between all solid and ghost particles within the horizon. Ghosts are not bonded to
-///     one another, because such bonds would have no stiffness.
+/// Returns bonds between all solid and ghost particles within the horizon. Ghosts are not bonded to
+/// one another, because such bonds would have no stiffness.
 Bonds make_bonds(const Particles& particles, double horizon);
 
-/// \return bonds of every particle (neighbourhoods): row i holds the numbers of the bonds that end
-///     at particle i
+/// Returns bonds of every particle (neighbourhoods): row i holds the numbers of the bonds that end
+/// at particle i.
 Csr bonds_of_particles(const Bonds& bonds, Index num_particles);
 
 /// Keeps the marked bonds in their order. \return number of removed bonds
@@ -64,8 +64,8 @@ Index keep_bonds(Bonds& bonds, std::span<const std::uint8_t> keep);
 /// Keeps the marked particles in their order, and the bonds between them.
 void keep_particles(Particles& particles, Bonds& bonds, std::span<const std::uint8_t> keep);
 
-/// \return per particle, nonzero if its bonds have fewer than dim independent directions, so that
-///     it can move without energy
+/// Returns nonzero for each particle whose bonds have fewer than dim independent directions. Such
+/// particles can move without energy.
 /// \param stiffness  per bond; bonds without stiffness are ignored; empty: all bonds count
 std::vector<std::uint8_t> loosely_held(const Bonds& bonds, Index num_particles,
                                        std::span<const double> stiffness = {});
@@ -75,8 +75,8 @@ std::vector<std::uint8_t> loosely_held(const Bonds& bonds, Index num_particles,
 /// \return number of removed ghosts
 Index remove_loose_ghosts(Particles& particles, Bonds& bonds);
 
-/// \return number of the connected part that each particle belongs to, from zero in the order of
-///     the parts' first particles
+/// Returns the number of the connected part that each particle belongs to, from zero in the order
+/// of the parts' first particles.
 std::vector<Index> connected_parts(const Bonds& bonds, Index num_particles);
 
 }  // namespace perilink

@@ -18,7 +18,7 @@ constexpr double least_spread = 0.02;
 template <int Dim>
 using Basis = Eigen::Matrix<double, Dim + 1, 1>;
 
-/// \return weight that falls smoothly from one to zero at the radius
+/// Returns a weight that falls smoothly from one to zero at the radius.
 template <int Dim>
 double kernel(const Basis<Dim>& basis, double reach) {
   const double square = (basis.squaredNorm() - 1.0) / (reach * reach);

@@ -19,13 +19,13 @@ struct FacetGeometry {
 /// \param facet  two corners in the plane, three in space
 FacetGeometry facet_geometry(const Particles& particles, const Facets& facets, Index facet);
 
-/// \return distance along the normal from the facet's line or plane, positive outside [length]
+/// Returns the distance along the normal from the facet's line or plane, positive outside [length].
 double height_above(const FacetGeometry& facet, const Vector3& point);
 
-/// \return point of the facet nearest to `point`
+/// Returns the point of the facet nearest to `point`.
 Vector3 nearest_point(const FacetGeometry& facet, const Vector3& point);
 
-/// \return area of a triangle or volume of a tetrahedron, negative for reversed corners
+/// Returns the area of a triangle or volume of a tetrahedron, negative for reversed corners.
 /// \param positions  shape (points, dim) [length]
 double signed_volume(std::span<const double> positions, int dim, std::span<const Index> cell);
 
@@ -33,7 +33,7 @@ double dot(const Vector3& a, const Vector3& b);
 Vector3 minus(const Vector3& a, const Vector3& b);
 Vector3 cross(const Vector3& a, const Vector3& b);
 double norm(const Vector3& a);
-/// \return start + fraction * (end - start)
+/// Returns start + fraction * (end - start).
 Vector3 between(const Vector3& start, const Vector3& end, double fraction);
 
 }  // namespace perilink

@@ -27,7 +27,7 @@ Vector3 point(std::span<const double> positions, int dim, Index i) {
   return x;
 }
 
-/// \return area vector of the side opposite to `apex`, pointing away from it
+/// Returns the area vector of the side opposite to `apex`, pointing away from it.
 Vector3 area_vector_of(std::span<const double> positions, int dim,
                        const std::array<Index, 3>& corners, Index apex, double thickness) {
   const Vector3 a = point(positions, dim, corners[0]);

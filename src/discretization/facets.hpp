@@ -12,8 +12,8 @@ namespace perilink {
 
 /// Pieces of the surface of a body and of its material interfaces: edges in two dimensions,
 /// triangles or rectangles in three. Each corner has a nodal area fraction: the integral of its
-/// shape function over the area. Facets distribute tractions to particles. Bond calibration takes
-/// the boundary forces of a uniform strain from them.
+/// shape function divided by the area. Facets distribute tractions to particles. Bond calibration
+/// takes the boundary forces of a uniform strain from them.
 struct Facets {
   int dim = 2;
   Csr corners;  ///< particles at the corners of each facet
@@ -37,14 +37,14 @@ struct Facets {
     return {area_vectors.data() + static_cast<std::size_t>(facet) * dim,
             static_cast<std::size_t>(dim)};
   }
-  /// \return mean of the corners' positions [length]; `positions` has shape (particles, dim)
+  /// Returns the mean of the corners' positions [length]; `positions` has shape (particles, dim).
   Vector3 centre(Index facet, std::span<const double> positions) const;
   void append(std::span<const Index> corner_particles, const Vector3& area_vector,
               Index material_inside, Index material_outside);
 };
 
-/// \return surface and material interfaces of a mesh, in the order of their corners. At an
-///     interface the inside is the material with the lower number.
+/// Returns surface and material interfaces of a mesh, in the order of their corners. At an
+/// interface the inside is the material with the lower number.
 /// \param positions  shape (particles, dim) [length]
 /// \param thickness  two-dimensional bodies only [length]
 /// \throws std::invalid_argument if more than two cells share a facet

@@ -9,7 +9,7 @@
 
 namespace perilink {
 
-/// \return position of a particle; the third component is zero in two dimensions
+/// Returns the position of a particle; the third component is zero in two dimensions.
 Vector3 point_of(std::span<const double> positions, int dim, Index i);
 
 /// Edges (2D) or triangles (3D) between the cells of a mesh and on its surface, each stored once.
@@ -30,7 +30,7 @@ struct CellFaces {
 /// \throws std::invalid_argument if a face belongs to more than two cells or its cells overlap
 CellFaces find_faces(const Simplices& cells, std::span<const double> positions);
 
-/// \return number of the face with these corners in any order, or no_index
+/// Returns the number of the face with these corners in any order, or no_index.
 Index find_face(const CellFaces& faces, std::span<const Index> corners);
 
 }  // namespace perilink

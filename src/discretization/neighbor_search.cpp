@@ -54,7 +54,8 @@ using Tree = nanoflann::KDTreeSingleIndexAdaptor<
     nanoflann::L2_Simple_Adaptor<double, PointCloud, double, Index>, PointCloud, Dim, Index>;
 const nanoflann::KDTreeSingleIndexAdaptorParams tree_parameters(16);
 
-/// \return row q: points within radius_of(q) of query q, with `upper_only` only those above q
+/// Returns the points within radius_of(q) of every query q in row q. With `upper_only`, only points
+/// above q.
 template <int Dim, class Radius>
 Csr search(std::span<const double> points, std::span<const double> queries, const Radius& radius_of,
            bool upper_only) {

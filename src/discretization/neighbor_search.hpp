@@ -7,19 +7,19 @@
 
 namespace perilink {
 
-/// \return neighbours j > i within `radius` [length] of every point i; rows are ascending
+/// Returns neighbours j > i within `radius` [length] of every point i; rows are ascending.
 /// \param positions  shape (n, dim)
 /// \throws std::invalid_argument for a dimension other than 2 or 3
 Csr find_upper_neighbors(std::span<const double> positions, int dim, double radius);
 
-/// \return points within `radius` [length] of every query; rows are ascending
+/// Returns points within `radius` [length] of every query; rows are ascending.
 /// \param points   shape (n, dim)
 /// \param queries  shape (rows of the result, dim)
 /// \throws std::invalid_argument for a dimension other than 2 or 3
 Csr find_neighbors(std::span<const double> points, std::span<const double> queries, int dim,
                    double radius);
 
-/// \return points within a radius per query [length]; rows are ascending
+/// Returns points within a radius per query [length]; rows are ascending.
 /// \param points   shape (n, dim)
 /// \param queries  shape (rows of the result, dim)
 /// \param radii    per query [length]
@@ -27,8 +27,8 @@ Csr find_neighbors(std::span<const double> points, std::span<const double> queri
 Csr find_neighbors_within(std::span<const double> points, std::span<const double> queries, int dim,
                           std::span<const double> radii);
 
-/// \return per point, the distance of its count-th nearest other point [length]; infinite if there
-///     are fewer others
+/// Returns the distance from every point to its count-th nearest other point [length]. Infinite if
+/// there are fewer others.
 /// \param positions  shape (n, dim)
 /// \throws std::invalid_argument for a dimension other than 2 or 3
 std::vector<double> distances_of_nearest(std::span<const double> positions, int dim, int count);

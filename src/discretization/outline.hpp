@@ -28,10 +28,10 @@ struct Outline {
 /// \throws std::invalid_argument without boxes or for a box without extent
 Outline make_outline(std::span<const Box> boxes, int dim, double tolerance);
 
-/// \return exact volume of the union; in two dimensions its area
+/// Returns the exact volume of the union; in two dimensions its area.
 double volume(const Outline& outline);
 
-/// \return ascending coordinates of the union's faces normal to the axis
+/// Returns ascending coordinates of the union's faces normal to the axis.
 std::vector<double> faces(const Outline& outline, int axis);
 
 }  // namespace perilink

@@ -16,7 +16,7 @@ enum class ParticleKind : std::uint8_t {
   embedded_point,  ///< point moved by the particles around it (EmbeddedPoints)
 };
 
-/// \return whether supports and loads may act on it: a solid particle or a bar node
+/// Returns whether supports and loads may act on it: a solid particle or a bar node.
 inline bool is_material(ParticleKind kind) {
   return kind == ParticleKind::solid || kind == ParticleKind::rebar;
 }

@@ -14,7 +14,7 @@ namespace {
 /// Nodes closer than this are merged [spacings].
 constexpr double merge_tolerance = 1e-6;
 
-/// \return positions of the nodes along a bar
+/// Returns positions of the nodes along a bar.
 std::vector<Vector3> nodes_of(const RebarLine& bar, int dim, double spacing, std::size_t number) {
   std::vector<Vector3> corners = {bar.from};
   corners.insert(corners.end(), bar.bends.begin(), bar.bends.end());
@@ -50,8 +50,8 @@ Index add_node(Particles& particles, const Vector3& point, double volume) {
   return particles.size() - 1;
 }
 
-/// \return particle at each wanted node of bars without embedded points: a solid particle, an
-///     earlier node or a new one
+/// Returns the particle at each wanted node of bars without embedded points: a solid particle, an
+/// earlier node or a new one.
 std::vector<Index> place_nodes(Particles& particles, std::span<const double> wanted, double spacing,
                                double cell_volume) {
   const int dim = particles.dim;
@@ -119,7 +119,7 @@ void note_embedded(const std::vector<Vector3>& nodes, const std::vector<Index>& 
   }
 }
 
-/// \return bonds between the solid particles and the new nodes, sorted as Bonds
+/// Returns bonds between the solid particles and the new nodes, sorted as Bonds.
 Bonds join_nodes(const Particles& particles, Index first_node, double horizon) {
   const int dim = particles.dim;
   const auto first_other = std::find_if(particles.kind.begin(), particles.kind.end(),

@@ -13,7 +13,7 @@ struct Box {
   Vector3 lower{};
   Vector3 upper{};
 
-  /// \return whether a point lies in the box or within `tolerance` [length] of it
+  /// Returns whether a point lies in the box or within `tolerance` [length] of it.
   bool contains(std::span<const double> point, double tolerance) const;
 };
 
@@ -23,7 +23,8 @@ struct Round {
   double radius = 0.0;
   std::optional<int> axis;  ///< cylinder axis; the center's coordinate along it is ignored
 
-  /// \return distance of a point from the circle, sphere or cylinder side, negative inside [length]
+  /// Returns the distance of a point from the circle, sphere or cylinder side, negative inside
+  /// [length].
   double distance(std::span<const double> point) const;
 };
 
@@ -34,8 +35,8 @@ struct Region {
   std::optional<Round> round;
   std::string group;  ///< mesh group; empty: the shape defines the region
 
-  /// \return whether a point lies in the shape or within `tolerance` [length] of it; a negative
-  ///     tolerance requires that distance inside the shape. Not valid for groups.
+  /// Returns whether a point lies in the shape or within `tolerance` [length] of it; a negative
+  /// tolerance requires that distance inside the shape. Not valid for groups.
   bool contains(std::span<const double> point, double tolerance) const;
 };
 

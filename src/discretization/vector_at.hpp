@@ -7,7 +7,7 @@
 
 namespace perilink {
 
-/// \return view of the components of particle `number` in an array of shape (particles, Dim)
+/// Returns a view of the components of particle `number` in an array of shape (particles, Dim).
 template <int Dim>
 Eigen::Map<const Eigen::Matrix<double, Dim, 1>> vector_at(std::span<const double> values,
                                                           Index number) {

@@ -46,7 +46,7 @@ void check(cholmod_common* common, const char* phase, std::size_t rows) {
   }
 }
 
-/// \return lower triangle with rows and columns in the order of elimination
+/// Returns the lower triangle with rows and columns in the order of elimination.
 SparseMatrix in_order_of(const cholmod_factor& factor, const SparseMatrix& lower) {
   const Index* order = static_cast<const Index*>(factor.Perm);
   const std::vector<Index> position = invert({order, factor.n});

@@ -45,7 +45,7 @@ CholmodFactorPtr analyze_supernodal(CholmodSession& session, const SparseMatrix&
 void factorize_numerically(CholmodSession& session, const SparseMatrix& lower,
                            cholmod_factor* factor, int threads);
 
-/// \return size of a supernodal or simplicial factor
+/// Returns the size of a supernodal or simplicial factor.
 /// \param flops  operations of one factorisation
 FactorStatistics measure_factor(const cholmod_factor& factor, double flops);
 
@@ -104,7 +104,7 @@ class PermutedColumn {
   cholmod_sparse matrix_;
 };
 
-/// \return entries of x in the factor's order, rows ascending
+/// Returns entries of x in the factor's order, rows ascending.
 SparseVector permute(const SparseVector& x, std::span<const Index> position);
 
 }  // namespace perilink

@@ -37,7 +37,7 @@ void CholmodUpdownFactor::refactorize(const SparseMatrix& matrix) {
   }
 }
 
-/// \return L^-1 P x, computed along the path of x
+/// Returns L^-1 P x, computed along the path of x.
 std::vector<double> CholmodUpdownFactor::forward(const SparseVector& x) {
   std::vector<double> result(factor_->n, 0.0);
   if (x.size() == 0) return result;

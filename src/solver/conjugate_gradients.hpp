@@ -31,7 +31,7 @@ struct Correction {
 /// correction. The solution fails if the true error has not fallen by the second factor.
 inline constexpr double digits_between_corrections = 1e-5, least_gain_of_digits = 0.1;
 
-/// \return a'b, summed in one order
+/// Returns a'b, summed in one order.
 double scalar_product(std::span<const double> first, std::span<const double> second);
 
 /// Energies gained by the steps of conjugate gradients. The energies of two consecutive windows of
@@ -41,8 +41,8 @@ class EnergyGains {
  public:
   void add(double gain) { gains_.push_back(gain); }
   bool empty() const { return gains_.empty(); }
-  /// \return estimated error in the energy norm: square root of the last window's energy plus the
-  ///     geometric series of later windows. Infinite before there are two windows.
+  /// Returns the estimated error in the energy norm: square root of the last window's energy plus
+  /// the geometric series of later windows. Infinite before there are two windows.
   double error() const {
     const std::size_t window = std::max(shortest, gains_.size() / 8);
     if (gains_.size() < 2 * window) return std::numeric_limits<double>::infinity();

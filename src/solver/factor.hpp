@@ -47,7 +47,7 @@ class Factor {
   /// Solves many right sides in place; the columns have size n and follow one another.
   virtual void solve_all(std::span<double> columns);
 
-  /// \return copy of the factor of K / unit for preconditioners
+  /// Returns a copy of the factor of K / unit for preconditioners.
   /// \throws std::logic_error if the factor has no supernodes
   virtual SingleFactor in_single(double unit) const;
 
@@ -55,16 +55,16 @@ class Factor {
   /// their old values. A factor may ignore the selection.
   virtual void keep_current(std::span<const std::uint8_t> /*wanted*/) {}
 
-  /// \return K^-1 x of each vector, shape (count, n); entries not selected by keep_current() may be
-  ///     zero
+  /// Returns K^-1 x of each vector, shape (count, n); entries not selected by keep_current() may be
+  /// zero.
   virtual std::vector<double> columns(std::span<const SparseVector> x) = 0;
 
   /// Computes x_a' K^-1 x_b of a few vectors that share a path, such as the vectors of one bond,
   /// shape (count, count).
   virtual void compliance(std::span<const SparseVector> x, std::span<double> result) = 0;
 
-  /// \return downdate pivot 1 - x' K^-1 x = det(K - x x') / det(K). At or below zero, removing x x'
-  ///     would leave a mechanism.
+  /// Returns the downdate pivot 1 - x' K^-1 x = det(K - x x') / det(K). At or below zero, removing
+  /// x x' would leave a mechanism.
   virtual double pivot(const SparseVector& x);
 
   /// Changes K to K - sum x x' and f to f + sum load_change x for vectors that do not interact.
@@ -79,7 +79,7 @@ class Factor {
   ///     factor is invalid until refactorize()
   virtual double downdate_together(std::span<const SparseVector> x);
 
-  /// \return sum over the vectors of the numbers of L on their paths
+  /// Returns the sum over the vectors of the numbers of L on their paths.
   virtual double path_of(std::span<const SparseVector> x) const;
 
   /// Adds K^-1 b to the solution.
@@ -89,16 +89,16 @@ class Factor {
   /// Changes K to K + x x' (a ground spring); the pattern of x x' must lie in the pattern of K.
   virtual void update(const SparseVector& x) = 0;
 
-  /// \return number of numerical factorisations
+  /// Returns the number of numerical factorisations.
   virtual int factorizations() const = 0;
 
   virtual FactorStatistics statistics() const = 0;
 };
 
-/// \return sum over a of weights_a x_a
+/// Returns the sum over a of weights_a x_a.
 SparseVector combine(std::span<const SparseVector> x, std::span<const double> weights);
 
-/// \return load_change + x'u of each vector
+/// Returns load_change + x'u of each vector.
 std::vector<double> extensions(std::span<const SparseVector> x,
                                std::span<const double> load_changes, std::span<const double> u);
 

@@ -13,11 +13,11 @@ namespace perilink {
 /// \param threads  number of threads; results do not depend on it
 std::unique_ptr<Factor> make_factor(FactorRoute route, int threads);
 
-/// \return size and cost of a matrix's factor. Orders and analyses the pattern without numerical
-///     work.
+/// Returns size and cost of a matrix's factor. Orders and analyses the pattern without numerical
+/// work.
 FactorStatistics estimate_factor(const SparseMatrix& matrix, std::span<const Index> groups);
 
-/// \return number of factors made by make_factor() in this process; tests count unneeded ones
+/// Returns the number of factors made by make_factor() in this process; tests count unneeded ones.
 int factors_made();
 
 }  // namespace perilink

@@ -328,8 +328,8 @@ void InPlaceFactor::change_path(const SparseVector& permuted, double sign) {
 
 void InPlaceFactor::update(const SparseVector& x) { change_path(permute(x, position_), 1.0); }
 
-/// \return bytes of L that the last event read. These are the supernodes of the backward pass; the
-///     path counts twice, because the forward elimination reads it too.
+/// Returns bytes of L that the last event read. These are the supernodes of the backward pass; the
+/// path counts twice, because the forward elimination reads it too.
 double InPlaceFactor::bytes_read_by_event() const {
   double numbers = 0.0;
   for (Index s = 0; s < static_cast<Index>(tree_.parent.size()); ++s) {

@@ -19,8 +19,8 @@ namespace {
 
 static_assert(sizeof(idx_t) == sizeof(Index), "METIS must be built with 32-bit indices");
 
-/// \return first unknown of each particle in order of appearance, followed by the number of
-///     unknowns
+/// Returns the first unknown of each particle in order of appearance, followed by the number of
+/// unknowns.
 std::vector<Index> first_unknowns(std::span<const Index> groups) {
   std::vector<Index> first;
   for (std::size_t k = 0; k < groups.size(); ++k) {
@@ -30,8 +30,9 @@ std::vector<Index> first_unknowns(std::span<const Index> groups) {
   return first;
 }
 
-/// \return adjacency of the particles in both directions without loops, from the columns of their
-///     first unknowns. A bond couples all unknowns of its ends, so one column has every neighbour.
+/// Returns the adjacency of the particles in both directions without loops, from the columns of
+/// their first unknowns. A bond couples all unknowns of its ends, so one column has every
+/// neighbour.
 Csr particle_graph(const SparseMatrix& lower, const std::vector<Index>& first) {
   const Index count = static_cast<Index>(first.size()) - 1;
   std::vector<Index> node_of(lower.cols());

@@ -14,7 +14,7 @@ namespace perilink {
 /// \return permutation: permutation[k] is the unknown that is eliminated k-th
 std::vector<Index> order_by_particles(const SparseMatrix& lower, std::span<const Index> groups);
 
-/// \return inverse of a permutation: position[permutation[k]] = k
+/// Returns the inverse of a permutation: position[permutation[k]] = k.
 std::vector<Index> invert(std::span<const Index> permutation);
 
 }  // namespace perilink

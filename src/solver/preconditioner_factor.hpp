@@ -20,14 +20,14 @@ class PreconditionerFactor {
   PreconditionerFactor(const SparseMatrix& graph, std::span<const Index> sizes, int threads);
   ~PreconditionerFactor();
 
-  /// \return points in the order of elimination, which is the order of the matrix's rows
+  /// Returns the points in the order of elimination. The rows of the matrix must follow this order.
   std::span<const Index> order() const;
   /// Factorises a matrix of this pattern.
   /// \return whether the matrix is positive definite and finite in single precision
   bool factorize(const AddColumn& add);
   /// Solves a right side in place, size n.
   void solve(std::span<double> side);
-  /// \return statistics with the entries of L and their bytes in single precision
+  /// Returns the statistics with the entries of L and their bytes in single precision.
   FactorStatistics statistics() const;
 
  private:

@@ -20,7 +20,7 @@ using namespace test;
 
 constexpr double steel = 200e3, area = 100.0;  // N, mm
 
-/// \return beam of 200 by 100 (by 100) with one bar, fixed at its left end
+/// Returns a beam of 200 by 100 (by 100) with one bar, fixed at its left end.
 /// \param rest  keys of the bar, then tables
 std::string beam(bool space, const std::string& bar, const std::string& rest) {
   const std::string depth = space ? "z = [0, 100]\n" : "";
@@ -43,7 +43,7 @@ const std::string elastic = "[analysis]\ntype = \"elastic\"\n";
 
 double told(const WholeRun& run, const char* key) { return run.summary.json.at(key).get<double>(); }
 
-/// \return sums of the columns of the last reaction table's only kind: force and moment
+/// Returns sums of the columns of the last reaction table's only kind: force and moment.
 std::vector<double> sum_of_reactions(const WholeRun& run, int step) {
   const std::string text = read_text(run.work / fmt::format("reactions_{:06}.csv", step));
   std::vector<double> values(5);
@@ -55,12 +55,12 @@ std::vector<double> sum_of_reactions(const WholeRun& run, int step) {
   return {values[2], values[3], values[4]};
 }
 
-/// \return name of the table of bars that belongs to the last fields
+/// Returns the name of the table of bars that belongs to the last fields.
 std::string bars_file(const WholeRun& run) {
   return replaced(replaced(run.series().back().file, "fields", "bars"), ".vtu", ".csv");
 }
 
-/// \return values of the bar elements, in order
+/// Returns values of the bar elements, in order.
 std::vector<double> of_segments(const VtuGrid& grid, const char* name) {
   const std::vector<double>& kinds = grid.find_cell_data("element")->values;
   const std::vector<double>& all = grid.find_cell_data(name)->values;
@@ -71,7 +71,7 @@ std::vector<double> of_segments(const VtuGrid& grid, const char* name) {
   return values;
 }
 
-/// \return stress of the middle bar element
+/// Returns the stress of the middle bar element.
 double stress_in_the_middle(const WholeRun& run) {
   const VtuGrid grid = run.fields(run.series().size() - 1);
   const std::vector<double> stresses = of_segments(grid, "axial_stress");

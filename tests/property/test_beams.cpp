@@ -16,8 +16,8 @@
 namespace perilink {
 namespace {
 
-/// \return cantilever of length 12 with E = 2 and a section 3 wide and 0.5 high; stepped beams are
-///     1 high beyond x = 8
+/// Returns a cantilever of length 12 with E = 2 and a section 3 wide and 0.5 high; stepped beams
+/// are 1 high beyond x = 8.
 CaseFile cantilever(double spacing, double horizon_ratio, bool stepped, const std::string& more) {
   return parse_case(
       fmt::format("[body]\nproblem = \"beam\"\nthickness = 3\nspacing = {}\nhorizon_ratio = {}\n"

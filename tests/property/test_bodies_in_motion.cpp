@@ -68,7 +68,7 @@ class RandomBodies {
   std::mt19937 random_{54};
 };
 
-/// \return table with a vector of as many components as the body's dimension
+/// Returns a table with a vector of as many components as the body's dimension.
 std::string vector_of(const RandomBody& body, double x, double y, double z = 0.0) {
   return body.dim == 2 ? fmt::format("[{}, {}]", x, y) : fmt::format("[{}, {}, {}]", x, y, z);
 }
@@ -149,7 +149,7 @@ double largest(const Vector3& values) {
   return std::max({std::abs(values[0]), std::abs(values[1]), std::abs(values[2])});
 }
 
-/// \return largest difference between the motions of mirrored particles, over the motion
+/// Returns the largest difference between the motions of mirrored particles, over the motion.
 double asymmetry(const Moved& run, const RandomBody& body, int axis) {
   const Network& network = run.model.network;
   const auto key = [&](Index i, bool mirrored) {
@@ -216,8 +216,8 @@ TEST(BodiesInMotion, FreeOnesUnderBalancedLoadsKeepNoMomentumNoSpinAndTheirSymme
   EXPECT_LT(spin, 1e-13);
 }
 
-/// \return random supports or prescribed motion: no support, one component, an edge, springs, a
-///     velocity
+/// Returns random supports or prescribed motion: no support, one component, an edge, springs, a
+/// velocity.
 std::string held_by(RandomBodies& random, const RandomBody& body) {
   const std::string springs = fmt::format("[[springs]]\nregion = \"lo\"\ntotal = {}\n",
                                           vector_of(body, 1 + random.pick(9), 5, 3));
@@ -283,7 +283,7 @@ struct Rested {
 
 constexpr const char* to_rest = "[analysis]\ntype = \"relaxation\"\ntolerance = 1e-9\n";
 
-/// \return next random body of bonds
+/// Returns the next random body of bonds.
 RandomBody next_of_bonds(RandomBodies& random) {
   for (;;) {
     RandomBody body = random.next();

@@ -12,8 +12,8 @@ namespace {
 
 using namespace test;
 
-/// \return patch of concrete of Gerstle, Sau & Aguilera (2007), twelve spacings wide, displaced at
-///     the right end
+/// Returns a patch of concrete of Gerstle, Sau & Aguilera (2007), twelve spacings wide, displaced
+/// at the right end.
 std::string patch(double move, bool shear_softens) {
   constexpr double side = 101.6;
   return fmt::format(R"(title = "Patch of concrete"

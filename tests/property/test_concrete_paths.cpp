@@ -58,7 +58,7 @@ class ConcretePath : public testing::TestWithParam<ConcreteCase> {
     }
     return sum;
   }
-  /// \return stretch over the limit of the next event, by the rules of the law
+  /// Returns the stretch over the limit of the next event, by the rules of the law.
   double ratio(Index e, double stretch) const {
     const Network& network = body_.network;
     const BondLaw& law = network.law(e);
@@ -70,7 +70,7 @@ class ConcretePath : public testing::TestWithParam<ConcreteCase> {
     if (segment > 0 || !awake) return 0.0;
     return -x / (segment == 0 ? law.first_in_compression() : law.segment(segment)).limit;
   }
-  /// \return energy released by the element's next event in this motion
+  /// Returns the energy released by the element's next event in this motion.
   double pass(Index e, const StepState& state, double load_factor) {
     const Network& network = body_.network;
     const double all = element_energy(network, state.displacement, e) * load_factor * load_factor;

@@ -16,7 +16,7 @@ using namespace test;
 
 constexpr double block_modulus = 30000.0, height = 50.0;
 
-/// \return block of 100 by 50 fixed at its left side
+/// Returns a block of 100 by 50 fixed at its left side.
 /// \param material  lines of its material
 std::string crushed_block(const std::string& body, const std::string& material,
                           const std::string& loads) {

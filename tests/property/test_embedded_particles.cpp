@@ -39,7 +39,7 @@ void carry(AnalysisBody& body, const std::vector<Embedded>& all) {
   }
 }
 
-/// \return particle nearest to a point
+/// Returns the particle nearest to a point.
 Index nearest(const Network& network, double x, double y) {
   Index best = 0;
   double least = std::numeric_limits<double>::infinity();
@@ -88,7 +88,7 @@ class EmbeddedParticles : public testing::TestWithParam<EmbeddedCase> {
     carry(body_, {pair_, mean_});
   }
 
-  /// \return dense matrix T of the constraints as defined
+  /// Returns the dense matrix T of the constraints as defined.
   Eigen::MatrixXd dense_map() const {
     const Unknowns& unknowns = body_.unknowns;
     Eigen::MatrixXd map =

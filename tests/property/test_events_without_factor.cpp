@@ -70,8 +70,8 @@ TEST_P(Blocks, BreakAlikeBySteps) {
   expect_the_same(outcome_of(body, true, steps), outcome_of(body, false, steps), 1.0);
 }
 
-/// \return block with tension at both ends and three fixed unknowns; its rigid motion is much
-///     larger than the stretch of its bonds
+/// Returns a block with tension at both ends and three fixed unknowns; its rigid motion is much
+/// larger than the stretch of its bonds.
 AnalysisBody make_loose_block() {
   AnalysisBody body =
       make_block({{"square", Pattern::rectangular, Surface::none}, false, false, 24});

@@ -24,7 +24,7 @@ struct Patch {
 
 void PrintTo(const Patch& patch, std::ostream* out) { *out << patch.name; }
 
-/// \return tables that prescribe a uniform strain on the surface of a body
+/// Returns tables that prescribe a uniform strain on the surface of a body.
 std::string patch_end(const std::string& body, int dim, const std::string& elements) {
   std::string text = "[[materials]]\nregion = \"all\"\nyoungs_modulus = 7.0\nfracture_energy = 1\n";
   if (body.find("micropolar") != std::string::npos) text += "poissons_ratio = 0.2\n";
@@ -34,7 +34,7 @@ std::string patch_end(const std::string& body, int dim, const std::string& eleme
   return text + "[analysis]\ntype = \"elastic\"\n[elements]\n" + elements;
 }
 
-/// \return case of a lattice with all or some particles in host elements
+/// Returns a case of a lattice with all or some particles in host elements.
 std::string patch_case(const Patch& patch) {
   const std::string z = patch.space ? "z = [0, 6]\n" : "";
   std::string text = "[body]\n" + patch.body;

@@ -18,7 +18,7 @@
 namespace perilink {
 namespace {
 
-/// \return case of a notched beam in three-point bending, with or without host elements
+/// Returns a case of a notched beam in three-point bending, with or without host elements.
 std::string beam_case(const std::string& more) {
   return R"([body]
 pattern = "rectangular"
@@ -129,7 +129,7 @@ TEST(Hosts, OfWhichNoneIsLeftChangeNothing) {
   EXPECT_EQ(some.termination, all.termination) << some.reason;
 }
 
-/// \return case of a plate with the law of concrete, torn from a pre-crack
+/// Returns a case of a plate with the law of concrete, torn from a pre-crack.
 std::string concrete_plate(const std::string& more) {
   return R"([body]
 model = "micropolar"

@@ -74,8 +74,8 @@ std::string case_of(const JointStrip& strip, bool swapped, bool backwards) {
          "region = \"top\"\nx = 0\ny = 0.1\n[stop]\nload_fraction = 0.3\n";
 }
 
-/// \return largest relative difference between the bonds of two networks; infinite if different
-///     bonds remain
+/// Returns the largest relative difference between the bonds of two networks; infinite if different
+/// bonds remain.
 double network_difference(const Network& a, const Network& b) {
   if (a.bonds.first != b.bonds.first || a.bonds.second != b.bonds.second) return infinity;
   double largest = 0.0;

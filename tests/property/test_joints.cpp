@@ -20,8 +20,8 @@ using test::JointCase;
 
 using Gradient = std::array<Vector3, 3>;
 
-/// \return displacement gradients below and above, with equal strains along the joint and equal
-///     tractions across it
+/// Returns displacement gradients below and above, with equal strains along the joint and equal
+/// tractions across it.
 /// \param field  component of the strain below, axes ascending
 std::array<Gradient, 2> gradients(const std::array<LameConstants, 2>& constants, int dim,
                                   std::array<int, 2> field) {
@@ -44,7 +44,8 @@ std::array<Gradient, 2> gradients(const std::array<LameConstants, 2>& constants,
   return sides;
 }
 
-/// \return largest difference between bond forces and surface tractions, over the force on a facet
+/// Returns the largest difference between bond forces and surface tractions, over the force on a
+/// facet.
 double largest_rest(const JointBody& joint, std::array<int, 2> field) {
   const Network& network = joint.network;
   const int dim = network.dim();
@@ -153,9 +154,9 @@ Index bonds_across(const Network& network) {
   return count;
 }
 
-/// \return energy of a plane cut parallel to the joint over that of a cut inside its layer. Bonds
-///     that cross it in the middle count. Their number varies in a mesh, so cuts are compared by
-///     energy per force; all cuts have equal forces.
+/// Returns the energy of a plane cut parallel to the joint over the energy of a cut inside its
+/// layer. Bonds that cross it in the middle count. Their number varies in a mesh, so cuts are
+/// compared by energy per force; all cuts have equal forces.
 double energy_of_cut(const JointBody& joint, double height) {
   const Network& network = joint.network;
   const int last = network.dim() - 1;

@@ -15,7 +15,7 @@
 namespace perilink {
 namespace {
 
-/// \return small block fixed below with the load `loading` and further tables `more`
+/// Returns a small block fixed below with the load `loading` and further tables `more`.
 Model block(const std::string& loading, const std::string& more = "") {
   return build_model(parse_case(R"(
 [body]
@@ -156,7 +156,7 @@ type = "elastic"
   }
 }
 
-/// \return narrow micropolar body, fixed below and rotated above by `loading`
+/// Returns a narrow micropolar body, fixed below and rotated above by `loading`.
 Model column(const std::string& loading) {
   return build_model(parse_case(R"(
 [body]

@@ -181,7 +181,7 @@ class BulkProperty : public testing::TestWithParam<LatticeCase> {
  protected:
   static constexpr int columns = 10;
 
-  /// \return particle farther than the horizon from every surface
+  /// Returns a particle farther than the horizon from every surface.
   static Index middle(const Particles& particles, const Box& box) {
     Index best = 0;
     double least = 1e300;

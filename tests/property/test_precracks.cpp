@@ -86,7 +86,7 @@ class Drawing {
     plate.height = whole(10, 13);
     return plate;
   }
-  /// \return line well inside the plate, because loads act on particles cut off at the surface
+  /// Returns a line well inside the plate, because loads act on particles cut off at the surface.
   Line line(const Plate& plate, double longest) {
     const auto point = [&] {
       return std::array{between(3.1, plate.width - 3.1), between(3.1, plate.height - 3.1)};
@@ -118,7 +118,7 @@ std::vector<double> stresses(const Model& model, Secants secants, std::span<cons
   return particle_stresses(stress_input(model, neighbourhoods, secants), motion);
 }
 
-/// \return secants of a body after events, equal in twin bodies with other numbers of bonds
+/// Returns secants of a body after events, equal in twin bodies with other numbers of bonds.
 std::vector<double> damaged(const Network& network, const std::vector<double>& part) {
   std::vector<double> secants;
   for (Index e = 0; e < network.num_elements(); ++e) {
@@ -273,7 +273,7 @@ TEST(ElasticPreCracks, AreClosedWhereTheyAreCompressed) {
   RecordProperty("wrong", fmt::format("{:.2e}", wrong));
 }
 
-/// \return lines cut into pieces, in another order and direction
+/// Returns lines cut into pieces, in another order and direction.
 std::vector<Line> shuffled(const std::vector<Line>& lines, Drawing& drawing) {
   std::vector<Line> pieces;
   for (const Line& line : lines) {

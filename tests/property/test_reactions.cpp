@@ -89,8 +89,8 @@ struct Reactions {
     }
     sum = reaction_table(places, model, state).sum;
   }
-  /// \return largest sum of forces, or of moments about the body's middle over its size, relative
-  ///     to the forces
+  /// Returns the largest sum of forces, or of moments about the body's middle over its size,
+  /// relative to the forces.
   double imbalance(const Strip& strip) const {
     const double moment = std::abs(sum.moment[2]) / strip.size();
     return std::max({std::abs(sum.force[0]), std::abs(sum.force[1]), moment}) / size;
@@ -101,7 +101,7 @@ struct Reactions {
   bool embedded = false;
 };
 
-/// \return error of the reactions of two supports, by the law of the lever
+/// Returns the error of the reactions of two supports, by the law of the lever.
 double error_of_simple_beam(Strip& strip) {
   const int first = strip.whole(0, 4), second = strip.whole(strip.columns - 4, strip.columns);
   const double a = strip.column(first), b = strip.column(second);
@@ -118,7 +118,8 @@ double error_of_simple_beam(Strip& strip) {
                    std::abs(found.at[0].force[1] + py + roller), found.imbalance(strip)});
 }
 
-/// \return error of a clamp's reaction: the whole load and its moment about the middle of the clamp
+/// Returns the error of a clamp's reaction: the whole load and its moment about the middle of the
+/// clamp.
 double error_of_clamp(Strip& strip) {
   const double px = strip.real(-1.0, 1.0), py = strip.real(-2.0, -1.0);
   std::string text = support("left", strip.beam ? "\"x\", \"y\", \"rotation\"" : "\"x\", \"y\"");
@@ -131,7 +132,7 @@ double error_of_clamp(Strip& strip) {
                    found.imbalance(strip)});
 }
 
-/// \return difference between the forces at the displaced end and at the clamp
+/// Returns the difference between the forces at the displaced end and at the clamp.
 double error_of_driven_end(Strip& strip) {
   std::string text = support("left", strip.beam ? "\"x\", \"y\", \"rotation\"" : "\"x\", \"y\"");
   text += fmt::format("[[displacements]]\nregion = \"right\"\ny = {}\n", 0.01 * strip.size());
@@ -141,7 +142,7 @@ double error_of_driven_end(Strip& strip) {
                   found.imbalance(strip));
 }
 
-/// \return error of the reactions of a pin and of springs at the other end
+/// Returns the error of the reactions of a pin and of springs at the other end.
 double error_of_springs(Strip& strip) {
   const double py = strip.real(-2.0, -1.0), at_x = strip.column(strip.whole(0, strip.columns));
   std::string text = region("pin", strip.x, strip.x, strip.y, strip.y);

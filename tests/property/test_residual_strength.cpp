@@ -17,9 +17,9 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
 
-/// \return two strips between common clamps, `weak` and `strong` wide, with strengths 3 and
-///     `strength` and the modulus 30 000, in tension. Between the unbreakable bonds of the clamps
-///     there is at least one particle.
+/// Returns two strips between common clamps, `weak` and `strong` wide, with strengths 3 and
+/// `strength` and the modulus 30 000, in tension. Between the unbreakable bonds of the clamps there
+/// is at least one particle.
 std::string two_strips(double weak, double strong, double strength, const std::string& more) {
   const double left = weak + 40.0, right = left + strong;
   return fmt::format(R"([body]

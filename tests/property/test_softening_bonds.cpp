@@ -55,7 +55,7 @@ struct PulledBonds {
     motion.velocity.assign(motion.displacement.size(), 0.0);
     return motion;
   }
-  /// \return force of one bond over the force at the critical stretch
+  /// Returns the force of one bond over the force at the critical stretch.
   double pull(double x) {
     std::vector<double> force(8, 0.0);
     lost += bonds->forces(0, 4, 0.0, at(x), force).fractured;
@@ -63,7 +63,7 @@ struct PulledBonds {
     for (const double f : force) sum += 0.5 * std::abs(f);
     return 0.5 * sum / (stiffness * critical);
   }
-  /// \return energy of one bond over k s_c^2
+  /// Returns the energy of one bond over k s_c^2.
   double stored(double x) const {
     return 0.5 * bonds->stored(0, 4, 0.0, at(x)) / (stiffness * critical * critical);
   }

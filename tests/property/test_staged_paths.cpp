@@ -43,7 +43,7 @@ class StagedPath : public testing::TestWithParam<BlockCase> {
     body_.sets = {across, set_of(body_)};
   }
 
-  /// \return load factor of the first event of a load case without the others
+  /// Returns the load factor of the first event of a load case without the others.
   double first_event(std::size_t set) const {
     Recorder recorder({}, 1);
     run(body_, in_stages({{set, {}, {}}}), recorder);

@@ -23,7 +23,7 @@ struct SymmetricBody {
 
 std::ostream& operator<<(std::ostream& out, const SymmetricBody& body) { return out << body.name; }
 
-/// \return quarter or eighth of a bar with tension 3 along y
+/// Returns a quarter or eighth of a bar with tension 3 along y.
 Model symmetric_bar(const SymmetricBody& tested) {
   const bool space = tested.dim == 3;
   const std::string depth = space ? "z = [0, 1]\n" : "";

@@ -48,7 +48,7 @@ class HalvedMesh {
   HalvedMesh& operator=(const HalvedMesh&) = delete;
 
   std::string file() const { return path_.filename().string(); }
-  /// \return path of a case file beside the mesh
+  /// Returns the path of a case file beside the mesh.
   std::string case_path() const { return (path_.parent_path() / "case.toml").string(); }
 
  private:

@@ -16,8 +16,8 @@ using namespace test;
 
 constexpr double arm_modulus = 30000.0, arm = 22.5, length = 120.0, fracture_energy = 0.1;
 
-/// \return two arms with a crack between them up to x = 50, displaced apart at x = 0. The glue has
-///     the strength 12; the arms have twice that and ten times the energy.
+/// Returns two arms with a crack between them up to x = 50, displaced apart at x = 0. The glue has
+/// the strength 12; the arms have twice that and ten times the energy.
 std::string cantilever_case(const std::string& model) {
   const std::string ratio = model == "micropolar" ? "poissons_ratio = 0.2\n" : "";
   std::string text = fmt::format(

@@ -166,7 +166,7 @@ AnalysisBody make_block(const BlockCase& block) {
 
 namespace {
 
-/// \return stiffness against change of length only, for the motions of both ends
+/// Returns the stiffness against change of length only, for the motions of both ends.
 ElementMatrix axial_stiffness(const Network& network, Index e) {
   const int width = network.width();
   Eigen::VectorXd n = Eigen::VectorXd::Zero(2 * width);
@@ -184,7 +184,7 @@ ElementMatrix stiffness_now(const Network& network, Secants secants, Index e) {
   return block;
 }
 
-/// \return first index of an end's unknowns in the vector of all particles
+/// Returns the first index of an end's unknowns in the vector of all particles.
 Index slot_of_end(const Network& network, Index e, Index k) {
   const int width = network.width();
   return k < width ? network.bonds.first[e] * width + k

@@ -63,10 +63,10 @@ AnalysisBody make_chains(int columns, int rows, bool driven, double stiffness, d
 /// independent. Thus u = 1 / (1 + 1/2) = 2/3, or 1 / (1/2) = 2 without the horizontal bond.
 AnalysisBody make_square();
 
-/// \return number of the bond between two points
+/// Returns the number of the bond between two points.
 Index bond_between(const Network& network, std::array<double, 2> from, std::array<double, 2> to);
 
-/// \return bonds along x at height y, from left to right
+/// Returns bonds along x at height y, from left to right.
 std::vector<Index> bonds_of_row(const Network& network, double y);
 
 /// Loads and laws of a block.
@@ -89,32 +89,32 @@ inline std::ostream& operator<<(std::ostream& out, const BlockCase& block) {
   return out << to_string(block);
 }
 
-/// \return law between brittle bonds and yielding bars
+/// Returns a law between brittle bonds and yielding bars.
 inline BondLaw three_segments() { return BondLaw::saw_tooth({{1.0, 1.0}, {0.6, 1.4}, {0.2, 3.0}}); }
 
-/// \return block fixed at the left face and loaded at the right one. Bonds of particles on these
-///     faces do not break, so the block fails between them.
+/// Returns a block fixed at the left face and loaded at the right one. Bonds of particles on these
+/// faces do not break, so the block fails between them.
 AnalysisBody make_block(const BlockCase& block);
 
-/// \return dense stiffness of all components, including supported ones
+/// Returns the dense stiffness of all components, including supported ones.
 Eigen::MatrixXd dense_stiffness(const Network& network, Secants secants);
 
-/// \return displacement at load factor 1. Components with a nonzero flag in `left_out` stay zero;
-///     empty: no such components.
+/// Returns the displacement at load factor 1. Components with a nonzero flag in `left_out` stay
+/// zero; empty: no such components.
 Eigen::VectorXd dense_displacement(const AnalysisBody& body, Secants secants,
                                    const std::vector<std::uint8_t>& left_out = {});
 
-/// \return largest difference of the components that are not left out, over the largest
-///     displacement
+/// Returns the largest difference of the components that are not left out, over the largest
+/// displacement.
 double difference(std::span<const double> displacement, const Eigen::VectorXd& reference,
                   const std::vector<std::uint8_t>& left_out = {});
 
 double extension_of(const Network& network, std::span<const double> displacement, Index e);
 
-/// \return strain of an element; for a micropolar bond in tension its equivalent stretch
+/// Returns the strain of an element; for a micropolar bond in tension its equivalent stretch.
 double stretch(const Network& network, std::span<const double> displacement, Index e);
 
-/// \return energy stored in all elements
+/// Returns the energy stored in all elements.
 double stored_energy(const Network& network, Secants secants, std::span<const double> displacement);
 
 /// Stores the rows of a run and calls `look` for each.

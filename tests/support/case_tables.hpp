@@ -30,7 +30,7 @@ inline std::filesystem::path malformed_folder() {
   return std::filesystem::path(PERILINK_SOURCE_DIR) / "tests/cli/malformed";
 }
 
-/// \return files of a folder in alphabetical order
+/// Returns files of a folder in alphabetical order.
 inline std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder,
                                                    const std::string& extension) {
   std::vector<std::filesystem::path> files;
@@ -62,7 +62,7 @@ inline void read_case_table(const std::filesystem::path& path, std::vector<CaseE
   }
 }
 
-/// \return entries of all tables in a folder of tests/cli/malformed
+/// Returns entries of all tables in a folder of tests/cli/malformed.
 inline std::vector<CaseEntry> read_case_tables(const std::string& folder) {
   std::vector<CaseEntry> entries;
   for (const auto& path : files_of(malformed_folder() / folder, ".txt")) {
@@ -153,7 +153,7 @@ class LineEditor {
   std::size_t cursor_ = 0;
 };
 
-/// \return text of a case
+/// Returns the text of a case.
 /// \param base  text of its base
 inline std::string edited_text(const CaseEntry& entry, const std::string& base) {
   LineEditor editor(base);
@@ -161,7 +161,7 @@ inline std::string edited_text(const CaseEntry& entry, const std::string& base) 
   return editor.text();
 }
 
-/// \return text of a case with a file as base
+/// Returns the text of a case with a file as base.
 inline std::string case_text(const CaseEntry& entry) {
   if (entry.base == "nothing") return edited_text(entry, "");
   const std::filesystem::path path = malformed_folder() / "bases" / (entry.base + ".toml");

@@ -184,7 +184,7 @@ time_step = 0.001
 fields_times = [0.5, 4]
 )";
 
-/// \return the reader's message for a refused case, or "accepted"
+/// Returns the reader's message for a refused case, or "accepted".
 inline std::string message_of(const std::string& text) {
   try {
     parse_case(text, "case.toml");

@@ -11,7 +11,7 @@
 
 namespace perilink::test {
 
-/// \return unit square with `count` steps across, in upright strips of one material each
+/// Returns a unit square with `count` steps across, in upright strips of one material each.
 inline Body make_unstructured(int num_materials, int count) {
   const Mesh mesh = box_mesh(2, count);
   std::vector<Index> material;
@@ -25,7 +25,7 @@ inline Body make_unstructured(int num_materials, int count) {
   return body;
 }
 
-/// \return input with one micropolar material and a horizon of three steps
+/// Returns input with one micropolar material and a horizon of three steps.
 inline NetworkInput unstructured_micropolar_input(int count) {
   NetworkInput input;
   input.model = BondModel::micropolar;

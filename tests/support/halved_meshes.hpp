@@ -34,8 +34,8 @@ struct HalvedGroup {
   std::set<std::vector<Index>> elements;  ///< points of each element
 };
 
-/// \return the halves "first" and "second", the body's sides "left" and "right", and the "face"
-///     between the halves, which consists of sides of cells
+/// Returns the halves "first" and "second", the body's sides "left" and "right", and the "face"
+/// between the halves, which consists of sides of cells.
 inline std::vector<HalvedGroup> halves_of(const Mesh& mesh) {
   std::vector<HalvedGroup> groups = {{"first", mesh.dim, {}},
                                      {"second", mesh.dim, {}},
@@ -62,8 +62,8 @@ inline std::vector<HalvedGroup> halves_of(const Mesh& mesh) {
   return groups;
 }
 
-/// \return mesh in gmsh's format with `count` cells, an even number, along each side of length
-///     `side`
+/// Returns a mesh in gmsh's format with `count` cells, an even number, along each side of length
+/// `side`.
 inline std::string halved_mesh_text(int dim, int count, double side) {
   Mesh mesh = box_mesh(dim, count);
   for (Index i = 0; i < mesh.num_points(); ++i) {

@@ -15,7 +15,7 @@
 
 namespace perilink::testing_support {
 
-/// \return material of Nikravesh & Gerstle 2018, Table 1, in N, m, kg, s
+/// Returns the material of Nikravesh & Gerstle 2018, Table 1, in N, m, kg, s.
 inline LatticeMaterial paper_concrete() {
   LatticeMaterial material;
   material.youngs_modulus = 25e9;
@@ -27,7 +27,7 @@ inline LatticeMaterial paper_concrete() {
   return material;
 }
 
-/// \return material of paper_concrete() without damping and with another Poisson's ratio
+/// Returns the material of paper_concrete() without damping and with another Poisson's ratio.
 inline LatticeMaterial elastic_concrete(double poissons_ratio = 0.2) {
   LatticeMaterial material = paper_concrete();
   material.poissons_ratio = poissons_ratio;
@@ -35,7 +35,7 @@ inline LatticeMaterial elastic_concrete(double poissons_ratio = 0.2) {
   return material;
 }
 
-/// \return rectangle of given half sides around the origin
+/// Returns a rectangle of given half sides around the origin.
 inline LatticeCut rectangle(double half_width, double half_height, double spacing, double degrees,
                             double thickness = 0.15) {
   LatticeCut cut;
@@ -81,7 +81,7 @@ inline void shake_velocities(const ExplicitModel& model, ExplicitState& state) {
   }
 }
 
-/// \return plate or block with a hole, displaced at one end
+/// Returns a plate or block with a hole, displaced at one end.
 inline ExplicitModel perforated(Problem problem, LatticeRules rules,
                                 const LatticeMaterial& material) {
   const bool space = problem == Problem::three_dimensional;
@@ -105,7 +105,7 @@ struct LatticeKind {
   bool breakable, yields;
 };
 
-/// \return body in which some particles crack and others flow at once, if the law allows it
+/// Returns a body in which some particles crack and others flow at once, if the law allows it.
 inline ExplicitModel changing_body(const LatticeKind& kind) {
   LatticeMaterial material = paper_concrete();
   material.breakable = kind.breakable;
@@ -116,7 +116,7 @@ inline ExplicitModel changing_body(const LatticeKind& kind) {
   return perforated(kind.problem, kind.rules, material);
 }
 
-/// \return options of a run of `steps` steps and three rows
+/// Returns options of a run of `steps` steps and three rows.
 inline ExplicitOptions short_run(const ExplicitModel& model, Index steps) {
   ExplicitOptions options;
   options.time_step = 0.9 * critical_time_step(model);

@@ -40,7 +40,7 @@ inline std::vector<StateLatticeCase> state_lattice_cases() {
   return cases;
 }
 
-/// \return block of `half` spacings on either side of the origin
+/// Returns a block of `half` spacings on either side of the origin.
 inline ExplicitModel state_block(const StateLatticeCase& lattice, double half) {
   const double spacing = 0.01;
   LatticeCut cut = rectangle(half * spacing, half * spacing, spacing, lattice.degrees,
@@ -55,8 +55,8 @@ inline ExplicitModel state_block(const StateLatticeCase& lattice, double half) {
                              material, 1.0);
 }
 
-/// \return per particle, steps along bonds to the nearest particle with missing bonds, at most
-///     three
+/// Returns the number of bonds from each particle to the nearest one with missing bonds, at most
+/// three.
 inline std::vector<int> depths(const Network& network) {
   const Csr neighbourhoods = bonds_of_particles(network.bonds, network.particles.size());
   const std::size_t full = network.dim() == 2 ? 6 : 18;

@@ -70,7 +70,7 @@ inline double stored_energy(const ExplicitState& state) {
   return energy;
 }
 
-/// \return sum of the bond forces on every particle, shape (dim, slots)
+/// Returns the sum of the bond forces on every particle, shape (dim, slots).
 inline std::vector<double> resultants(const ExplicitModel& model, const ExplicitState& state) {
   const LatticeRows& lattice = model.lattice;
   std::vector<double> total(state.displacement.size(), 0.0);
@@ -91,7 +91,7 @@ inline std::vector<double> resultants(const ExplicitModel& model, const Explicit
   return total;
 }
 
-/// \return lower estimate of the largest eigenvalue of M^-1 K by power iteration
+/// Returns a lower estimate of the largest eigenvalue of M^-1 K by power iteration.
 inline double highest_frequency_squared(const ExplicitModel& model) {
   ExplicitState state(model);
   const LatticeRows& lattice = model.lattice;

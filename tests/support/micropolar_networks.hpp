@@ -18,7 +18,7 @@ inline Network make_micropolar_network(const LatticeCase& lattice_case, int colu
   return build_network(make_body(input), micropolar_input(input));
 }
 
-/// \return two particles joined by one micropolar bond of given stiffnesses
+/// Returns two particles joined by one micropolar bond of given stiffnesses.
 inline Network single_frame(int dim, const std::vector<double>& second, double stiffness,
                             double bending) {
   Network network;
@@ -37,8 +37,8 @@ inline Network single_frame(int dim, const std::vector<double>& second, double s
   return network;
 }
 
-/// \return motion of all particles in a homogeneous deformation, rotations included, shape
-///     (particles, width)
+/// Returns the motion of all particles in a homogeneous deformation, rotations included, shape
+/// (particles, width).
 inline std::vector<double> linear_motion(const Network& network,
                                          const std::array<Vector3, 3>& gradient) {
   const std::vector<double> displacement = linear_field(network.particles, gradient);

@@ -63,7 +63,7 @@ inline std::string notched_beam_case(const NotchedBeam& beam) {
   return text + beam.sections;
 }
 
-/// \return bar in space with a notch in its middle, which softens in tension
+/// Returns a bar in space with a notch in its middle, which softens in tension.
 inline std::string notched_bar_case(const std::string& solver, double tolerance) {
   std::string text =
       "[body]\nproblem = \"three_dimensional\"\npattern = \"cubic\"\nspacing = 5\n"

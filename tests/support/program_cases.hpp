@@ -63,8 +63,8 @@ broken_bonds = 30
 fields_at = [10, 20]
 )";
 
-/// \return hexagonal block of 100 by 300 with a weak patch, fixed below and displaced above; it has
-///     3.5 columns^2 particles
+/// Returns a hexagonal block of 100 by 300 with a weak patch, fixed below and displaced above; it
+/// has 3.5 columns^2 particles.
 inline std::string hexagonal_case(int columns, int broken_bonds) {
   return fmt::format(R"(title = "Hexagonal block"
 
@@ -167,8 +167,8 @@ x = 0.04
 type = "elastic"
 )";
 
-/// \return strip of an elastic lattice of about 250 particles, fixed at one end and stretched at
-///     the other within a second
+/// Returns a strip of an elastic lattice of about 250 particles, fixed at one end and stretched at
+/// the other within a second.
 /// \param more  lines of [analysis]
 inline std::string lattice_strip_case(double spacing = 0.1, const std::string& more = "") {
   return fmt::format(R"(title = "Lattice strip"
@@ -218,7 +218,7 @@ rows = 100
                      spacing, more);
 }
 
-/// \return bar of an elastic face-centred lattice, stretched within a second
+/// Returns a bar of an elastic face-centred lattice, stretched within a second.
 inline std::string lattice_bar_case() {
   return R"([body]
 problem = "three_dimensional"
@@ -268,8 +268,8 @@ fields_times = [0.5]
 )";
 }
 
-/// \return bar of 1 by 1 by 4 with the modulus 100 in tension of 2 along y; its supports allow
-///     contraction
+/// Returns a bar of 1 by 1 by 4 with the modulus 100 in tension of 2 along y; its supports allow
+/// contraction.
 inline std::string tension_bar_case(const std::string& pattern, double spacing,
                                     const std::string& surface) {
   return fmt::format(R"([body]

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 inline fs::path mpi_program() { return fs::path(PERILINK_PROGRAM).parent_path() / "perilink-mpi"; }
 
-/// \return bar of 20 by 5 (by 5), fixed at one end, with tension and shear at the other
+/// Returns a bar of 20 by 5 (by 5), fixed at one end, with tension and shear at the other.
 inline std::string bar_case(bool in_space, const std::string& body) {
   const std::string depth = in_space ? "z = [0, 5]\n" : "";
   return fmt::format(R"([body]
@@ -108,7 +108,7 @@ class RankFolder : public testing::Test {
   TemporaryDirectory temporary_;
 };
 
-/// \return numbers of all rows
+/// Returns numbers of all rows.
 inline std::vector<double> numbers_of(const std::string& history) {
   std::istringstream rows(history.substr(history.find('\n') + 1));
   std::vector<double> values;

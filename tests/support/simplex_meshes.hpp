@@ -16,9 +16,9 @@
 
 namespace perilink::test {
 
-/// \return box [0, 1]^dim with `count` steps along each axis: two triangles per square, six
-///     tetrahedra around the diagonal of each cube. Inner points are shifted at random by a tenth
-///     of a step, and every third cell has negative orientation.
+/// Returns a box [0, 1]^dim with `count` steps along each axis: two triangles per square, six
+/// tetrahedra around the diagonal of each cube. Inner points are shifted at random by a tenth of a
+/// step, and every third cell has negative orientation.
 inline Mesh box_mesh(int dim, int count) {
   Mesh mesh;
   mesh.dim = dim;
@@ -61,7 +61,7 @@ inline Mesh box_mesh(int dim, int count) {
   return mesh;
 }
 
-/// \return mesh in gmsh's format, with points scaled by `scale` and moved by `shift`
+/// Returns a mesh in gmsh's format, with points scaled by `scale` and moved by `shift`.
 inline std::string gmsh_text(const Mesh& mesh, const std::array<double, 3>& scale,
                              const std::array<double, 3>& shift) {
   const Index points = mesh.num_points(), cells = mesh.num_cells();

@@ -29,7 +29,7 @@ struct SlenderCase {
   int axis() const {
     return load == SlenderLoad::force_across || load == SlenderLoad::driven_across ? 1 : 0;
   }
-  /// \return distance between the fixed and the displaced columns
+  /// Returns the distance between the fixed and the displaced columns.
   double lever() const { return (columns - 5) * length_unit; }
 };
 

@@ -9,7 +9,7 @@
 
 namespace perilink::test {
 
-/// \return loads of a body as a load case
+/// Returns loads of a body as a load case.
 inline LoadCase set_of(const AnalysisBody& body) {
   return {body.loads, body.unknowns, body.reference};
 }

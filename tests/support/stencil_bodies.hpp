@@ -20,7 +20,7 @@ inline std::ostream& operator<<(std::ostream& out, const StencilCase& body) {
   return out << body.name;
 }
 
-/// \return plate or block with rows of about ten particles, with an optional hole and materials
+/// Returns a plate or block with rows of about ten particles, with an optional hole and materials.
 inline Network stencil_network(const StencilCase& body) {
   LatticeInput input = body_input({body.name, body.pattern, Surface::none}, 12);
   const Vector3 end = input.solid[0].upper;
@@ -49,7 +49,7 @@ inline std::vector<StencilCase> stencil_cases() {
           {"face_centred_of_two", Pattern::face_centred, false, true}};
 }
 
-/// \return random motion in which every component of both ends moves by at most `size` [length]
+/// Returns a random motion in which every component of both ends moves by at most `size` [length].
 inline BondMotion random_motion(const Network& network, double size, unsigned seed) {
   const std::size_t slots = static_cast<std::size_t>(network.particles.size()) * network.width();
   BondMotion motion{random_vector(slots, seed), random_vector(slots, seed + 1)};

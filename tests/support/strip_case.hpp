@@ -57,7 +57,7 @@ force = [0, 12]
 
 inline CaseFile strip_case() { return parse_case(strip_text, "strip.toml"); }
 
-/// \return strip without supports, with balanced tension at its ends
+/// Returns a strip without supports, with balanced tension at its ends.
 inline CaseFile free_strip_case() {
   CaseFile input = strip_case();
   input.supports.clear();

@@ -12,19 +12,19 @@ namespace perilink::test {
 /// Stiffness between the unknowns of both ends, 2 to 6 per end.
 using ElementMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 12, 12>;
 
-/// \return stiffness of a plane beam of length L along x, unknowns (u, v, theta) per end (Gerstle,
-///     Sau & Aguilera 2007, Eq. 5)
+/// Returns the stiffness of a plane beam of length L along x, unknowns (u, v, theta) per end
+/// (Gerstle, Sau & Aguilera 2007, Eq. 5).
 ElementMatrix plane_beam(double L, double EA, double EI);
 
-/// \return stiffness of a beam in space along x, unknowns (u, v, w, theta_x, theta_y, theta_z) per
-///     end. It consists of two plane beams, the second with opposite rotation, and a rod in
-///     torsion.
+/// Returns the stiffness of a beam in space along x, unknowns (u, v, w, theta_x, theta_y, theta_z)
+/// per end. It consists of two plane beams, the second with opposite rotation, and a rod in
+/// torsion.
 ElementMatrix space_beam(double L, double EA, double EI, double GJ);
 
-/// \return stiffness of an intact truss or beam between all components of its ends
+/// Returns the stiffness of an intact truss or beam between all components of its ends.
 ElementMatrix element_stiffness(const Network& network, Index e);
 
-/// \return energy of an intact element in a motion of all particles, shape (particles, width)
+/// Returns the energy of an intact element in a motion of all particles, shape (particles, width).
 double element_energy(const Network& network, std::span<const double> motion, Index e);
 
 }  // namespace perilink::test

@@ -103,8 +103,8 @@ inline void with_thread_ranks(int count, const std::function<void(Ranks&)>& lead
   lead(first);
 }
 
-/// \return largest difference between the results of several ranks and of one process, over the
-///     largest number of the latter
+/// Returns the largest difference between the results of several ranks and of one process, over the
+/// largest number of the latter.
 inline double difference_of(const std::vector<double>& alone, const std::vector<double>& shared) {
   double size = 0.0, difference = 0.0;
   for (std::size_t k = 0; k < alone.size(); ++k) {

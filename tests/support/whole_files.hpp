@@ -13,7 +13,7 @@
 
 namespace perilink::test {
 
-/// \return number of commas outside quotes
+/// Returns the number of commas outside quotes.
 inline int separators(const std::string& line) {
   int found = 0;
   bool quoted = false;

@@ -26,7 +26,7 @@ class WholeRun {
       : WholeRun(parse_case(text, ""), threads) {}
 
   CsvTable history() const { return read_csv((work / "history.csv").string()); }
-  /// \return column of the history
+  /// Returns the column of the history.
   std::vector<double> history(const std::string& name) const {
     const CsvTable table = history();
     const auto column = static_cast<std::size_t>(table.column(name));

@@ -20,7 +20,7 @@ CellRange cells_at(const std::vector<double>& cuts, double x, double tolerance) 
           static_cast<Index>(upper - cuts.begin()) - 1};
 }
 
-/// \return whether a cell of the union contains the point or touches it
+/// Returns whether a cell of the union contains the point or touches it.
 bool is_inside(const Outline& outline, const Vector3& x, double tolerance) {
   CellRange range[3] = {{0, 0}, {0, 0}, {0, 0}};
   for (int a = 0; a < outline.dim; ++a) range[a] = cells_at(outline.cuts[a], x[a], tolerance);
@@ -34,8 +34,8 @@ bool is_inside(const Outline& outline, const Vector3& x, double tolerance) {
   return false;
 }
 
-/// \return whether a bond stays inside. The bond stays in one cell between two planes of the grid,
-///     so the midpoints decide.
+/// Returns whether a bond stays inside. The bond stays in one cell between two planes of the grid,
+/// so the midpoints decide.
 /// \param stations  buffer for the crossings with planes
 bool stays_inside(const Outline& outline, std::span<const double> from, std::span<const double> to,
                   double tolerance, std::vector<double>& stations) {

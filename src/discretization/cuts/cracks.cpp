@@ -64,8 +64,8 @@ Piece polygon_piece(const Crack& crack, Index number) {
   return piece;
 }
 
-/// \return per line, whether it must be reversed so that connected lines continue the first one. A
-///     particle at a joint then lies on one side of all of them.
+/// Returns nonzero for each line that must be reversed, so that connected lines continue the first
+/// one. A particle at a joint then lies on one side of all of them.
 std::vector<std::uint8_t> turned_lines(std::span<const Crack> cracks) {
   std::map<Vector3, std::vector<std::size_t>> meeting;
   for (std::size_t k = 0; k < cracks.size(); ++k) {
@@ -114,7 +114,7 @@ std::vector<Piece> pieces_of(std::span<const Crack> cracks, int dim) {
   return pieces;
 }
 
-/// \return whether a point of the piece's line or plane belongs to the piece
+/// Returns whether a point of the piece's line or plane belongs to the piece.
 bool holds(const Piece& piece, const Vector3& point, double tolerance) {
   for (std::size_t side = 0; side < piece.side_normals.size(); ++side) {
     if (dot(minus(point, piece.corners[side]), piece.side_normals[side]) > tolerance) return false;

@@ -22,8 +22,7 @@ inline constexpr double on_crack_tolerance = 1e-6;
 /// Bonds cut by cracks.
 struct CutBonds {
   std::vector<std::uint8_t> keep;  ///< per bond, 0 if a crack cuts it
-  std::vector<Index> count;        ///< cut bonds per crack; a bond cut by two cracks counts for
-                                   ///< both
+  std::vector<Index> count;        ///< cut bonds per crack; a bond cut by two counts twice
 };
 
 /// Checks a crack.
@@ -51,7 +50,7 @@ class CrackCutter {
   /// \throws std::invalid_argument as check_crack()
   CrackCutter(std::span<const Crack> cracks, int dim, double spacing);
 
-  /// \return whether the bond between two particles is cut
+  /// Returns whether the bond between two particles is cut.
   /// \param count  cut bonds per crack, incremented; empty: no count
   bool cuts(const Vector3& first, const Vector3& second, std::span<Index> count = {}) const;
   /// Corners of the box around all cracks; infinite with lower above upper if there are no cracks.
@@ -66,7 +65,7 @@ class CrackCutter {
   Vector3 lower_{infinity, infinity, infinity}, upper_{-infinity, -infinity, -infinity};
 };
 
-/// \return bonds of a body that cracks cut
+/// Returns bonds of a body that cracks cut.
 /// \param spacing  distance of neighbouring particles [length]
 /// \throws std::invalid_argument as check_crack()
 CutBonds find_cut_bonds(const Particles& particles, const Bonds& bonds,

@@ -102,7 +102,7 @@ class Passage {
   }
 
  private:
-  /// \return false if the bond stays below every facet that it could meet, so that it is inside
+  /// Returns false if the bond stays below every facet that it could meet, so that it is inside.
   bool find_meetings() {
     bool above = false;
     for (const Index f : near_) {
@@ -127,8 +127,8 @@ class Passage {
     return above;
   }
 
-  /// \return distance from the surface, positive outside. Among equally near facets, the one with
-  ///     the largest height below the point decides the sign.
+  /// Returns the distance from the surface, positive outside. Among equally near facets, the one
+  /// with the largest height below the point decides the sign.
   double distance(const Vector3& point) const {
     double least = std::numeric_limits<double>::infinity(), height = 0.0;
     for (const Index f : near_) {
@@ -142,7 +142,7 @@ class Passage {
     return height > 0.0 ? least : -least;
   }
 
-  /// \return whether the piece between the meetings [begin, end) and [end, last) leaves the body
+  /// Returns whether the piece between the meetings [begin, end) and [end, last) leaves the body.
   bool piece_leaves(std::size_t begin, std::size_t end, std::size_t last, double allowed) const {
     const double start = meetings_[begin].fraction, stop = meetings_[end].fraction;
     const auto place = [&](double part) {
@@ -181,9 +181,7 @@ Index remove_bonds_outside(const Particles& particles, Bonds& bonds, const Facet
   for (Index b = 0; b < bonds.size(); ++b) {
     const Index i = bonds.first[b], j = bonds.second[b];
     const auto near_i = surface.near.row(i), near_j = surface.near.row(j);
-    if (near_i.empty() || near_j.empty())
-      continue;  // every facet that a bond meets is near both
-                 // ends
+    if (near_i.empty() || near_j.empty()) continue;  // meetings are near both ends
     Passage passage(surface, near_i, point_of(particles.positions, particles.dim, i),
                     point_of(particles.positions, particles.dim, j));
     keep[b] = passage.leaves_body(allowed_excursion * spacing) ? 0 : 1;

@@ -8,7 +8,7 @@
 
 namespace perilink {
 
-/// \return per cell, nonzero if it has particles but no points of `faces` inside its border
+/// Returns nonzero for each cell with particles and without points of `faces` inside its border.
 template <class Cells>
 std::vector<std::uint8_t> usable_cells(const Cells& cells, const Particles& particles,
                                        std::span<const double> faces) {
@@ -68,7 +68,7 @@ std::vector<Index> add_elements(const Cells& cells, const std::vector<std::uint8
   return element_of;
 }
 
-/// \return host elements on the cells of a grid or a mesh, with the particles inside them
+/// Returns host elements on the cells of a grid or a mesh, with the particles inside them.
 template <class Cells>
 Hosts fill_hosts(const Particles& particles, std::span<const double> faces, const Cells& cells) {
   Hosts hosts;

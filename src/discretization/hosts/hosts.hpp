@@ -41,17 +41,16 @@ struct Hosts {
 /// all particles.
 using Divisions = std::array<std::vector<double>, 3>;
 
-/// \return host elements with particles inside: lines, rectangles or boxes between planes along the
-///     axes. Elements with a point of `faces` inside are omitted; faces may only lie on their
-///     borders.
+/// Returns host elements with particles inside: lines, rectangles or boxes between planes along the
+/// axes. Elements with a point of `faces` inside are omitted; faces may only lie on their borders.
 /// \param faces      points on faces of the body [length], shape (points, dim)
 /// \param order      degree of the polynomials along each axis: 1 or 2
 /// \param tolerance  distance at which a particle lies on the border of an element [length]
 Hosts hosts_on_grid(const Particles& particles, std::span<const double> faces,
                     const Divisions& divisions, int order, double tolerance);
 
-/// \return host elements with particles inside: straight triangles or tetrahedra of a mesh; order 2
-///     adds a node on each edge. Elements with a point of `faces` inside are omitted.
+/// Returns host elements with particles inside: straight triangles or tetrahedra of a mesh; order 2
+/// adds a node on each edge. Elements with a point of `faces` inside are omitted.
 /// \param faces      points on faces of the body [length], shape (points, dim)
 /// \param order      degree of the polynomials: 1 or 2
 /// \param tolerance  distance at which a particle lies on the border of an element [length]

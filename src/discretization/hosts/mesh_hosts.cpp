@@ -65,8 +65,8 @@ class MeshCells {
     return 0.5 * (position(cell, a, axis) + position(cell, b, axis));
   }
 
-  /// \return shape function of a node in barycentric coordinates L: L or L (2 L - 1) for a corner,
-  ///     4 L_a L_b for the middle of an edge
+  /// Returns the shape function of a node in barycentric coordinates L: L or L (2 L - 1) for a
+  /// corner, 4 L_a L_b for the middle of an edge.
   double weight(Index cell, int local, std::span<const double> point) const {
     const auto part = [&](int corner) { return search_.height(cell, corner, point); };
     if (local < num_corners()) {
@@ -79,7 +79,7 @@ class MeshCells {
 
  private:
   int num_edges() const { return mesh_.dim == 2 ? 3 : 6; }
-  /// \return corners at the ends of an edge
+  /// Returns corners at the ends of an edge.
   static std::pair<int, int> ends(int edge) {
     constexpr std::array<std::pair<int, int>, 6> all = {
         {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};

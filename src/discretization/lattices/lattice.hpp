@@ -99,10 +99,11 @@ struct Body {
   std::vector<BeamSpan> spans = {};  ///< beams only, in the order of their particles
 };
 
-/// \return neighbourhood of a particle far from every surface
+/// Returns the neighbourhood of a particle far from every surface.
 InteriorNeighbourhood interior_neighbourhood(const Lattice& lattice, double horizon);
 
-/// \return radius of Peri2D's horizon level 0–8 [spacings] (Gerstle, Sau & Silling 2005, Fig. 5)
+/// Returns the radius of Peri2D's horizon level 0–8 [spacings] (Gerstle, Sau & Silling 2005, Fig.
+/// 5).
 /// \throws std::invalid_argument for a pattern without levels or a level outside 0–8
 double horizon_of_level(Pattern pattern, int level);
 

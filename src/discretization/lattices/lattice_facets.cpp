@@ -26,7 +26,7 @@ class CellGrid {
 
   const std::array<Index, 3>& steps() const { return steps_; }
 
-  /// \return material of a cell, no_index outside the body
+  /// Returns the material of a cell, no_index outside the body.
   Index material(const std::array<Index, 3>& cell) const {
     for (int axis = 0; axis < 3; ++axis) {
       if (cell[axis] < 0 || cell[axis] >= steps_[axis]) return no_index;
@@ -35,7 +35,7 @@ class CellGrid {
                                     (cell[1] + static_cast<std::size_t>(steps_[1]) * cell[2])];
   }
 
-  /// \return particles at the corners of the face below a cell along an axis
+  /// Returns particles at the corners of the face below a cell along an axis.
   std::vector<Index> corners(const std::array<Index, 3>& cell, int axis) const {
     std::vector<Index> found;
     const int y = (axis + 1) % dim_;

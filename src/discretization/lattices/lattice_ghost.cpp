@@ -48,7 +48,7 @@ GhostGrid fill_grid(const LatticeInput& input, const Lattice& lattice, const Box
   for (Index k = 0; k < count[2]; ++k) {
     for (Index j = 0; j < count[1]; ++j) {
       const double shift = hexagonal && j % 2 == 1 ? 0.5 : 0.0;
-      // Starts at 0, because the margin of a shifted row needs a ghost at both ends.
+      // Starts at 0, because shifted rows have a ghost at this distance too.
       for (Index i = 0; i <= count[0]; ++i) {
         if (lattice.pattern == Pattern::face_centred && (i + j + k) % 2 != 0) continue;
         const Vector3 point = {

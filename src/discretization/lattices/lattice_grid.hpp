@@ -35,13 +35,13 @@ struct LatticeGrid {
   bool alternate = false;        ///< face-centred: every other point carries a particle
 
   GridWindow all() const { return {{}, count}; }
-  /// \return number of the window's particles before a point
+  /// Returns the number of the window's particles before a point.
   Index number(const GridWindow& window, const GridPoint& point) const;
   Index size(const GridWindow& window) const {
     return number(window, {window.first[0], window.first[1], window.last[2] + 1});
   }
   Vector3 position(const GridPoint& point) const;
-  /// \return window enlarged by some steps along each axis, within the grid
+  /// Returns a window enlarged by some steps along each axis, within the grid.
   GridWindow grown(const GridWindow& window, const std::array<Index, 3>& steps) const;
 
   /// Calls visit(point) for the particles of a window in their order.
@@ -58,10 +58,10 @@ struct LatticeGrid {
   }
 };
 
-/// \return grid with exactly the particles of a body; empty if the body is no such grid
+/// Returns a grid with exactly the particles of a body; empty if the body is no such grid.
 std::optional<LatticeGrid> grid_of(const Body& body);
 
-/// \return body of one material on a grid with the given lattice
+/// Returns a body of one material on a grid with the given lattice.
 /// \param thickness  in the plane [length]
 Body body_of(const LatticeGrid& grid, const Lattice& lattice, double thickness);
 

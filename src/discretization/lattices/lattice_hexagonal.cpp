@@ -29,7 +29,7 @@ class HexagonalCells {
   Index rows() const { return rows_; }
   Index stride() const { return 2 * columns_ + 1; }
   double volume(HalfColumn point) const { return volumes_[slot(point)]; }
-  /// \return triangles of the particles, numbered without points that have no volume
+  /// Returns triangles of the particles, numbered without points that have no volume.
   Simplices triangles() const {
     std::vector<Index> number(volumes_.size(), no_index);
     Index count = 0;

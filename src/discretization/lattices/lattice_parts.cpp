@@ -7,17 +7,17 @@
 namespace perilink {
 namespace {
 
-/// \return step nearest to the wanted one that divides the extent evenly, on request into an even
-///     number of steps
+/// Returns the step nearest to the wanted one that divides the extent evenly, on request into an
+/// even number of steps.
 double even_step(const Box& bounds, int axis, double wanted, bool even_number = false) {
   const double extent = bounds.upper[axis] - bounds.lower[axis];
   if (even_number) return extent / (2.0 * std::max(1.0, std::round(0.5 * extent / wanted)));
   return extent / std::max(1.0, std::round(extent / wanted));
 }
 
-/// \return row height of calibrated hexagonal lattices, whose number of rows is even. Where
-///     materials of different stiffness meet, the number of rows below each face is even too, if
-///     rows of about the wanted height allow it.
+/// Returns the row height of calibrated hexagonal lattices, whose number of rows is even. Where
+/// materials of different stiffness meet, the number of rows below each face is even too, if rows
+/// of about the wanted height allow it.
 double height_of_paired_rows(const LatticeInput& input, const Box& bounds, double wanted) {
   constexpr double most_stretched = 0.05, same_plane = 1e-6;
   const double extent = bounds.upper[1] - bounds.lower[1], pairs = 0.5 * extent / wanted;

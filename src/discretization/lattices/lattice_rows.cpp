@@ -37,7 +37,7 @@ Vector3 combine(const RowBasis& basis, const Step& step) {
   return combine(basis, std::array<double, 3>{1.0 * step[0], 1.0 * step[1], 1.0 * step[2]});
 }
 
-/// \return rows of the reciprocal lattice, which give the coordinates of a vector in the basis
+/// Returns rows of the reciprocal lattice, which give the coordinates of a vector in the basis.
 RowBasis inverse(const RowBasis& m) {
   const auto cross = [](const Vector3& a, const Vector3& b) {
     return Vector3{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
@@ -108,7 +108,7 @@ class RowBuilder {
     return true;
   }
 
-  /// \return bounds of the lattice coordinates in the box, taken at its corners
+  /// Returns bounds of the lattice coordinates in the box, taken at its corners.
   std::array<std::array<int, 2>, 3> coordinate_range() const {
     const RowBasis rows = inverse(pattern_.basis);
     std::array<std::array<int, 2>, 3> range{};
@@ -143,7 +143,7 @@ class RowBuilder {
     }
   }
 
-  /// \return key of the row that a step leads to; the table is sorted by layer, then row
+  /// Returns the key of the row that a step leads to; the table is sorted by layer, then row.
   static RowKey moved(const RowKey& key, const Step& step, int sign) {
     return {key.first + sign * step[2], key.second + sign * step[1]};
   }

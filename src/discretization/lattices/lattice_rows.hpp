@@ -35,12 +35,12 @@ struct LatticeRows {
   std::vector<OwnBond> bonds;  ///< three (hexagonal) or nine (face-centred cubic)
   std::vector<LatticeRow> rows;
   std::vector<Index> shift_out;  ///< from a slot to own bond k's partner, shape (rows, own bonds)
-  std::vector<Index> shift_in;   ///< from the slot whose own bond k ends here, shape (rows, own
-                                 ///< bonds)
-  std::vector<Index> row_out;    ///< row of own bond k's partners or no_index: the row itself or a
-                                 ///< later one, same shape
-  std::vector<Index> row_in;     ///< row with own bonds k that end here, or no_index, same shape
-  Index reach = 0;               ///< largest difference between a row and its row_out
+  std::vector<Index>
+      shift_in;                ///< from the owner of bond k that ends here, shape (rows, own bonds)
+  std::vector<Index> row_out;  ///< row of own bond k's partners or no_index: the row itself or a
+                               ///< later one, same shape
+  std::vector<Index> row_in;   ///< row with own bonds k that end here, or no_index, same shape
+  Index reach = 0;             ///< largest difference between a row and its row_out
   Index slots = 0;
   std::vector<double> positions;     ///< [length], shape (dim, slots)
   std::vector<double> present;       ///< one where the own bond exists, shape (own bonds, slots)
@@ -73,11 +73,11 @@ struct LatticeCut {
   std::function<bool(const Vector3&)> inside;
 };
 
-/// \return rows of a hexagonal lattice: six neighbours in the plane
+/// Returns rows of a hexagonal lattice: six neighbours in the plane.
 /// \throws std::invalid_argument if no lattice point lies in the body
 LatticeRows hexagonal_rows(const LatticeCut& cut);
 
-/// \return rows of a face-centred lattice: twelve nearest and six second neighbours in space
+/// Returns rows of a face-centred lattice: twelve nearest and six second neighbours in space.
 /// \throws std::invalid_argument if no lattice point lies in the body
 LatticeRows face_centred_rows(const LatticeCut& cut);
 

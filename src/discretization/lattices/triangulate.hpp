@@ -11,7 +11,7 @@
 
 namespace perilink {
 
-/// \return conforming mesh of a lattice body
+/// Returns a conforming mesh of a lattice body.
 /// - rectangular: two triangles per cell, with diagonals that alternate like a chessboard
 /// - hexagonal: the triangles of the lattice, halved along vertical sides
 /// - cubic: six tetrahedra around one diagonal of each cube (Kuhn 1960)
@@ -20,17 +20,17 @@ namespace perilink {
 ///     tetrahedra do not fill a body with faces along the axes
 Simplices triangulate(const LatticeInput& input, const Body& body);
 
-/// \return volume of every cell: area times thickness in two dimensions [length^3]
+/// Returns the volume of every cell: area times thickness in two dimensions [length^3].
 /// \param positions  shape (particles, dim)
 std::vector<double> cell_volumes(const Simplices& cells, std::span<const double> positions,
                                  double thickness);
 
-/// \return integral of every particle's linear shape function [length^3]
+/// Returns the integral of every particle's linear shape function [length^3].
 std::vector<double> shape_integrals(const Simplices& cells, std::span<const double> positions,
                                     double thickness);
 
-/// \return every edge of the cells once. A truss of these edges has exactly the rigid motions of
-///     the cells, because the edges of a simplex fix its shape.
+/// Returns every edge of the cells once. A truss of these edges has exactly the rigid motions of
+/// the cells, because the edges of a simplex fix its shape.
 Bonds edges_of(const Simplices& cells, const Particles& particles);
 
 }  // namespace perilink

@@ -34,8 +34,8 @@ struct CellCorners {
     }
   }
 
-  /// \return normal of the side opposite to corner k; its length is twice the side's area, in the
-  ///     plane the side's length
+  /// Returns the normal of the side opposite to corner k; its length is twice the side's area, in
+  /// the plane the side's length.
   Vector3 normal_of_side(int k) const {
     const Vector3& a = at[(k + 1) % count];
     const Vector3 u = minus(at[(k + 2) % count], a);

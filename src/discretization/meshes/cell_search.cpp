@@ -103,7 +103,7 @@ Index CellSearch::bucket(const std::array<int, 3>& steps) const {
   return static_cast<Index>((steps[2] * counts_[1] + steps[1]) * counts_[0] + steps[0]);
 }
 
-/// \return cells that touch the bucket around a point in the box
+/// Returns cells that touch the bucket around a point in the box.
 std::span<const Index> CellSearch::near(std::span<const double> point) const {
   std::array<int, 3> steps{};
   for (int a = 0; a < dim_; ++a) steps[a] = step(a, point[a]);

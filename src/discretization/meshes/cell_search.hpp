@@ -29,17 +29,17 @@ class CellSearch {
       if (is_inside(cell, point, -tolerance_)) visit(cell);
     }
   }
-  /// \return whether the point is farther than the tolerance from all sides of the cell
+  /// Returns whether the point is farther than the tolerance from all sides of the cell.
   bool is_within(Index place, std::span<const double> point) const {
     return is_inside(place, point, tolerance_);
   }
-  /// \return barycentric coordinate [-]: the point's distance from the side opposite to a corner
-  ///     over the corner's distance from it
+  /// Returns the barycentric coordinate [-]: the point's distance from the side opposite to a
+  /// corner over the corner's distance from it.
   double height(Index place, int corner, std::span<const double> point) const {
     return distance(place, corner, point) / heights_[index_of_side(place, corner)];
   }
 
-  /// \return box around all cells, enlarged by the tolerance
+  /// Returns the box around all cells, enlarged by the tolerance.
   const Box& box() const { return box_; }
 
  private:

@@ -30,7 +30,7 @@ struct Mesh {
 
   Index num_points() const { return static_cast<Index>(positions.size()) / dim; }
   Index num_cells() const { return static_cast<Index>(cells.size()) / (dim + 1); }
-  /// \return number of a cell in its file
+  /// Returns the number of a cell in its file.
   std::int64_t tag_of(Index cell) const {
     return cell_tags.empty() ? std::int64_t{cell} + 1 : cell_tags[cell];
   }

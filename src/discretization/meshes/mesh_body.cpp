@@ -19,7 +19,7 @@
 namespace perilink {
 namespace {
 
-/// \return particle of every point of the mesh; no_index if no cell with a material uses it
+/// Returns the particle of every point of the mesh; no_index if no cell with a material uses it.
 std::vector<Index> number_particles(const Mesh& mesh, std::span<const Index> material) {
   std::vector<Index> particle(static_cast<std::size_t>(mesh.num_points()), no_index);
   const int width = mesh.dim + 1;
@@ -81,7 +81,8 @@ std::vector<Index> add_cells(const Mesh& mesh, std::span<const Index> material, 
   return number;
 }
 
-/// \return surface facet of every face, no_index for inner faces; facets have the order of faces
+/// Returns the surface facet of every face, no_index for inner faces; facets have the order of
+/// faces.
 std::vector<Index> number_surface_facets(const CellFaces& faces, const Simplices& cells) {
   std::vector<Index> number(static_cast<std::size_t>(faces.size()), no_index);
   Index count = 0;
@@ -96,7 +97,7 @@ std::vector<Index> number_surface_facets(const CellFaces& faces, const Simplices
   return number;
 }
 
-/// \return lattice with mean values over the cells that have bonds
+/// Returns a lattice with mean values over the cells that have bonds.
 Lattice lattice_of(const Body& body, double thickness) {
   const Simplices cells = cells_of(body, false);
   const Bonds edges = edges_of(cells, body.particles);

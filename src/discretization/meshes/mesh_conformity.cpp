@@ -23,7 +23,7 @@ namespace {
 /// is much farther from its chord.
 constexpr double touching = 1e-7;
 
-/// \return whether a point lies on the facet or its border
+/// Returns whether a point lies on the facet or its border.
 bool lies_on(const FacetGeometry& facet, const Vector3& x) {
   return norm(minus(x, nearest_point(facet, x))) <= touching * facet.size;
 }
@@ -79,7 +79,7 @@ struct TwinSide {
   std::array<Index, 3> corners{no_index, no_index, no_index};  ///< the cell lies to their left
 };
 
-/// \return for each point, the first point at its position
+/// Returns the first point at the position of each point.
 std::vector<Index> first_at_place(const Mesh& mesh) {
   const auto at = [&](Index i) { return point_of(mesh.positions, mesh.dim, i); };
   std::vector<Index> order(static_cast<std::size_t>(mesh.num_points()));
@@ -92,7 +92,7 @@ std::vector<Index> first_at_place(const Mesh& mesh) {
   return first;
 }
 
-/// \return sides of cells with a duplicate corner, by the first points at their corners
+/// Returns sides of cells with a duplicate corner, by the first points at their corners.
 std::map<std::array<Index, 3>, std::vector<TwinSide>> twin_sides(
     const Mesh& mesh, const std::vector<Index>& place, const std::vector<std::uint8_t>& has_twin) {
   std::map<std::array<Index, 3>, std::vector<TwinSide>> sides;
@@ -122,7 +122,7 @@ std::map<std::array<Index, 3>, std::vector<TwinSide>> twin_sides(
   return sides;
 }
 
-/// \return pairs of coincident sides of cells that are connected elsewhere
+/// Returns pairs of coincident sides of cells that are connected elsewhere.
 std::vector<std::array<TwinSide, 2>> find_slits(const Mesh& mesh, const std::vector<Index>& place,
                                                 const std::vector<std::uint8_t>& has_twin) {
   const std::size_t width = mesh.dim + 1;

@@ -33,7 +33,7 @@ using LineEnd = std::size_t;
 
 constexpr LineEnd no_end = static_cast<LineEnd>(-1);
 
-/// \return for each point, the first point at its position
+/// Returns the first point at the position of each point.
 std::vector<Index> first_there(std::span<const double> points) {
   double extent = 0.0;
   for (std::size_t k = 0; k < points.size(); ++k) {
@@ -89,7 +89,7 @@ class LineChains {
     return fmt::format("({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[2]);
   }
 
-  /// \return cosine of the turn from one line into another
+  /// Returns the cosine of the turn from one line into another.
   double turn(LineEnd in, LineEnd out) const {
     const Vector3 a = minus(place(in), place(in ^ 1)), b = minus(place(out ^ 1), place(out));
     return dot(a, b) / (norm(a) * norm(b));
@@ -125,7 +125,7 @@ class LineChains {
 
   std::vector<Vector3> follow(LineEnd begin, std::vector<bool>& used) const {
     std::vector<Vector3> curve = {place(begin)};
-    double along = 0.0;  // length of the lines in this direction minus that of the others
+    double along = 0.0;  // length of the lines in this direction minus length of the others
     for (LineEnd end = begin; end != no_end && !used[end / 2]; end = next_[end ^ 1]) {
       used[end / 2] = true;
       const Vector3 point = place(end ^ 1);

@@ -7,10 +7,10 @@
 
 namespace perilink {
 
-/// \return curves that the lines form, by their corners [length]
+/// Returns curves that the lines form, by their corners [length].
 /// - Points on a straight line are omitted; a closed curve ends at its first point.
 /// - Where two lines meet, the curve continues. Where more meet, as at crossing bars, the
-/// straightest pairs continue, then the last two left.
+///   straightest pairs continue, then the last two left.
 /// - A curve has the direction of most of its lines' length.
 /// - Curves have the order of their first lines, open before closed ones.
 /// - Points at one position are one point.

@@ -24,7 +24,7 @@ Cell cell_at(const Simplices& cells, std::span<const double> positions, Index nu
   return {positions, cells.dim, cells.cell(number)};
 }
 
-/// \return whether the projections of two cells on an axis overlap by at most the tolerance
+/// Returns whether the projections of two cells on an axis overlap by at most the tolerance.
 bool separates(const Vector3& axis, double length, const Cell& a, const Cell& b, double tolerance) {
   double lower[2] = {INFINITY, INFINITY}, upper[2] = {-INFINITY, -INFINITY};
   for (int side = 0; side < 2; ++side) {

@@ -26,7 +26,7 @@ std::optional<std::array<Index, 2>> find_overlap(const Simplices& cells,
                                                  std::span<const double> positions,
                                                  const CellFaces& faces);
 
-/// \return first two cells of a mesh that overlap; cells may have any orientation
+/// Returns the first two cells of a mesh that overlap; cells may have any orientation.
 std::optional<std::array<Index, 2>> find_overlap(const Mesh& mesh);
 
 }  // namespace perilink

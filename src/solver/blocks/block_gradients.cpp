@@ -104,7 +104,7 @@ class Shares {
       rows_[c] = at(row.data());
     }
   }
-  /// \return row of a block times the matrix
+  /// Returns the row of a block times the matrix.
   Row<Number> operator()(const Number* row) const {
     Row<Number> sum = row[0] * rows_[0];
     for (int c = 1; c < width; ++c) sum += row[c] * rows_[c];
@@ -115,7 +115,8 @@ class Shares {
   Row<Number> rows_[width];
 };
 
-/// \return inverse of p'A p for linearly independent directions p; zeros for the other directions
+/// Returns the inverse of p'A p for linearly independent directions p; zeros for the other
+/// directions.
 /// \param same   least squared remainder of a direction of unit length, below which it depends
 ///     linearly on others
 /// \param sides  p'r, whose columns are right sides of the steps
@@ -164,7 +165,7 @@ Square inverse_of(const Square& matrix, const Square& sides, double same) {
   return left;
 }
 
-/// \return largest error over the square root of its size
+/// Returns the largest error over the square root of its size.
 double largest(const BlockRow& sizes, auto error_of) {
   double result = 0.0;
   for (int c = 0; c < width; ++c) {
@@ -173,7 +174,7 @@ double largest(const BlockRow& sizes, auto error_of) {
   return result;
 }
 
-/// \return largest square root of r'z over its size, an estimate of the error
+/// Returns the largest square root of r'z over its size, an estimate of the error.
 double left_by(const Square& rz, const BlockRow& sizes) {
   return largest(sizes, [&](int c) { return std::sqrt(std::max(rz[c][c], 0.0)); });
 }

@@ -26,7 +26,7 @@ template <class Number>
 using BlockMap = std::function<void(std::span<const Number> vectors, std::span<Number> results,
                                     const RowsDone& done)>;
 
-/// \return block map of a function; it calls `done` once for all rows
+/// Returns a block map of a function; it calls `done` once for all rows.
 template <class Number, class Map>
 BlockMap<Number> as_block_map(Map map) {
   return [map](std::span<const Number> vectors, std::span<Number> results, const RowsDone& done) {

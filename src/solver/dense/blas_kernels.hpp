@@ -4,9 +4,9 @@
 
 namespace perilink {
 
-/// \return name of better OpenBLAS kernels for a processor that OpenBLAS does not recognise; empty
-///     if its choice is good. On unknown processors it uses kernels of 2004, which factorise 2.5
-///     times slower.
+/// Returns the name of better OpenBLAS kernels for a processor that OpenBLAS does not recognise;
+/// empty if its choice is good. On unknown processors it uses kernels of 2004, which factorise 2.5
+/// times slower.
 /// \param taken  name of the chosen kernels
 const char* fitting_kernels(std::string_view taken, bool has_avx2, bool has_avx512);
 
@@ -14,10 +14,10 @@ const char* fitting_kernels(std::string_view taken, bool has_avx2, bool has_avx5
 /// OpenBLAS.
 void use_fitting_kernels();
 
-/// \return largest number of threads that may be in OpenBLAS at once. More threads exhaust its
-///     buffers and corrupt the heap.
+/// Returns the largest number of threads that may be in OpenBLAS at once. More threads exhaust its
+/// buffers and corrupt the heap.
 int most_blas_threads();
-/// \return limit in a description of OpenBLAS; the largest int without one
+/// Returns the limit in a description of OpenBLAS; the largest int without one.
 int most_blas_threads(std::string_view config);
 
 }  // namespace perilink

@@ -73,7 +73,7 @@ int take_blas_buffers(int threads) {
   return taken;
 }
 
-/// \return random numbers from -1 to 1, equal on every machine
+/// Returns random numbers from -1 to 1, equal on every machine.
 MatrixXd numbers_at_random(int rows, int columns) {
   std::mt19937 random(1);
   return MatrixXd::NullaryExpr(rows, columns,
@@ -96,7 +96,7 @@ void orthonormalize(MatrixXd& columns) {
   check(info);
 }
 
-/// \return a b or a' b
+/// Returns a b or a' b.
 MatrixXd product(const MatrixXd& a, bool transposed, const MatrixXd& b) {
   const int m = static_cast<int>(transposed ? a.cols() : a.rows());
   const int n = static_cast<int>(b.cols()), k = static_cast<int>(b.rows());

@@ -17,9 +17,9 @@ int prepare_blas(int threads = 1);
 /// Computes sum += a b'.
 void add_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::MatrixXd& sum);
 
-/// \return eigenvectors, as columns, of a positive semidefinite matrix with eigenvalues up to
-///     `limit`, by subspace inverse iteration. Vectors far below the limit are exact, vectors near
-///     it are mixed with their neighbours.
+/// Returns the eigenvectors, as columns, of a positive semidefinite matrix with eigenvalues up to
+/// `limit`, by subspace inverse iteration. Vectors far below the limit are exact, vectors near it
+/// are mixed with their neighbours.
 /// \param expected  approximate number of vectors, the first size of the subspace
 /// \throws SolverError if the vectors are not found or the matrix is not finite
 Eigen::MatrixXd eigenvectors_below(const Eigen::MatrixXd& matrix, double limit, int expected);

@@ -17,7 +17,7 @@ using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, Index>;
 using AddColumn =
     std::function<void(Index column, std::span<const Index> place, std::span<double> values)>;
 
-/// \return function that adds columns of a stored matrix
+/// Returns a function that adds columns of a stored matrix.
 inline AddColumn columns_of(const SparseMatrix& lower) {
   return [&lower](Index column, std::span<const Index> place, std::span<double> values) {
     for (SparseMatrix::InnerIterator entry(lower, column); entry; ++entry) {

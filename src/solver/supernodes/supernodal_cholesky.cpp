@@ -160,7 +160,7 @@ void Factorization<Number>::find_pulls() {
   }
 }
 
-/// \return operations for a supernode's columns and the contributions to them
+/// Returns operations for a supernode's columns and the contributions to them.
 template <class Number>
 double Factorization<Number>::operations(Index s) const {
   const Node node = supernode(s);

@@ -32,7 +32,7 @@ Supernode<Number> supernode_of(const cholmod_factor& factor, Number* values, Ind
   return {ints(factor.s) + first_row[s], values, super[s], super[s + 1] - super[s],
           first_row[s + 1] - first_row[s]};
 }
-/// \return supernode with its numbers, or a null pointer if the factor has none
+/// Returns a supernode with its numbers, or a null pointer if the factor has none.
 inline Supernode<double> supernode_of(const cholmod_factor& factor, Index s) {
   auto* all = static_cast<double*>(factor.x);
   return supernode_of(factor, all == nullptr ? all : all + static_cast<const Index*>(factor.px)[s],
