@@ -53,7 +53,7 @@ FactorStatistics measure_factor(const cholmod_factor& factor, double flops);
 cholmod_sparse view_lower(const SparseMatrix& lower);
 cholmod_dense view_column(std::span<double> values);
 
-/// Base of factors that use CHOLMOD's solutions.
+/// Base class of factors that solve with CHOLMOD.
 class CholmodRoute : public Factor {
  public:
   void solve(std::span<const double> rhs, std::span<double> solution) override;

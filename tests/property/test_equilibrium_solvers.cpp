@@ -169,8 +169,7 @@ TEST(EquilibriumSolvers, ChooseByTheSizeOfTheBody) {
   problem.unknowns.number = {0, no_index};
   const Unknowns::Share half[] = {{0, 0.5}};
   problem.unknowns.carry(1, half);
-  EXPECT_FALSE(is_for_subdomains(problem, LinearSolver::automatic))
-      << "a particle is embedded";
+  EXPECT_FALSE(is_for_subdomains(problem, LinearSolver::automatic)) << "a particle is embedded";
 }
 
 }  // namespace
