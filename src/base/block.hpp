@@ -7,12 +7,14 @@
 
 namespace perilink {
 
-/// Vectors that are taken through a body at once, number after number side by side, so that the
-/// bonds are read once for all. With 32 of them those of neighbouring particles leave the cache.
+/// Number of vectors in a block. A block stores the vectors' entries side by side, so that one pass
+/// over the bonds serves all. With 32 vectors, the entries of neighbouring particles leave the
+/// cache.
 inline constexpr int block_width = 16;
 
-/// Memory that begins where a line of the cache does. The operator new that aligns would ask for
-/// more than a piece that it gave back has, and memory would grow with every vector.
+/// Allocator of memory aligned to cache lines. It stores the shift in the byte before the aligned
+/// address. The aligned operator new requests more than a freed block holds, so memory would grow
+/// with every vector.
 template <class Number>
 struct LineAllocator {
   using value_type = Number;
@@ -34,8 +36,8 @@ struct LineAllocator {
   bool operator==(const LineAllocator& /*other*/) const { return true; }
 };
 
-/// Blocks of vectors, shape (n, block_width): a row that reached across two lines would take twice
-/// as long to load.
+/// Blocks of vectors, shape (n, block_width). The alignment keeps a row within one cache line; a
+/// row across two lines takes twice as long to load.
 template <class Number>
 using BlockVector = std::vector<Number, LineAllocator<Number>>;
 

@@ -15,7 +15,7 @@ std::string program_commit() { return build_config::commit; }
 
 namespace {
 
-/// The library, and for which processor OpenBLAS takes its kernels.
+/// Returns the BLAS library and the processor that OpenBLAS chose its kernels for.
 std::string blas() {
   using CoreName = const char* (*)();
   auto* name = reinterpret_cast<CoreName>(dlsym(RTLD_DEFAULT, "openblas_get_corename"));

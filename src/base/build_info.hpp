@@ -3,18 +3,18 @@
 #include <string>
 
 /// \file
-/// What this program was built from, as known when the build was configured.
+/// Description of the build, fixed when the build was configured.
 
 namespace perilink {
 
-/// "0.1.0", the version of the program.
+/// Returns the version of the program, such as "0.1.0".
 std::string program_version();
 
-/// Abbreviated git commit, or "unknown" outside a git checkout.
+/// Returns the abbreviated git commit, or "unknown" outside a git checkout.
 std::string program_commit();
 
-/// Everything that a bug report needs, one "name  value" line each: version, commit, compiler,
-/// build type and the libraries that were built in.
+/// Returns a text for bug reports with one "name  value" line each: version, commit, compiler,
+/// build type and libraries.
 std::string build_summary();
 
 }  // namespace perilink

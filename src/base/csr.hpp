@@ -20,8 +20,9 @@ struct Csr {
   }
 };
 
-/// Items in rows, those of a row in the order in which they are visited.
-/// \param visit_items  calls act(row, item) for every item, twice the same way
+/// Sorts items into rows. Each row keeps the items in the order of the visits.
+/// \param visit_items  calls act(row, item) for every item; is called twice and must visit in one
+///     order
 template <class VisitItems>
 Csr sorted_into_rows(Index num_rows, VisitItems visit_items) {
   Csr rows;

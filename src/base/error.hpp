@@ -4,11 +4,11 @@
 #include <string>
 
 /// \file
-/// The kinds of failure that the program tells apart, each with its own exit status.
+/// Kinds of failure, each with its own exit status.
 
 namespace perilink {
 
-/// Base of every failure that the program reports by itself.
+/// Base class of all failures that the program reports.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -17,16 +17,16 @@ class Error : public std::runtime_error {
 /// Place of a value in an input file.
 struct SourceLocation {
   std::string file;
-  int line = 0;     ///< one-based; 0 when the fault is not at one line (a missing table, say)
+  int line = 0;     ///< one-based; 0 when the fault has no line, such as a missing table
   std::string key;  ///< dotted key path, "discretization.horizon" or "materials[2].region"
 };
 
-/// Bad input: refused before any work begins. Exit status 2.
+/// Refused input, reported before any work begins. Exit status 2.
 class InputError : public Error {
  public:
   /// \param where       file, line and key of the fault
-  /// \param fault       what was given and why it cannot be, "is 5, less than the spacing 12.5"
-  /// \param suggestion  what is allowed or what to write instead (may be empty)
+  /// \param fault       the given value and its fault, "is 5, less than the spacing 12.5"
+  /// \param suggestion  allowed values or remedy; may be empty
   InputError(const SourceLocation& where, const std::string& fault, const std::string& suggestion);
 
   const SourceLocation& where() const noexcept { return where_; }
@@ -35,13 +35,13 @@ class InputError : public Error {
   SourceLocation where_;
 };
 
-/// The solver cannot continue; the message says why. Exit status 3.
+/// The solver cannot continue; the message gives the reason. Exit status 3.
 class SolverError : public Error {
  public:
   using Error::Error;
 };
 
-/// A file cannot be read or written. Exit status 2 (nothing has been computed yet) or 3.
+/// A file cannot be read or written. Exit status 2 before any computation, else 3.
 class FileError : public Error {
  public:
   using Error::Error;

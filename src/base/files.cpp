@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::string_view temporary_end = ".part";
 constexpr std::size_t random_digits = 8;
-/// Neither an existing file nor what a link points to.
+/// Flags that refuse an existing file and a symbolic link.
 constexpr int as_new_file = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
 constexpr mode_t by_umask = 0666;
 
@@ -37,7 +37,7 @@ std::string fault_text(const std::string& path, const char* what, int fault) {
   throw FileError(text);
 }
 
-/// Closes a file whatever happens.
+/// Closes its file when it goes out of scope.
 class Descriptor {
  public:
   explicit Descriptor(int number) : number_(number) {}
@@ -48,14 +48,14 @@ class Descriptor {
   Descriptor& operator=(const Descriptor&) = delete;
 
   int number() const { return number_; }
-  /// \return 0 or the fault
+  /// Returns 0 or the fault.
   int close() { return ::close(std::exchange(number_, -1)) == 0 ? 0 : errno; }
 
  private:
   int number_;
 };
 
-/// \return bytes that were written; `fault` tells why not all
+/// Returns the number of bytes written; sets `fault` if some are missing.
 std::size_t write_bytes(int descriptor, std::string_view bytes, int& fault) {
   std::size_t written = 0;
   while (written < bytes.size()) {
@@ -70,8 +70,8 @@ std::size_t write_bytes(int descriptor, std::string_view bytes, int& fault) {
   return written;
 }
 
-/// \return 0 or the fault; files that cannot be synced, such as those of some network disks, are
-/// none
+/// Syncs a file. Files that cannot be synced, as on some network disks, count as synced.
+/// \return 0 or the fault
 int sync_file(int descriptor) {
   return ::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOSYS ? 0 : errno;
 }
@@ -88,7 +88,7 @@ const char* kind_of(mode_t mode) {
   return "a device";
 }
 
-/// \return size of the file [bytes]
+/// Returns the size of the file [bytes].
 std::size_t check_regular(const std::string& path, const struct stat& status) {
   if (!S_ISREG(status.st_mode)) {
     throw FileError(fmt::format("{}: is {}, not a file", path, kind_of(status.st_mode)));
@@ -128,7 +128,8 @@ bool is_temporary_of(std::string_view name, std::string_view temporary) {
 
 std::string read_regular_file(const std::string& path, std::size_t most, double memory) {
   struct stat status {};
-  // Looked at before, for to open a device may do things; and after, for it may be another by then.
+  // Check before opening, because opening a device can act on it, and again afterwards, because the
+  // file may have been replaced.
   if (::stat(path.c_str(), &status) == 0) check_regular(path, status);
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
   if (file.number() < 0) fail_to_read(path, "opened", errno);
@@ -136,13 +137,13 @@ std::string read_regular_file(const std::string& path, std::size_t most, double 
   const std::size_t size = std::min(check_regular(path, status), most);
   const double needed = memory * static_cast<double>(size), at_hand = available_memory();
   if (needed > at_hand) {
-    throw FileError(fmt::format("{}: has {}, to read it takes {}, and {} of memory are free", path,
+    throw FileError(fmt::format("{}: has {}, reading it takes {}, and {} of memory are free", path,
                                 bytes_text(static_cast<double>(size)), bytes_text(needed),
                                 bytes_text(at_hand)));
   }
   std::string bytes;
   std::size_t count = 0;
-  // Files of /proc say that they are empty, and others may grow: read until there is no more.
+  // Files in /proc report size 0, and other files may grow: read to the end.
   for (;;) {
     bytes.resize(std::min(most, std::max(size + 1, count + (std::size_t{1} << 16))));
     const ssize_t got = ::read(file.number(), bytes.data() + count, bytes.size() - count);
@@ -172,7 +173,7 @@ void LineFile::append(std::string& lines) {
   if (fault != 0) {
     const std::size_t line_end = written == 0 ? std::string::npos : lines.rfind('\n', written - 1);
     written = line_end == std::string::npos ? 0 : line_end + 1;
-    // Where even this fails a reader leaves out the line that has no end.
+    // If truncation fails too, readers drop the unfinished last line.
     [[maybe_unused]] const int ignored =
         ::ftruncate(descriptor_, static_cast<off_t>(size_ + written));
   }
@@ -182,7 +183,7 @@ void LineFile::append(std::string& lines) {
     if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail_to_write(path_, errno);
     temporary_.clear();
   }
-  if (fault != 0 && size_ == 0) ::unlink(temporary_.c_str());  // a file without a line says nothing
+  if (fault != 0 && size_ == 0) ::unlink(temporary_.c_str());  // no file without a line
   if (fault != 0) fail_to_write(path_, fault);
 }
 

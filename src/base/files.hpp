@@ -8,38 +8,38 @@
 #include "base/error.hpp"
 
 /// \file
-/// Files as a run needs them: whole whenever somebody looks, on full disks and after a kill, and
-/// never behind a link that somebody else has laid.
+/// Files of a run. They are complete at every moment, also on full disks and after a kill. They
+/// never follow a symbolic link.
 
 namespace perilink {
 
-/// The disk, a quota or a limit on the sizes of files has no room. Exit status 3.
+/// The disk is full, or a quota or a limit on file sizes is reached. Exit status 3.
 class DiskFull : public FileError {
  public:
   using FileError::FileError;
 };
 
-/// Puts a file in its place: writes a temporary beside it (NAME.<random>.part), brings it to the
-/// disk and renames it. Whoever reads finds the old file or the new one; a link at `path` is
-/// replaced, not followed. When it fails the old file stays and the temporary is removed.
+/// Writes a file in one step: writes a temporary file beside it (NAME.<random>.part), syncs it and
+/// renames it. Readers find the old file or the new one. A link at `path` is replaced, not
+/// followed. On failure the old file stays and the temporary file is removed.
 /// \throws FileError
 void write_whole_file(const std::string& path, std::string_view bytes);
 
-/// Whether write_whole_file() gives such a name to a temporary of a file `name`.
+/// Returns whether `temporary` is a temporary name of write_whole_file() for a file `name`.
 bool is_temporary_of(std::string_view name, std::string_view temporary);
 
-/// Reads a regular file: a pipe, a device or a directory is refused at once instead of waited for.
-/// \param most    bytes to read; the rest of a longer file is left
-/// \param memory  bytes that the caller needs for each byte of the file, this one included; a file
-///     for which the memory at hand is too small is refused before it is read
+/// Reads a regular file. Refuses pipes, devices and directories without waiting for them.
+/// \param most    largest number of bytes to read; the rest of a longer file is skipped
+/// \param memory  bytes that the caller needs per byte of the file, including that byte. Larger
+///     files than memory allows are refused unread.
 /// \throws FileError
 std::string read_regular_file(const std::string& path,
                               std::size_t most = std::numeric_limits<std::size_t>::max(),
                               double memory = 1.0);
 
-/// A file that grows by whole lines. What stood at its path goes, a link too; it appears there with
-/// its first lines. A kill within append() may still end the kernel's write between two pages of
-/// memory, and so within a line: readers leave out a last line that has no end.
+/// File that grows by whole lines. An existing file or link at its path is deleted at once, and the
+/// new file appears with its first lines. A kill during append() may leave an unfinished last line;
+/// readers drop it.
 class LineFile {
  public:
   /// \throws FileError
@@ -48,17 +48,17 @@ class LineFile {
   LineFile(const LineFile&) = delete;
   LineFile& operator=(const LineFile&) = delete;
 
-  /// Appends whole lines and takes from `lines` what has reached the file. When the disk is full
-  /// this is as many as fit: no line is left half written.
+  /// Appends whole lines and removes the written lines from `lines`. On a full disk, writes as many
+  /// whole lines as fit.
   /// \throws FileError
   void append(std::string& lines);
-  /// Waits until the disk has it all. \throws FileError
+  /// Syncs the file to the disk. \throws FileError
   void sync();
   const std::string& path() const { return path_; }
 
  private:
   std::string path_;
-  std::string temporary_;  ///< its name before the first lines are in it
+  std::string temporary_;  ///< name until the first lines are written
   int descriptor_ = -1;
   std::size_t size_ = 0;
 };

@@ -16,16 +16,16 @@ void* allocate_memory(std::size_t bytes) noexcept {
   static const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
   const auto begin = reinterpret_cast<std::uintptr_t>(memory), end = begin + bytes;
   const std::uintptr_t first = (begin + page - 1) / page * page;
-  // Advice: where it is not taken pages stay small.
+  // Only advice: a system that ignores it keeps small pages.
   (void)madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
   return memory;
 }
 
 }  // namespace perilink
 
-#ifndef __SANITIZE_ADDRESS__  // whose own find pieces that are given back in another way
+#ifndef __SANITIZE_ADDRESS__  // its allocator reports memory that is freed in another way
 
-// Inlined, compilers would take free() for a mistake beside new.
+// Not inlined, because compilers would report free() as a mismatch with new.
 [[gnu::noinline]] void* operator new(std::size_t bytes) {
   void* memory = perilink::allocate_memory(bytes);
   if (memory == nullptr) throw std::bad_alloc();

@@ -4,10 +4,10 @@
 
 namespace perilink {
 
-/// Memory for malloc's free(); large pieces in huge pages where the system gives these to who asks
-/// (Linux with transparent_hugepage = madvise or always): large bodies are read far faster so. The
-/// program's operator new takes its memory here, and CHOLMOD.
-/// \return null where there is none
+/// Allocates memory that malloc's free() can free. Blocks of 1 MB and more use huge pages where
+/// Linux offers them (transparent_hugepage = madvise or always), which makes large bodies much
+/// faster to read. operator new and CHOLMOD allocate here.
+/// \return null if there is no memory
 void* allocate_memory(std::size_t bytes) noexcept;
 
 }  // namespace perilink

@@ -8,7 +8,7 @@
 
 namespace perilink {
 
-/// Members that are joined step by step; the number of a part is its smallest member.
+/// Disjoint sets of the indices 0 … count - 1. The number of a set is its smallest index.
 class JoinedParts {
  public:
   explicit JoinedParts(Index count) : parent_(static_cast<std::size_t>(count)) {

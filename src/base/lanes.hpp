@@ -9,17 +9,17 @@
 
 namespace perilink {
 
-/// Numbers side by side in one register.
+/// Vector of numbers in one register.
 template <class Number, std::size_t Count>
 using Lanes [[gnu::vector_size(sizeof(Number) * Count)]] = Number;
 
-/// The same in memory, wherever they begin.
+/// Vector of numbers in memory, without alignment.
 template <class Number, std::size_t Count>
 using LanesInMemory
     [[gnu::vector_size(sizeof(Number) * Count), gnu::aligned(sizeof(Number)), gnu::may_alias]] =
         Number;
 
-/// Bytes of the widest registers that this file is compiled for.
+/// Bytes of the widest registers in this compilation.
 #if defined(__AVX512F__)
 constexpr std::size_t register_bytes = 64;
 #elif defined(__AVX__)
@@ -28,20 +28,21 @@ constexpr std::size_t register_bytes = 32;
 constexpr std::size_t register_bytes = 16;
 #endif
 
-/// Numbers of a row of so many that one register holds. Never called: files differ in it.
+/// Returns how many of `count` numbers one register holds. Files are compiled for different
+/// registers, so this function must only be evaluated at compile time.
 template <class Number>
 consteval std::size_t lanes_of(std::size_t count) {
   return std::min(count, register_bytes / sizeof(Number));
 }
 
-/// A row of numbers in as many registers as it takes, or in memory, wherever it begins. GCC takes
-/// vectors that are longer than a register through memory, number by number.
+/// Row of numbers in several registers, or in memory without alignment. GCC would pass vectors
+/// longer than a register through memory, one number at a time.
 template <class Number, std::size_t Count, std::size_t InRegister = lanes_of<Number>(Count)>
 struct [[gnu::may_alias]] LongLanes {
   static constexpr std::size_t count = Count / InRegister;
   LanesInMemory<Number, InRegister> parts[count];
 
-  // As a whole it would be copied in pieces that are shorter than registers.
+  // The default copy would use pieces shorter than registers.
   LongLanes() = default;
   LongLanes(const LongLanes& other) { *this = other; }
   LongLanes& operator=(const LongLanes& other) {
@@ -65,7 +66,7 @@ struct [[gnu::may_alias]] LongLanes {
   Number operator[](std::size_t k) const { return parts[k / InRegister][k % InRegister]; }
 };
 
-/// Four numbers in double precision. GCC 12 takes __builtin_convertvector apart into halves.
+/// Converts four numbers to double precision. GCC 12 splits __builtin_convertvector into halves.
 inline Lanes<double, 4> widen(const float* numbers) {
 #ifdef __AVX__
   return _mm256_cvtps_pd(_mm_loadu_ps(numbers));
@@ -75,7 +76,7 @@ inline Lanes<double, 4> widen(const float* numbers) {
 #endif
 }
 
-/// (0 + 2) + (1 + 3).
+/// Returns the sum in the order (0 + 2) + (1 + 3).
 inline double add_up(Lanes<double, 4> numbers) {
 #ifdef __AVX__
   const __m128d pairs =

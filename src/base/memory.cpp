@@ -16,7 +16,7 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
-/// Memory that the machine has free [bytes].
+/// Returns the free memory of the machine [bytes].
 double free_memory() {
   std::ifstream file("/proc/meminfo");
   double kilobytes = 0.0;
@@ -26,14 +26,14 @@ double free_memory() {
   return unknown;
 }
 
-/// Limit on the process [bytes].
+/// Returns the limit of the process [bytes].
 double limit_of(decltype(RLIMIT_AS) resource) {
   rlimit limit{};
   if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unknown;
   return static_cast<double>(limit.rlim_cur);
 }
 
-/// Address space that the process has, and the part of it that is data [bytes].
+/// Address space of the process and its data part [bytes].
 struct Taken {
   double all = 0.0, data = 0.0;
 };
@@ -67,10 +67,10 @@ std::string failure_text(const std::exception& error) {
   const std::string there_is =
       std::isfinite(limit)
           ? fmt::format("the process may take {} (ulimit -v or -d)", bytes_text(limit))
-          : fmt::format("{} of the machine's are free", bytes_text(free_memory()));
+          : fmt::format("{} of memory are free", bytes_text(free_memory()));
   return fmt::format(
-      "out of memory: {}; a coarser body or a smaller horizon needs less, and perilink check says "
-      "how much",
+      "out of memory: {}; a coarser body or a smaller horizon needs less, and perilink check "
+      "reports how much",
       there_is);
 }
 

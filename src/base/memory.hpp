@@ -5,17 +5,17 @@
 
 namespace perilink {
 
-/// Memory that this process can still take: what the machine has free, or less where a limit
-/// (ulimit -v, ulimit -d) is on the process; infinity where the system does not tell [bytes].
+/// Returns memory that this process can still allocate [bytes]: free memory, or less under ulimit
+/// -v or -d. Infinity if unknown.
 double available_memory();
 
-/// What the limits on this process (ulimit -v, ulimit -d) leave it, infinity without one [bytes].
+/// Returns address space that ulimit -v and -d still allow [bytes]; infinity without a limit.
 double available_address_space();
 
-/// "1.5 GB", "12 MB".
+/// Returns the text of a size, such as "1.5 GB" or "12 MB".
 std::string bytes_text(double bytes);
 
-/// What to tell people of a failure: its own words, or of a lack of memory how much there is.
+/// Returns the message of the error; for a lack of memory, the available memory and the remedy.
 std::string failure_text(const std::exception& error);
 
 }  // namespace perilink

@@ -9,13 +9,13 @@
 
 namespace perilink {
 
-/// Plain values and lists of them in one run of bytes, for another process of the same program:
-/// what is put in comes out in the same order.
+/// Message buffer: plain values and lists as bytes for another process of this program. Values are
+/// read in the order in which they were written.
 class Parcel {
  public:
   Parcel() = default;
   explicit Parcel(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {}
-  /// For other values, in the same memory.
+  /// Empties the buffer and keeps its memory.
   void clear() {
     bytes_.clear();
     next_ = 0;
@@ -33,7 +33,7 @@ class Parcel {
     put_bytes(values.data(), values.size() * sizeof(T));
   }
 
-  /// As many as the receiver knows that there are.
+  /// Writes values without their number; the receiver must read as many.
   template <class T>
   void put_values(std::span<const T> values) {
     static_assert(std::is_trivially_copyable_v<T>);

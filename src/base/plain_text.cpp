@@ -8,7 +8,7 @@
 namespace perilink {
 namespace {
 
-/// A character of UTF-8 and its length; length 0 where the bytes are none.
+/// UTF-8 character and its length [bytes]; length 0 for invalid bytes.
 struct Character {
   std::uint32_t code = 0;
   std::size_t length = 0;

@@ -6,16 +6,16 @@
 
 namespace perilink {
 
-/// Text as it may reach a terminal, a log or an SVG file, wherever it comes from: what would steer
-/// a terminal (control characters, the Unicode marks that turn text around) or is no UTF-8 is
-/// written out, "\x1b" or "\u202e". Line ends and tabs stay. The result is text that XML allows.
+/// Returns a text that is safe for a terminal, a log or an SVG file, and valid in XML. Control
+/// characters, Unicode marks of text direction and invalid UTF-8 are escaped, as "\x1b" or
+/// "\u202e". Line ends and tabs stay.
 std::string printable(std::string_view text);
 
-/// Numbers with six significant digits, separated by ", ". A function of its own, since every call
-/// of fmt::join() or fmt::format_to() compiles the whole formatting of numbers again.
+/// Returns numbers with six significant digits, separated by ", ". One shared function, because
+/// every call of fmt::join() or fmt::format_to() compiles the formatting of numbers again.
 std::string joined(std::span<const double> numbers);
 
-/// Texts separated by ", ".
+/// Returns texts separated by ", ".
 std::string joined(std::span<const std::string> texts);
 
 }  // namespace perilink

@@ -6,7 +6,7 @@
 
 namespace perilink {
 
-/// Calls work(k) for all k below the count, by so many threads. \throws what one of them throws
+/// Calls work(k) for k = 0 … count - 1 in parallel threads. \throws one of the errors of work()
 template <class Work>
 void for_each_side_by_side(Index count, int threads, const Work& work) {
   std::exception_ptr error;

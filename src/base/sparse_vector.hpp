@@ -7,7 +7,7 @@
 
 namespace perilink {
 
-/// The few entries of the vector x of a rank-one change K -+ x x', each row once, in any order.
+/// Nonzero entries of the vector x of a rank-one change K -+ x x', each row once, in any order.
 struct SparseVector {
   std::vector<Index> rows;
   std::vector<double> values;
@@ -15,7 +15,7 @@ struct SparseVector {
   bool operator==(const SparseVector&) const = default;
   int size() const { return static_cast<int>(rows.size()); }
 
-  /// Adds to the entry of the row, which need not be there.
+  /// Adds to the entry of a row; creates the entry if it is missing.
   void add(Index row, double value) {
     const auto found = std::find(rows.begin(), rows.end(), row);
     if (found == rows.end()) {

@@ -5,15 +5,16 @@
 namespace perilink {
 namespace {
 
-/// Share of the last time in the mean, and its largest size over the mean: what comes once is left
-/// out as far as possible.
+/// Weight of the newest time in the mean, and its upper bound over the mean. Both reduce the effect
+/// of single outliers.
 constexpr double newest = 0.25, largest = 4.0;
 
-/// Times vary by as much on a quiet machine; beyond the second one piece of work is trial enough.
+/// Ratios of mean times. Times vary by 10 % on a quiet machine; beyond the second ratio one piece
+/// of work ends the trial.
 constexpr double clearly_slower = 1.1, hopelessly_slower = 1.5;
 
-/// Pieces of work in a trial, and from one to the next: twice as many after each that is lost, and
-/// so many that trials cost a tenth of all time at most.
+/// Pieces of work in a trial and between trials. The interval doubles after each failed trial, so
+/// that trials cost at most a tenth of all time.
 constexpr int trial = 2, least_patience = 64, most_patience = 4096;
 constexpr double most_for_trials = 0.1;
 
@@ -26,7 +27,7 @@ void ThreadChoice::took(double seconds) {
   ++count_;
   const auto change = [&](bool on_trial) {
     several_ = !several_;
-    if (on_trial) mean_[several_ ? 1 : 0] = -1.0;  // what it was tells nothing of the machine now
+    if (on_trial) mean_[several_ ? 1 : 0] = -1.0;  // the machine may have changed
     on_trial_ = on_trial;
     count_ = 0;
   };

@@ -6,10 +6,10 @@
 
 namespace perilink {
 
-/// Chooses between one thread and all for a short piece of work that is done again and again. Where
-/// other programs use the machine, threads wait for one another many times longer than they work
-/// (docs/developers/profiling.md). So the mean time decides, and the slower number is tried again
-/// now and then. For each kind of work one choice: means of several kinds tell nothing.
+/// Chooses between one thread and all threads for a short, repeated piece of work. On a shared
+/// machine, threads can wait much longer than they work (docs/developers/profiling.md). The mean
+/// time decides, and the slower number is tried again at intervals. Each kind of work needs its own
+/// choice, because times of different kinds cannot be compared.
 class ThreadChoice {
  public:
   explicit ThreadChoice(int most) : most_(most) {}
@@ -32,9 +32,10 @@ class ThreadChoice {
     });
   }
 
-  /// For the next piece of work.
+  /// Returns the number of threads for the next piece of work.
   int threads() const { return several_ ? most_ : 1; }
-  /// \param seconds  that it took
+  /// Records the time of a piece of work.
+  /// \param seconds  measured time
   void took(double seconds);
 
  private:
@@ -46,10 +47,10 @@ class ThreadChoice {
 
   int most_;
   bool several_ = false;
-  bool on_trial_ = true;           ///< the slower number, or one that is not known yet
+  bool on_trial_ = true;           ///< trial of the slower number or of an unmeasured one
   int count_ = 0;                  ///< pieces of work since the last change
   int patience_ = 0;               ///< pieces of work until the next trial
-  double mean_[2] = {-1.0, -1.0};  ///< with one thread and with several; negative: not known [s]
+  double mean_[2] = {-1.0, -1.0};  ///< with one thread and with several; negative if unmeasured [s]
 };
 
 }  // namespace perilink

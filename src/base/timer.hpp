@@ -4,10 +4,10 @@
 
 namespace perilink {
 
-/// Wall-clock stopwatch; starts when it is made.
+/// Wall-clock stopwatch that starts when it is created.
 class Timer {
  public:
-  /// Seconds since the start or the last restart.
+  /// Returns seconds since the start or the last restart.
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
   void restart() { start_ = Clock::now(); }
 

@@ -7,12 +7,12 @@
 #include <vector>
 
 /// \file
-/// The index type and the small fixed-size vectors that every module shares.
+/// Index type and small vectors of fixed size that all modules share.
 
 namespace perilink {
 
-/// Number of a particle, bond or unknown. 32 bits hold every case that fits in the memory of one
-/// machine and keep the bond tables, which are read once per event, half as large.
+/// Number of a particle, bond or unknown. 32 bits suffice for every case that fits in one machine's
+/// memory. They halve the bond tables, which are read once per event.
 using Index = std::int32_t;
 
 /// Marks "no such particle, bond or unknown".
@@ -20,7 +20,7 @@ inline constexpr Index no_index = -1;
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Position or displacement; two-dimensional bodies leave the third component zero.
+/// Position or displacement; the third component is zero in two-dimensional bodies.
 using Vector3 = std::array<double, 3>;
 
 }  // namespace perilink

@@ -7,10 +7,11 @@
 namespace perilink {
 namespace {
 
-/// What is left of a vector, over its length: none of it, or enough for a direction of its own.
+/// Length of a remainder over the vector's length: below `none` it is zero, above `enough` it is a
+/// new direction.
 constexpr double none = 1e-12, enough = 1e-3;
 
-/// Lengths of the vectors that make up one, over its own.
+/// Largest sum of the lengths of combined vectors over the length of their result.
 constexpr double longest = 30.0;
 
 double length_of(const std::vector<double>& values) {
@@ -48,7 +49,7 @@ void VectorSpan::add(const SparseVector& x, Index number) {
   const double left = length_of(parts.rest);
   if (!(left > enough * length)) return;
   for (double& value : parts.rest) value /= left;
-  // What is left of directions that it had, once more.
+  // Second orthogonalisation, against round-off.
   for (const std::vector<double>& direction : directions_) {
     const double along =
         std::inner_product(direction.begin(), direction.end(), parts.rest.begin(), 0.0);

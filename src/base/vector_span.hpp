@@ -9,35 +9,34 @@
 
 namespace perilink {
 
-/// What a few sparse vectors are combined to: bonds between particles that have many of them pull
-/// at no more unknowns than these particles have.
+/// Span of a few sparse vectors. Many bonds between few particles have linearly dependent vectors.
 class VectorSpan {
  public:
-  /// A vector that was added, by its number, and how much of it.
+  /// Number of an added vector and its coefficient.
   struct Part {
     Index number;
     double share;
   };
 
   void clear();
-  /// Vectors that others make up but for round-off are not taken in.
+  /// Adds a vector unless it depends linearly on the others up to round-off.
   void add(const SparseVector& x, Index number);
-  /// Which vectors make it up, to 1e-12 of its length; none where that would take vectors of more
-  /// than some times its length, whose errors it would have.
+  /// Returns coefficients of a linear combination that equals `x` to 1e-12 of its length. Empty if
+  /// the vectors do not span `x`, or only by coefficients that are too large to be exact.
   std::optional<std::vector<Part>> parts_of(const SparseVector& x) const;
 
  private:
-  /// Coordinates along the directions, and the rest, by the rows.
+  /// Coordinates along the directions, and the remainder by rows.
   struct Split {
     std::vector<double> along, rest;
   };
   Split split(const SparseVector& x) const;
 
-  std::unordered_map<Index, std::size_t> row_of_;  ///< where each unknown that they act on comes
+  std::unordered_map<Index, std::size_t> row_of_;  ///< position of each unknown with entries
   std::vector<Index> numbers_;
-  std::vector<double> lengths_;                   ///< that the vectors have
-  std::vector<std::vector<double>> directions_;   ///< orthonormal; rows behind the last are zero
-  std::vector<std::vector<double>> coordinates_;  ///< one list for each vector, over its length
+  std::vector<double> lengths_;                   ///< lengths of the vectors
+  std::vector<std::vector<double>> directions_;   ///< orthonormal; rows beyond the last are zero
+  std::vector<std::vector<double>> coordinates_;  ///< one list per vector, divided by its length
 };
 
 }  // namespace perilink

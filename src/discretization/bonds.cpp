@@ -65,20 +65,20 @@ void Bonds::append(Index i, Index j, double length, std::span<const double> towa
 
 namespace {
 
-/// Lengths and directions that differ by more than round-off.
+/// Finds the distinct pairs of length and direction, up to round-off.
 class BondKinds {
  public:
   explicit BondKinds(const Bonds& bonds) : bonds_(bonds) { shared.dim = bonds.dim; }
 
   Index find(Index b) {
-    // Bonds of a lattice follow each other in the same order at every particle.
+    // In a lattice, bonds follow one another in one order at every particle.
     const Index guess = last_ == no_index ? no_index : behind_[last_];
     const Index found = guess != no_index && is_alike(guess, b) ? guess : look_up(b);
     if (last_ != no_index) behind_[last_] = found;
     return last_ = found;
   }
 
-  Bonds shared;  ///< one of each kind
+  Bonds shared;  ///< one bond per kind
 
  private:
   using Cell = std::array<long long, 4>;
@@ -99,7 +99,7 @@ class BondKinds {
            std::ranges::equal(shared.direction(kind), bonds_.direction(b),
                               [&](double x, double y) { return is_near(x, y, 1.0); });
   }
-  /// Far wider than round-off, far narrower than what differs.
+  /// Cells are much wider than round-off and much narrower than true differences.
   Cell cell_of(Index b) const {
     constexpr double cells = 1e7;
     Cell cell{std::llround(cells * bonds_.length(b) / bonds_.length(0))};
@@ -109,7 +109,7 @@ class BondKinds {
 
   const Bonds& bonds_;
   std::map<Cell, Index> number_;
-  std::vector<Index> behind_;  // kind that came behind each last
+  std::vector<Index> behind_;  // per kind: the kind that followed it last
   Index last_ = no_index;
 };
 
@@ -142,7 +142,7 @@ Bonds make_bonds(const Particles& particles, double horizon) {
   bonds.lengths.reserve(neighbors.values.size());
   bonds.directions.reserve(neighbors.values.size() * particles.dim);
   for (Index i = 0; i < count; ++i) {
-    // Ghosts come after all solid particles: their upper neighbours are ghosts.
+    // Ghosts follow all solid particles, so their upper neighbours are ghosts.
     if (particles.kind[i] == ParticleKind::ghost) break;
     for (const Index j : neighbors.row(i)) bonds.append(particles, i, j);
   }
@@ -220,9 +220,9 @@ std::vector<std::uint8_t> loosely_held(const Bonds& bonds, Index num_particles,
   std::vector<std::uint8_t> loose;
   for (Eigen::Matrix3d& gram : grams) {
     const double trace = gram.trace();
-    if (bonds.dim == 2) gram(2, 2) = trace;  // the third direction is not asked for
+    if (bonds.dim == 2) gram(2, 2) = trace;  // the plane has no third direction
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(gram, Eigen::EigenvaluesOnly);
-    // Squared sines between directions; round-off leaves 1e-15.
+    // Squared sines between directions; round-off gives 1e-15.
     loose.push_back(!(solver.eigenvalues()[0] > 1e-10 * trace));
   }
   return loose;

@@ -10,15 +10,15 @@
 
 namespace perilink {
 
-/// The bonds of a body, one entry per unordered pair, first < second, sorted by (first, second), so
-/// that the number of a bond does not depend on how its neighbours were found.
+/// Bonds of a body, one entry per unordered pair, first < second, sorted by (first, second). The
+/// number of a bond therefore does not depend on the search for neighbours.
 struct Bonds {
   int dim = 2;
   std::vector<Index> first;
   std::vector<Index> second;
   std::vector<double> lengths;     ///< xi [length], per kind
   std::vector<double> directions;  ///< unit vectors from first to second, shape (kinds, dim)
-  std::vector<Index> kind;         ///< per bond; empty: every bond is its own
+  std::vector<Index> kind;         ///< kind of each bond; empty: each bond is its own kind
 
   Index size() const { return static_cast<Index>(first.size()); }
   Index kind_of(Index b) const { return kind.empty() ? b : kind[b]; }
@@ -32,49 +32,51 @@ struct Bonds {
     return first[b] == particle ? second[b] : first[b];
   }
   void reserve(std::size_t count);
-  /// Appends the bond between two distinct particles; the caller keeps the order.
+  /// Appends the bond between two distinct particles. The caller must keep the sorting.
   void append(const Particles& particles, Index i, Index j);
-  /// No bonds yet, room for some that have the kinds of others.
+  /// Empties the bonds, copies the kinds of `others` and reserves memory for `count` bonds.
   void begin_alike(const Bonds& others, std::size_t count);
   void append_alike(Index i, Index j, Index as);
   /// \param towards  unit vector from i to j, size dim
   void append(Index i, Index j, double length, std::span<const double> towards);
 };
 
-/// Keeps one length and direction for all bonds that have the same but for round-off, where there
-/// are far fewer of these than bonds: elsewhere they are most of what a network of trusses takes.
+/// Stores one length and direction per kind of bonds that are equal up to round-off, if there are
+/// far fewer kinds than bonds. Otherwise lengths and directions need most of a truss network's
+/// memory.
 void share_directions(Bonds& bonds);
 
-/// Distances up to horizon * (1 + horizon_tolerance) are inside the horizon: a neighbour that lies
-/// on the horizon by construction must not be lost to round-off.
+/// Relative tolerance of the horizon. Round-off must not remove neighbours that lie on the horizon
+/// by construction.
 inline constexpr double horizon_tolerance = 1e-9;
 
-/// Bonds between all solid and ghost particles within the horizon. Ghosts are not bonded to each
-/// other (their stiffness would be zero).
+/// Returns bonds between all solid and ghost particles within the horizon. Ghosts are not bonded to
+/// one another, because such bonds would have no stiffness.
 Bonds make_bonds(const Particles& particles, double horizon);
 
-/// Bonds at every particle (families): row i holds the numbers of the bonds that end at particle i.
+/// Returns bonds of every particle (neighbourhoods): row i holds the numbers of the bonds that end
+/// at particle i.
 Csr bonds_of_particles(const Bonds& bonds, Index num_particles);
 
-/// Keeps the bonds that are marked, in their order. \return number of bonds taken out
+/// Keeps the marked bonds in their order. \return number of removed bonds
 Index keep_bonds(Bonds& bonds, std::span<const std::uint8_t> keep);
 
-/// Keeps the particles that are marked, in their order, and the bonds between them.
+/// Keeps the marked particles in their order, and the bonds between them.
 void keep_particles(Particles& particles, Bonds& bonds, std::span<const std::uint8_t> keep);
 
-/// Whether bonds in fewer than dim independent directions hold each particle: it could move for
-/// nothing.
-/// \param stiffness  per bond: those that have none do not count; empty: all do
+/// Returns nonzero for each particle whose bonds have fewer than dim independent directions. Such
+/// particles can move without energy.
+/// \param stiffness  per bond; bonds without stiffness are ignored; empty: all bonds count
 std::vector<std::uint8_t> loosely_held(const Bonds& bonds, Index num_particles,
                                        std::span<const double> stiffness = {});
 
-/// Drops the ghosts that bonds in fewer than dim independent directions hold, with their bonds:
-/// they carry no force and would make the stiffness singular. To be called before bars are added.
-/// \return number of ghosts dropped
+/// Removes ghosts whose bonds have fewer than dim independent directions, with their bonds. Such
+/// ghosts carry no force and would make the stiffness singular. Call it before bars are added.
+/// \return number of removed ghosts
 Index remove_loose_ghosts(Particles& particles, Bonds& bonds);
 
-/// Number of the connected part of the body that each particle belongs to, from zero in the order
-/// of their first particles.
+/// Returns the number of the connected part that each particle belongs to, from zero in the order
+/// of the parts' first particles.
 std::vector<Index> connected_parts(const Bonds& bonds, Index num_particles);
 
 }  // namespace perilink

@@ -7,18 +7,18 @@
 namespace perilink {
 namespace {
 
-/// Radius in which particles count first, in spacings, and its growth where they are too few.
+/// First radius of the search for particles [spacings], and its growth factor if they are too few.
 constexpr double first_reach = 1.75;
 constexpr double growth = 1.1;
 
-/// Least eigenvalue of the moments of enough particles, over the largest one.
+/// Least eigenvalue of the moments over the largest one; below it the particles are too few.
 constexpr double least_spread = 0.02;
 
-/// One, and the way to a particle in spacings.
+/// Linear basis: one, and the vector to a particle [spacings].
 template <int Dim>
 using Basis = Eigen::Matrix<double, Dim + 1, 1>;
 
-/// Falls smoothly from one to zero at the radius.
+/// Returns a weight that falls smoothly from one to zero at the radius.
 template <int Dim>
 double kernel(const Basis<Dim>& basis, double reach) {
   const double square = (basis.squaredNorm() - 1.0) / (reach * reach);

@@ -8,9 +8,9 @@
 
 namespace perilink {
 
-/// Points that move with particles around them.
+/// Points whose motion is a weighted sum of the motions of nearby particles.
 struct EmbeddedPoints {
-  /// Per anchor: the particles that move it, by a motion that is the sum of `weights` times theirs.
+  /// Per embedded point: particles that move it; `weights` holds one weight per particle.
   Csr particles;
   std::vector<double> weights;
 
@@ -26,15 +26,16 @@ struct EmbeddedPoints {
   }
 };
 
-/// Particles around a point within this many spacings may be asked to move it.
+/// Largest distance between a point and the particles that move it [spacings].
 inline constexpr double embedded_point_reach = 2.5;
 
-/// Weights with which the values of a linear field at particles give that at a point, the same for
-/// all fields: those of moving least squares, which change smoothly as the point moves. They are
-/// zero for particles that are far, and the farther the fewer particles are near.
+/// Weights of moving least squares, which reproduce the values of every linear field at a point.
+/// They change smoothly with the point. Distant particles have zero weight; the radius grows where
+/// particles are few.
 /// \param arms     from the point to each particle, shape (n, dim) [length]
-/// \param spacing  between particles, about [length]
-/// \return per particle; empty where the particles within anchor_reach do not span a linear field
+/// \param spacing  approximate distance of neighbouring particles [length]
+/// \return per particle; empty if the particles within embedded_point_reach do not span a linear
+///     field
 std::vector<double> linear_weights(std::span<const double> arms, int dim, double spacing);
 
 }  // namespace perilink

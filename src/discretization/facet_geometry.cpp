@@ -62,7 +62,7 @@ double height_above(const FacetGeometry& facet, const Vector3& point) {
 Vector3 nearest_point(const FacetGeometry& facet, const Vector3& point) {
   if (facet.edge) return nearest_on_segment(facet.a, facet.b, point);
   const Vector3 u = minus(facet.b, facet.a), v = minus(facet.c, facet.a), w = minus(point, facet.a);
-  // Barycentric coordinates of the foot of the perpendicular: least squares in u and v.
+  // Barycentric coordinates of the foot of the perpendicular by least squares in u and v.
   const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), wu = dot(w, u), wv = dot(w, v);
   const double determinant = uu * vv - uv * uv;
   const double s = (wu * vv - wv * uv) / determinant, t = (wv * uu - wu * uv) / determinant;

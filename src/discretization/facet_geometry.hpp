@@ -8,24 +8,24 @@
 
 namespace perilink {
 
-/// Edge (2D) or triangle (3D) of a surface by its corners.
+/// Corners of a surface edge (2D) or triangle (3D).
 struct FacetGeometry {
-  bool edge = true;       ///< whether only the corners a and b count
+  bool edge = true;       ///< true: only the corners a and b are used
   Vector3 a{}, b{}, c{};  ///< [length]
   Vector3 normal{};       ///< unit vector out of the body
   double size = 0.0;      ///< longest side [length]
 };
 
-/// \param facet  with two corners, or three in space
+/// \param facet  two corners in the plane, three in space
 FacetGeometry facet_geometry(const Particles& particles, const Facets& facets, Index facet);
 
-/// Distance along the normal from the facet's line or plane, positive outside [length].
+/// Returns the distance along the normal from the facet's line or plane, positive outside [length].
 double height_above(const FacetGeometry& facet, const Vector3& point);
 
-/// Point of the facet nearest to a point.
+/// Returns the point of the facet nearest to `point`.
 Vector3 nearest_point(const FacetGeometry& facet, const Vector3& point);
 
-/// Area of a triangle or volume of a tetrahedron, negative where the corners run the wrong way.
+/// Returns the area of a triangle or volume of a tetrahedron, negative for reversed corners.
 /// \param positions  shape (points, dim) [length]
 double signed_volume(std::span<const double> positions, int dim, std::span<const Index> cell);
 
@@ -33,7 +33,7 @@ double dot(const Vector3& a, const Vector3& b);
 Vector3 minus(const Vector3& a, const Vector3& b);
 Vector3 cross(const Vector3& a, const Vector3& b);
 double norm(const Vector3& a);
-/// start + fraction * (end - start)
+/// Returns start + fraction * (end - start).
 Vector3 between(const Vector3& start, const Vector3& end, double fraction);
 
 }  // namespace perilink

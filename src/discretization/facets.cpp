@@ -9,10 +9,10 @@
 namespace perilink {
 namespace {
 
-/// Sorts behind every particle.
+/// Sorts after every particle.
 constexpr Index no_corner = std::numeric_limits<Index>::max();
 
-/// One side of a cell: its corners in ascending order, to be matched with those of the neighbour.
+/// Side of a cell; its corners are ascending, so that sides of neighbouring cells match.
 struct Side {
   std::array<Index, 3> corners;  // the third is no_corner in two dimensions
   Index material;
@@ -27,7 +27,7 @@ Vector3 point(std::span<const double> positions, int dim, Index i) {
   return x;
 }
 
-/// Area vector of the side opposite to `apex`, pointing away from it.
+/// Returns the area vector of the side opposite to `apex`, pointing away from it.
 Vector3 area_vector_of(std::span<const double> positions, int dim,
                        const std::array<Index, 3>& corners, Index apex, double thickness) {
   const Vector3 a = point(positions, dim, corners[0]);

@@ -10,24 +10,24 @@
 
 namespace perilink {
 
-/// Pieces of the surface of a body and of the faces between its materials: edges in two dimensions,
-/// triangles or rectangles in three. Every corner takes a share of the area vector, the integral of
-/// its shape function times the normal; so the facets carry tractions to particles and say which
-/// forces a uniform strain needs at the boundary (bond calibration).
+/// Pieces of the surface of a body and of its material interfaces: edges in two dimensions,
+/// triangles or rectangles in three. Each corner has a nodal area fraction: the integral of its
+/// shape function divided by the area. Facets distribute tractions to particles. Bond calibration
+/// takes the boundary forces of a uniform strain from them.
 struct Facets {
   int dim = 2;
   Csr corners;  ///< particles at the corners of each facet
-  /// Per corner, as corners.values; their sum is one per facet. Equal, until balance_shares()
-  /// shifts them a little.
+  /// Nodal area fraction per corner, as corners.values; the sum per facet is one. Fractions are
+  /// equal until balance_shares() changes them.
   std::vector<double> shares;
   /// Area times unit normal, shape (size, dim) [length^2]; in two dimensions the area is length
   /// times thickness.
   std::vector<double> area_vectors;
   std::vector<Index> inside;   ///< material of the cell that the normal points out of
-  std::vector<Index> outside;  ///< material of the cell beyond; no_index: the surface of the body
+  std::vector<Index> outside;  ///< material of the cell beyond; no_index: surface of the body
 
-  /// Nonzero where an ordinary finite element holds the other side: its nodes take equal shares,
-  /// and so must these; empty: nowhere.
+  /// Nonzero where an ordinary finite element is tied to the facet: its nodes have equal fractions,
+  /// so the facet must too. Empty: no tied facets.
   std::vector<std::uint8_t> tied = {};
 
   Index size() const { return static_cast<Index>(inside.size()); }
@@ -37,17 +37,17 @@ struct Facets {
     return {area_vectors.data() + static_cast<std::size_t>(facet) * dim,
             static_cast<std::size_t>(dim)};
   }
-  /// Mean of the corners' positions [length]; `positions` has shape (particles, dim).
+  /// Returns the mean of the corners' positions [length]; `positions` has shape (particles, dim).
   Vector3 centre(Index facet, std::span<const double> positions) const;
   void append(std::span<const Index> corner_particles, const Vector3& area_vector,
               Index material_inside, Index material_outside);
 };
 
-/// Surface and material interfaces of a mesh, in the order of their corners. At an interface the
-/// inside is the material of the lower number.
+/// Returns surface and material interfaces of a mesh, in the order of their corners. At an
+/// interface the inside is the material with the lower number.
 /// \param positions  shape (particles, dim) [length]
 /// \param thickness  two-dimensional bodies only [length]
-/// \throws std::invalid_argument where more than two cells share a facet
+/// \throws std::invalid_argument if more than two cells share a facet
 Facets facets_of(const Simplices& cells, std::span<const double> positions, double thickness);
 
 }  // namespace perilink

@@ -12,19 +12,19 @@ namespace {
 
 using Corners = std::array<Index, 3>;
 
-/// Corners of the faces of a positively oriented cell, normals pointing out.
+/// Corners of the faces of a positively oriented cell; normals point outwards.
 constexpr std::array<std::array<int, 2>, 3> faces_of_triangle = {{{0, 1}, {1, 2}, {2, 0}}};
 constexpr std::array<std::array<int, 3>, 4> faces_of_tetrahedron = {
     {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
-/// A face as one cell sees it.
+/// Face of one cell.
 struct CellSide {
   Corners key{no_index, no_index, no_index};  // corners, ascending
-  bool odd = false;                           // sorting them was an odd permutation
+  bool odd = false;                           // whether sorting was an odd permutation
   Index cell = no_index;
 };
 
-/// Sorts the corners; true after an odd number of exchanges.
+/// Sorts the corners. \return true after an odd number of exchanges
 bool sort_corners(Corners& corners, int count) {
   bool odd = false;
   for (int i = 1; i < count; ++i) {

@@ -9,10 +9,10 @@
 
 namespace perilink {
 
-/// Position of a particle; the third component is zero in two dimensions.
+/// Returns the position of a particle; the third component is zero in two dimensions.
 Vector3 point_of(std::span<const double> positions, int dim, Index i);
 
-/// Edges (2D) or triangles (3D) between the cells of a mesh and on its surface, each once.
+/// Edges (2D) or triangles (3D) between the cells of a mesh and on its surface, each stored once.
 struct CellFaces {
   int dim = 2;
   std::vector<Index> corners;               ///< ascending, shape (size, dim)
@@ -25,13 +25,12 @@ struct CellFaces {
 };
 
 /// Pairs the faces of positively oriented cells, in the order of their corners. The first cell of a
-/// face is the one of the lower material, then of the lower number.
+/// face has the lower material, then the lower number.
 /// \param positions  shape (particles, dim), for messages
-/// \throws std::invalid_argument where a face belongs to more than two cells, or two cells lie on
-///         the same side of it
+/// \throws std::invalid_argument if a face belongs to more than two cells or its cells overlap
 CellFaces find_faces(const Simplices& cells, std::span<const double> positions);
 
-/// Number of the face with these corners in any order, or no_index.
+/// Returns the number of the face with these corners in any order, or no_index.
 Index find_face(const CellFaces& faces, std::span<const Index> corners);
 
 }  // namespace perilink

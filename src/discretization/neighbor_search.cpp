@@ -11,7 +11,7 @@
 namespace perilink {
 namespace {
 
-/// The points as nanoflann wants to read them.
+/// Adapter of the points for nanoflann.
 struct PointCloud {
   std::span<const double> positions;
   std::size_t dim;
@@ -26,10 +26,10 @@ struct PointCloud {
   }
 };
 
-/// Collects the points above `lowest` whose squared distance is below `limit`.
+/// Collects points with numbers above `lowest` and squared distances below `limit`.
 class RowCollector {
  public:
-  using DistanceType = double;  // nanoflann's names
+  using DistanceType = double;  // names required by nanoflann
   using IndexType = Index;
 
   RowCollector(std::vector<Index>& found, Index lowest, double limit)
@@ -54,7 +54,8 @@ using Tree = nanoflann::KDTreeSingleIndexAdaptor<
     nanoflann::L2_Simple_Adaptor<double, PointCloud, double, Index>, PointCloud, Dim, Index>;
 const nanoflann::KDTreeSingleIndexAdaptorParams tree_parameters(16);
 
-/// Row q holds the points within radius_of(q) of query q, those above q only when `upper_only`.
+/// Returns the points within radius_of(q) of every query q in row q. With `upper_only`, only points
+/// above q.
 template <int Dim, class Radius>
 Csr search(std::span<const double> points, std::span<const double> queries, const Radius& radius_of,
            bool upper_only) {
@@ -66,7 +67,7 @@ Csr search(std::span<const double> points, std::span<const double> queries, cons
   const PointCloud particle_set{points, Dim};
   Tree<Dim> tree(Dim, particle_set, tree_parameters);
 
-  // Chunks are searched in parallel and joined in order, so the result does not depend on threads.
+  // Chunks are searched in parallel and joined in order, so the result is independent of threads.
   constexpr Index chunk_size = 4096;
   const Index num_chunks = (num_queries + chunk_size - 1) / chunk_size;
   std::vector<std::vector<Index>> chunks(static_cast<std::size_t>(num_chunks));
@@ -76,7 +77,7 @@ Csr search(std::span<const double> points, std::span<const double> queries, cons
     const Index end = std::min(num_queries, (chunk + 1) * chunk_size);
     for (Index query = chunk * chunk_size; query < end; ++query) {
       row.clear();
-      // nanoflann compares squared distances with "<"; the radius itself is inside.
+      // nanoflann compares squared distances with "<", but points at the radius belong to the row.
       const double radius = radius_of(query);
       const double limit = std::nextafter(radius * radius, std::numeric_limits<double>::infinity());
       RowCollector collector(row, upper_only ? query : no_index, limit);
@@ -126,7 +127,7 @@ std::vector<double> nearest(std::span<const double> positions, int count) {
   Tree<Dim> tree(Dim, particle_set, tree_parameters);
 #pragma omp parallel
   {
-    const std::size_t wanted = static_cast<std::size_t>(count) + 1;  // with the point itself
+    const std::size_t wanted = static_cast<std::size_t>(count) + 1;  // including the point itself
     std::vector<Index> found(wanted);
     std::vector<double> squares(wanted);
 #pragma omp for schedule(static)

@@ -7,24 +7,28 @@
 
 namespace perilink {
 
-/// Neighbours j > i within `radius` [length] of every point i, each row sorted ascending.
+/// Returns neighbours j > i within `radius` [length] of every point i; rows are ascending.
 /// \param positions  shape (n, dim)
 /// \throws std::invalid_argument for a dimension other than 2 or 3
 Csr find_upper_neighbors(std::span<const double> positions, int dim, double radius);
 
-/// Points within `radius` [length] of every query; row q is sorted ascending.
+/// Returns points within `radius` [length] of every query; rows are ascending.
 /// \param points   shape (n, dim)
 /// \param queries  shape (rows of the result, dim)
 /// \throws std::invalid_argument for a dimension other than 2 or 3
 Csr find_neighbors(std::span<const double> points, std::span<const double> queries, int dim,
                    double radius);
 
-/// The same with a radius of each query's own.
+/// Returns points within a radius per query [length]; rows are ascending.
+/// \param points   shape (n, dim)
+/// \param queries  shape (rows of the result, dim)
+/// \param radii    per query [length]
+/// \throws std::invalid_argument for a dimension other than 2 or 3
 Csr find_neighbors_within(std::span<const double> points, std::span<const double> queries, int dim,
                           std::span<const double> radii);
 
-/// Distance of the count-th nearest other point from every point [length]; infinite where there are
-/// fewer others.
+/// Returns the distance from every point to its count-th nearest other point [length]. Infinite if
+/// there are fewer others.
 /// \param positions  shape (n, dim)
 /// \throws std::invalid_argument for a dimension other than 2 or 3
 std::vector<double> distances_of_nearest(std::span<const double> positions, int dim, int count);

@@ -7,7 +7,7 @@
 namespace perilink {
 namespace {
 
-/// All lower and upper coordinates along an axis, ascending, one for each plane.
+/// Returns distinct lower and upper coordinates along an axis, ascending.
 std::vector<double> planes(std::span<const Box> boxes, int axis, double tolerance) {
   std::vector<double> all;
   for (const Box& box : boxes) {

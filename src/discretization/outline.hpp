@@ -24,14 +24,14 @@ struct Outline {
   }
 };
 
-/// \param tolerance  faces closer than this are the same plane [length]
-/// \throws std::invalid_argument without boxes or where one has no extent
+/// \param tolerance  faces closer than this lie in one plane [length]
+/// \throws std::invalid_argument without boxes or for a box without extent
 Outline make_outline(std::span<const Box> boxes, int dim, double tolerance);
 
-/// Exact volume of the union; in two dimensions its area.
+/// Returns the exact volume of the union; in two dimensions its area.
 double volume(const Outline& outline);
 
-/// Coordinates at which a face of the union lies across the axis, ascending.
+/// Returns ascending coordinates of the union's faces normal to the axis.
 std::vector<double> faces(const Outline& outline, int axis);
 
 }  // namespace perilink

@@ -8,22 +8,21 @@
 
 namespace perilink {
 
-/// What a particle stands for.
+/// Kind of a particle.
 enum class ParticleKind : std::uint8_t {
-  solid,  ///< material of the body
-  ghost,  ///< Peri2D's ghost layer: no modulus of its own, bonds to solid particles at half
-          ///< stiffness
-  rebar,  ///< node of a reinforcing bar
-  embedded_point,  ///< point that moves with particles around it (Anchors)
+  solid,           ///< material of the body
+  ghost,           ///< Peri2D's ghost: no modulus; bonds to solid particles at half stiffness
+  rebar,           ///< node of a reinforcing bar
+  embedded_point,  ///< point moved by the particles around it (EmbeddedPoints)
 };
 
-/// Whether it is held and driven by itself: a solid particle or a node of a bar.
+/// Returns whether supports and loads may act on it: a solid particle or a bar node.
 inline bool is_material(ParticleKind kind) {
   return kind == ParticleKind::solid || kind == ParticleKind::rebar;
 }
 
-/// The particles of a body, structure of arrays. Solid particles come first, then ghosts, then the
-/// nodes of reinforcing bars, then anchors.
+/// Particles of a body as a structure of arrays: solid particles, ghosts, bar nodes, embedded
+/// points, in this order.
 struct Particles {
   int dim = 2;
   std::vector<double> positions;  ///< [length], shape (size, dim), row after row

@@ -8,19 +8,20 @@
 
 namespace perilink {
 
-/// Sorts points into boxes of about equally many neighbours: halves them along the longest axis
+/// Sorts points into boxes of about equal numbers of points: halves them along the longest axis
 /// until no box has more than `most`.
 /// \param positions  shape (points, dim)
 /// \return numbers of the points of each box, ascending
 std::vector<std::vector<Index>> split_into_boxes(std::span<const double> positions, int dim,
                                                  Index most);
 
-/// The same in a given number of boxes.
+/// Sorts points into `parts` boxes of about equal numbers of points, by bisection of the longest
+/// axis.
 std::vector<std::vector<Index>> split_into_parts(std::span<const double> positions, int dim,
                                                  Index parts);
 
-/// Parts of a box that are not joined become boxes of their own.
-/// \return those of the first box first
+/// Splits each box into its connected parts.
+/// \return boxes in the order of the given ones
 std::vector<std::vector<Index>> split_unjoined(const std::vector<std::vector<Index>>& boxes,
                                                JoinedParts& parts);
 

@@ -11,10 +11,10 @@
 namespace perilink {
 namespace {
 
-/// Nodes closer than this are one, in spacings.
+/// Nodes closer than this are merged [spacings].
 constexpr double merge_tolerance = 1e-6;
 
-/// Where the nodes of a bar are.
+/// Returns positions of the nodes along a bar.
 std::vector<Vector3> nodes_of(const RebarLine& bar, int dim, double spacing, std::size_t number) {
   std::vector<Vector3> corners = {bar.from};
   corners.insert(corners.end(), bar.bends.begin(), bar.bends.end());
@@ -50,8 +50,8 @@ Index add_node(Particles& particles, const Vector3& point, double volume) {
   return particles.size() - 1;
 }
 
-/// Number of the particle at each wanted node of bars that are not anchored: a solid particle, an
-/// earlier node, or a new one.
+/// Returns the particle at each wanted node of bars without embedded points: a solid particle, an
+/// earlier node or a new one.
 std::vector<Index> place_nodes(Particles& particles, std::span<const double> wanted, double spacing,
                                double cell_volume) {
   const int dim = particles.dim;
@@ -89,7 +89,7 @@ std::vector<Index> place_embedded(Particles& particles, const std::vector<Vector
   return placed;
 }
 
-/// Adds what anchors need to know of the nodes of a bar.
+/// Appends the nodes of an embedded bar with their directions and lengths to the mesh.
 void note_embedded(const std::vector<Vector3>& nodes, const std::vector<Index>& placed, Index bar,
                    RebarMesh& mesh) {
   const std::size_t count = nodes.size(), own = mesh.embedded.size();
@@ -110,7 +110,7 @@ void note_embedded(const std::vector<Vector3>& nodes, const std::vector<Index>& 
   for (std::size_t k = own; k < mesh.embedded.size(); ++k) {
     BarNode& node = mesh.embedded[k];
     double length = norm(node.along);
-    if (length < 1e-6) {  // the bar turns back
+    if (length < 1e-6) {  // the bar reverses its direction
       const std::size_t from = std::max<std::size_t>(k - own, 1) - 1;
       node.along = minus(nodes[from + 1], nodes[from]);
       length = norm(node.along);
@@ -119,7 +119,7 @@ void note_embedded(const std::vector<Vector3>& nodes, const std::vector<Index>& 
   }
 }
 
-/// Bonds between the solid particles and the new nodes, in the order of Bonds.
+/// Returns bonds between the solid particles and the new nodes, sorted as Bonds.
 Bonds join_nodes(const Particles& particles, Index first_node, double horizon) {
   const int dim = particles.dim;
   const auto first_other = std::find_if(particles.kind.begin(), particles.kind.end(),

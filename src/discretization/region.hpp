@@ -8,34 +8,35 @@
 
 namespace perilink {
 
-/// Axis-parallel box [lower, upper]; in two dimensions the third interval is not looked at.
+/// Axis-parallel box [lower, upper]; in two dimensions the third interval is ignored.
 struct Box {
   Vector3 lower{};
   Vector3 upper{};
 
-  /// Whether a point lies in the box or within `tolerance` [length] of it.
+  /// Returns whether a point lies in the box or within `tolerance` [length] of it.
   bool contains(std::span<const double> point, double tolerance) const;
 };
 
-/// A disc in the plane, a ball in space, or what lies within a radius of a line along an axis.
+/// Disc in the plane, ball in space, or infinite cylinder along an axis.
 struct Round {
   Vector3 center{};
   double radius = 0.0;
-  std::optional<int> axis;  ///< axis of a cylinder; the center's coordinate along it does not count
+  std::optional<int> axis;  ///< cylinder axis; the center's coordinate along it is ignored
 
-  /// Distance of a point from the circle, the sphere or the cylinder's side, negative within.
+  /// Returns the distance of a point from the circle, sphere or cylinder side, negative inside
+  /// [length].
   double distance(std::span<const double> point) const;
 };
 
-/// A named box of the case file, a round part of it, or a physical group of the case's mesh.
+/// Named box of the case file, round part of it, or physical group of the case's mesh.
 struct Region {
   std::string name;
-  Box box;  ///< around `round`, where the region has one
+  Box box;  ///< bounding box of `round` if there is one
   std::optional<Round> round;
-  std::string group;  ///< group of the mesh; empty: the shape counts
+  std::string group;  ///< mesh group; empty: the shape defines the region
 
-  /// Whether a point lies in the shape or within `tolerance` [length] of it; negative: deeper in
-  /// the shape than that. Not for groups.
+  /// Returns whether a point lies in the shape or within `tolerance` [length] of it; a negative
+  /// tolerance requires that distance inside the shape. Not valid for groups.
   bool contains(std::span<const double> point, double tolerance) const;
 };
 

@@ -7,7 +7,7 @@
 
 namespace perilink {
 
-/// Components of particle `number` in an array of shape (particles, Dim), without a copy.
+/// Returns a view of the components of particle `number` in an array of shape (particles, Dim).
 template <int Dim>
 Eigen::Map<const Eigen::Matrix<double, Dim, 1>> vector_at(std::span<const double> values,
                                                           Index number) {

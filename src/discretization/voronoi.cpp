@@ -25,9 +25,9 @@ double volume_of(const Simplex<Dim>& simplex) {
 
 /// Appends the part of a simplex where normal.x <= offset, cut into simplices.
 ///
-/// With k corners v_i inside and m corners w_j outside the part has the corners of the product of a
-/// simplex of k corners and one of m + 1: v_i and the points on the edges (v_i, w_j). Its staircase
-/// triangulation has one simplex for every way from (0, 0) to (k - 1, m) by single steps.
+/// With k corners v_i inside and m corners w_j outside, the part is the product of a simplex of k
+/// corners and one of m + 1. Its corners are v_i and the points on the edges (v_i, w_j). Its
+/// staircase triangulation has one simplex per path from (0, 0) to (k - 1, m) by single steps.
 template <int Dim>
 void cut(const Simplex<Dim>& simplex, const Point<Dim>& normal, double offset,
          std::vector<Simplex<Dim>>& parts) {
@@ -50,7 +50,7 @@ void cut(const Simplex<Dim>& simplex, const Point<Dim>& normal, double offset,
     return simplex[v] + height[v] / (height[v] - height[w]) * (simplex[w] - simplex[v]);
   };
   for (unsigned way = 0; way < 1U << Dim; ++way) {
-    if (std::popcount(way) != k - 1) continue;  // its bits: steps to the next corner inside
+    if (std::popcount(way) != k - 1) continue;  // bits: steps to the next inner corner
     Simplex<Dim> part;
     int i = 0, j = 0;
     part[0] = corner(0, 0);
@@ -69,7 +69,7 @@ class VoronoiShares {
       : particles_(particles), cells_(cells), around_(around_cells()) {}
 
   std::vector<double> sum(double thickness) const {
-    // What each cell gives to each particle around it, then sums in one order.
+    // Compute all parts first, so that sums have one order for any number of threads.
     std::vector<double> shares(around_.values.size(), 0.0);
 #pragma omp parallel for schedule(dynamic, 256)
     for (Index number = 0; number < cells_.size(); ++number) share(number, shares);
@@ -91,8 +91,8 @@ class VoronoiShares {
     return simplex;
   }
 
-  /// Particles that can be the nearest one to a point of each cell. A point of the cell is at most
-  /// the longest edge from a corner, so no farther from its nearest particle.
+  /// Particles that can be nearest to a point of each cell. A point of a cell is at most the
+  /// longest edge away from a corner, so its nearest particle is no farther.
   Csr around_cells() const {
     std::vector<double> centers;
     std::vector<double> reach;
@@ -127,7 +127,7 @@ class VoronoiShares {
         }
         parts.swap(next);
       };
-      // The cell's own corners first: they leave nothing to most others.
+      // The cell's own corners cut first, because they leave most other particles without a part.
       for (const Index other : own) {
         if (other != around[k] && !parts.empty()) cut_by(other);
       }

@@ -7,11 +7,10 @@
 
 namespace perilink {
 
-/// Volume of the Voronoi cell of every particle within its body: of the points of the triangles or
-/// tetrahedra that are nearer to it than to any other particle (Nikravesh 2017, Eq. 3.53)
-/// [length^3]. The volumes add up to that of the body, whatever its shape and whether or not its
-/// cells are Delaunay's.
-/// \param cells      their vertices are the particles
+/// Returns the volume of each particle's Voronoi cell within the body [length^3] (Nikravesh 2017,
+/// Eq. 3.53). The cell contains the points of the mesh that are nearest to the particle. The
+/// volumes add up to the body's volume for any shape, also if the mesh is not Delaunay.
+/// \param cells      vertices are the particles
 /// \param thickness  two-dimensional bodies only [length]
 std::vector<double> voronoi_volumes(const Particles& particles, const Simplices& cells,
                                     double thickness);

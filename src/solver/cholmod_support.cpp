@@ -19,9 +19,8 @@
 namespace perilink {
 namespace {
 
-/// Debian's CHOLMOD asks OpenMP for four threads in small copying loops, whatever the machine has;
-/// on fewer processors they wait for each other longer than they work. No region is parallel while
-/// this lives.
+/// Disables parallel regions during its lifetime. Debian's CHOLMOD requests four OpenMP threads in
+/// small copying loops on any machine; with fewer processors they wait longer than they work.
 class SerialOpenMp {
  public:
   SerialOpenMp() : levels_(omp_get_max_active_levels()) { omp_set_max_active_levels(0); }
@@ -42,12 +41,12 @@ void check(cholmod_common* common, const char* phase, std::size_t rows) {
     case CHOLMOD_TOO_LARGE:
       throw SolverError("the factor has more numbers than 32-bit indices can count" + where);
     case CHOLMOD_NOT_POSDEF:
-    case CHOLMOD_DSMALL: return;  // the caller looks at factor->minor
+    case CHOLMOD_DSMALL: return;  // the caller checks factor->minor
     default: throw SolverError("CHOLMOD status " + std::to_string(common->status) + where);
   }
 }
 
-/// The lower triangle with rows and columns in the order of elimination.
+/// Returns the lower triangle with rows and columns in the order of elimination.
 SparseMatrix in_order_of(const cholmod_factor& factor, const SparseMatrix& lower) {
   const Index* order = static_cast<const Index*>(factor.Perm);
   const std::vector<Index> position = invert({order, factor.n});

@@ -10,12 +10,12 @@
 #include "solver/ordering.hpp"
 
 /// \file
-/// What the routes share of CHOLMOD: its workspace, views of our matrices, and its status turned
-/// into our exceptions. Only files of this folder may include it.
+/// Shared use of CHOLMOD: its workspace, views of our matrices, and exceptions from its status.
+/// Only files of this folder may include this header.
 
 namespace perilink {
 
-/// CHOLMOD's parameters and workspace.
+/// Parameters and workspace of CHOLMOD.
 class CholmodSession {
  public:
   CholmodSession();
@@ -36,24 +36,24 @@ struct CholmodFactorDeleter {
 };
 using CholmodFactorPtr = std::unique_ptr<cholmod_factor, CholmodFactorDeleter>;
 
-/// Supernodal analysis with the order of ordering.hpp.
+/// Analyses a matrix for a supernodal factor, with the ordering of ordering.hpp.
 CholmodFactorPtr analyze_supernodal(CholmodSession& session, const SparseMatrix& lower,
                                     std::span<const Index> groups);
 
-/// Numerical factorisation L L' of a matrix of the pattern that was analysed.
+/// Factorises a matrix with the analysed pattern as L L'.
 /// \throws SolverError
 void factorize_numerically(CholmodSession& session, const SparseMatrix& lower,
                            cholmod_factor* factor, int threads);
 
-/// Size of a factor, supernodal or simplicial.
-/// \param flops  for one factorisation
+/// Returns the size of a supernodal or simplicial factor.
+/// \param flops  operations of one factorisation
 FactorStatistics measure_factor(const cholmod_factor& factor, double flops);
 
-/// Views without copying.
+/// Views of a matrix and a vector without copies.
 cholmod_sparse view_lower(const SparseMatrix& lower);
 cholmod_dense view_column(std::span<double> values);
 
-/// A factor that CHOLMOD itself solves with.
+/// Base class of factors that solve with CHOLMOD.
 class CholmodRoute : public Factor {
  public:
   void solve(std::span<const double> rhs, std::span<double> solution) override;
@@ -67,16 +67,16 @@ class CholmodRoute : public Factor {
  protected:
   explicit CholmodRoute(int threads)
       : factor_(nullptr, CholmodFactorDeleter{session_.get()}), threads_(threads) {}
-  /// Analysis of a matrix, whose cost is noted.
+  /// Analyses a matrix and records its number of operations.
   CholmodFactorPtr analyze(const SparseMatrix& matrix, std::span<const Index> groups);
-  /// Numbers of a matrix of the pattern that was analysed, into factor_.
+  /// Factorises a matrix with the analysed pattern into factor_.
   void compute(const SparseMatrix& matrix);
-  /// Solves with a part of the factor.
+  /// Solves with the factor or a part of it.
   /// \param system  CHOLMOD_A, CHOLMOD_L, ...
   /// \param rhs     in the factor's order unless the system is CHOLMOD_A
   std::vector<double> solve_system(int system, std::vector<double> rhs);
-  /// The solution after a downdate, with the changed factor: what is missing to K u = f is
-  /// sum (load_change + x'u) x. Nothing here rests on pivots or the Sherman-Morrison formula.
+  /// Updates the solution after a downdate with the changed factor. The residual of K u = f is sum
+  /// (load_change + x'u) x. The result is independent of pivots and the Sherman-Morrison formula.
   void follow(std::span<const SparseVector> x, std::span<const double> load_changes,
               std::span<double> solution);
 
@@ -89,7 +89,7 @@ class CholmodRoute : public Factor {
   double flops_ = 0.0;
 };
 
-/// One column n x 1 with the entries of x moved to the factor's order, rows ascending.
+/// Column n x 1 with the entries of x in the factor's order, rows ascending.
 class PermutedColumn {
  public:
   PermutedColumn(const SparseVector& x, std::span<const Index> position, Index size);
@@ -104,7 +104,7 @@ class PermutedColumn {
   cholmod_sparse matrix_;
 };
 
-/// Entries of x moved to the factor's order, rows ascending.
+/// Returns entries of x in the factor's order, rows ascending.
 SparseVector permute(const SparseVector& x, std::span<const Index> position);
 
 }  // namespace perilink

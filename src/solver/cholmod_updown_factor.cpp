@@ -30,14 +30,14 @@ void CholmodUpdownFactor::refactorize(const SparseMatrix& matrix) {
     throw SolverError("out of memory while copying the analysis of the stiffness matrix");
   }
   compute(matrix);
-  // CHOLMOD would do this at the first downdate; doing it here keeps it out of the events.
+  // CHOLMOD would convert at the first downdate; converting here keeps the time out of the events.
   if (!cholmod_change_factor(CHOLMOD_REAL, false, false, false, true, factor_.get(),
                              session_.get())) {
     throw SolverError("out of memory while turning the factor into a simplicial one");
   }
 }
 
-/// L^-1 P x, along the path of x.
+/// Returns L^-1 P x, computed along the path of x.
 std::vector<double> CholmodUpdownFactor::forward(const SparseVector& x) {
   std::vector<double> result(factor_->n, 0.0);
   if (x.size() == 0) return result;
@@ -81,7 +81,7 @@ void CholmodUpdownFactor::compliance(std::span<const SparseVector> x, std::span<
   }
 }
 
-/// K -+ x x'
+/// Changes K to K + x x' (add) or K - x x'.
 void CholmodUpdownFactor::change(bool add, const SparseVector& x) {
   if (x.size() == 0) return;
   PermutedColumn column(x, position_, static_cast<Index>(factor_->n));

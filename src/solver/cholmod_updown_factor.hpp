@@ -6,9 +6,9 @@
 
 namespace perilink {
 
-/// CHOLMOD's own simplicial update and downdate (Davis & Hager 1999, 2009): the reference that the
-/// tests hold the in-place factor against. Forward solutions of a bond's vectors run along their
-/// path; one backward substitution with the changed factor gives the displacement.
+/// Reference for tests of the in-place factor: CHOLMOD's simplicial update and downdate (Davis &
+/// Hager 1999, 2009). Forward solutions of a bond's vectors follow their path. One backward
+/// substitution with the changed factor gives the displacements.
 class CholmodUpdownFactor final : public CholmodRoute {
  public:
   explicit CholmodUpdownFactor(int threads);
@@ -26,7 +26,8 @@ class CholmodUpdownFactor final : public CholmodRoute {
   void change(bool add, const SparseVector& x);
   std::vector<double> forward(const SparseVector& x);
 
-  CholmodFactorPtr symbolic_;  ///< supernodal, used again by refactorize; factor_ is simplicial
+  CholmodFactorPtr symbolic_;  ///< supernodal analysis, reused by refactorize(); factor_ is
+                               ///< simplicial
   std::vector<Index> position_;
   cholmod_dense* solved_ = nullptr;
   cholmod_sparse* solved_set_ = nullptr;

@@ -21,13 +21,14 @@ void add(double factor, std::span<const double> b, std::span<double> a) {
   for (std::size_t k = 0; k < a.size(); ++k) a[k] += factor * b[k];
 }
 
-/// The solution at the last correction, whose product is known to all digits. Directions stay
-/// conjugate to it: rounding errs most along soft motions, and these are most of a solution.
+/// Solution at the last correction, with its exact product. Later directions stay conjugate to it,
+/// because rounding errors are largest along soft motions, which dominate a solution.
 class KnownSolution {
  public:
   explicit KnownSolution(const ScalarProduct& dot) : dot_(dot) {}
 
-  /// \param residual  what the solution leaves; less, once more of it is added
+  /// Stores the solution and rescales it along itself.
+  /// \param residual  exact residual of the solution; reduced by the rescaling
   void remember(std::span<const double> right, std::span<double> solution,
                 std::span<double> residual) {
     motion_.assign(solution.begin(), solution.end());
@@ -49,6 +50,7 @@ class KnownSolution {
   double energy_ = 0.0;
 };
 
+/// Records one step.
 /// \param first  r'z of the right side
 void count_step(double gain, double first, EnergyGains& gains, GradientsReport& report) {
   gains.add(gain);
@@ -80,7 +82,7 @@ GradientsReport conjugate_gradients(const LinearMap& product, const LinearMap& p
   p = z;
   double rz = dot(r, z), rp = rz;
   const double first = rz;
-  // The error where the residual was exact last, and what of it rounding may have left since.
+  // Error at the last exact residual, and the part of it that rounding may have added since.
   double corrected_at = std::sqrt(rz), rounding = 0.1 * digits_between_corrections;
   if (rz <= negligible_correction * enough * enough * scale) {
     report.error = std::sqrt(rz);
@@ -114,7 +116,7 @@ GradientsReport conjugate_gradients(const LinearMap& product, const LinearMap& p
     const double before = std::exchange(corrected_at, std::sqrt(rz));
     if (!(corrected_at < least_gain_of_digits * before)) return report;
     rounding = std::max(rounding, (corrected_at - seemed) / before);
-    renew(z, -dot(q, z) / curvature, p);  // conjugate to the last one, whatever the residual is
+    renew(z, -dot(q, z) / curvature, p);  // conjugate to the last direction for any residual
     known.make_conjugate(p);
     rp = dot(p, r);
   }

@@ -10,40 +10,39 @@
 
 namespace perilink {
 
-/// result = A x, both of size n.
+/// Computes result = A x; both have size n.
 using LinearMap = std::function<void(std::span<const double> vector, std::span<double> result)>;
 
-/// a'b of two vectors.
+/// Computes a'b of two vectors.
 using ScalarProduct =
     std::function<double(std::span<const double> first, std::span<const double> second)>;
 
-/// For products of few digits.
+/// Corrections for products of few digits.
 struct Correction {
-  /// Puts the residual of a solution in place of what is left of it by the steps so far. Empty:
-  /// never.
+  /// Replaces the recursive residual by the exact residual of the solution. Empty: no corrections.
   std::function<void(std::span<const double> solution, std::span<double> residual)> find_residual;
-  /// Whether later directions are conjugate to the solution at a correction, too: fewer steps where
-  /// parts hang on a few bonds, and fewer digits where bodies move far beside what strains them.
+  /// Whether later directions stay conjugate to the solution at a correction. This needs fewer
+  /// steps where few bonds hold large parts, but loses digits where rigid motions are much larger
+  /// than strains.
   bool keeps_solution = true;
 };
 
-/// Corrections of searches whose product has fewer digits than their answer is to have come
-/// whenever errors seem to have fallen by the first factor. Where they have not by the second one,
-/// the search ends without an answer.
+/// The residual is corrected when the estimated error has fallen by the first factor since the last
+/// correction. The solution fails if the true error has not fallen by the second factor.
 inline constexpr double digits_between_corrections = 1e-5, least_gain_of_digits = 0.1;
 
-/// Sum over the numbers in one order.
+/// Returns a'b, summed in one order.
 double scalar_product(std::span<const double> first, std::span<const double> second);
 
-/// What the steps of conjugate gradients have brought. Energies of two windows of steps one after
-/// the other fall by a factor, and go on to. The slower the search, the longer the windows have to
-/// be (docs/theory/large_bodies.md, L-2).
+/// Energies gained by the steps of conjugate gradients. The energies of two consecutive windows of
+/// steps are assumed to continue as a geometric series. Slower convergence needs longer windows
+/// (docs/theory/large_bodies.md, L-2).
 class EnergyGains {
  public:
   void add(double gain) { gains_.push_back(gain); }
   bool empty() const { return gains_.empty(); }
-  /// Square root of the energy that was missing before the last window: its own and what a
-  /// geometric series of windows adds behind it. Infinite before there are two.
+  /// Returns the estimated error in the energy norm: square root of the last window's energy plus
+  /// the geometric series of later windows. Infinite before there are two windows.
   double error() const {
     const std::size_t window = std::max(shortest, gains_.size() / 8);
     if (gains_.size() < 2 * window) return std::numeric_limits<double>::infinity();
@@ -62,34 +61,33 @@ class EnergyGains {
   std::vector<double> gains_;
 };
 
-/// How a search by conjugate gradients went.
+/// Result of conjugate gradients.
 struct GradientsReport {
   int iterations = 0;
-  double energy = 0.0;  ///< x' A x of what was added to the solution
-  double error = 0.0;   ///< square root of the energy that is missing, estimated from above
-  /// r'z of the right side over the energy of its solution: no less than the smallest eigenvalue of
-  /// the preconditioned A.
+  double energy = 0.0;  ///< x' A x of the correction of the solution
+  double error = 0.0;   ///< square root of the missing energy, estimated from above
+  /// r'z of the right side over the energy of its solution, an upper bound of the smallest
+  /// eigenvalue of the preconditioned A.
   double softest = std::numeric_limits<double>::infinity();
   bool converged = false;
 };
 
-/// A correction whose r'z, near the energy of its error, is no more than this part of the energy
-/// that counts as no error, is not looked for.
+/// Largest r'z of a correction that is skipped, over the energy that counts as no error. r'z
+/// approximates the energy of the correction.
 inline constexpr double negligible_correction = 0.01;
 
-/// Adds to `solution` the x of A x = right by preconditioned conjugate gradients, A symmetric and
-/// positive definite. Each step adds alpha r'z to the energy of x, so that what the last steps have
-/// added tells what is missing (Hestenes & Stiefel 1952; Strakos & Tichy 2002).
+/// Adds the solution x of A x = right to `solution`, by preconditioned conjugate gradients. A is
+/// symmetric and positive definite. Each step adds alpha r'z to the energy of x, so the last gains
+/// estimate the missing energy (Hestenes & Stiefel 1952; Strakos & Tichy 2002).
 /// \param precondition  an approximate A^-1, symmetric and positive definite
-/// \param enough        stops where the error is no larger than this part of the square root of the
-///                      energy, or of `scale`
-/// \param scale         energy of a solution that this one corrects; 0: none
-/// \param dot           that of whole vectors, where those here are parts of them
-/// \param correct       where the product has few digits, see digits_between_corrections; the
-///                      solution must be zero at first. Empty: never
-/// \param too_soft      ends without an answer where A is known to be softer somewhere, see
-///                      GradientsReport::softest
-/// \throws NotPositiveDefinite where A is not
+/// \param enough        stops when the error is at most this part of the square root of the energy,
+///     or of `scale`
+/// \param scale         energy of the solution that x corrects; 0: none
+/// \param dot           product of whole vectors, if the given vectors are parts of them
+/// \param correct       for products of few digits (digits_between_corrections); needs a zero
+///     initial solution. Empty: no corrections
+/// \param too_soft      stops unconverged when GradientsReport::softest is smaller
+/// \throws NotPositiveDefinite if A is not positive definite
 GradientsReport conjugate_gradients(const LinearMap& product, const LinearMap& precondition,
                                     std::span<const double> right, std::span<double> solution,
                                     double enough, double scale, int most_iterations,

@@ -9,14 +9,15 @@
 
 namespace perilink {
 
-/// \param threads  threads that the factor may use; results do not depend on it
+/// Makes a factor.
+/// \param threads  number of threads; results do not depend on it
 std::unique_ptr<Factor> make_factor(FactorRoute route, int threads);
 
-/// Size and cost of the factor of a matrix from its pattern alone: orders and analyses, computes no
-/// number of L.
+/// Returns size and cost of a matrix's factor. Orders and analyses the pattern without numerical
+/// work.
 FactorStatistics estimate_factor(const SparseMatrix& matrix, std::span<const Index> groups);
 
-/// Factors that make_factor has made in this process: tests count those that nobody needs.
+/// Returns the number of factors made by make_factor() in this process; tests count unneeded ones.
 int factors_made();
 
 }  // namespace perilink

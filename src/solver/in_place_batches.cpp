@@ -1,4 +1,4 @@
-// Changes of a factor by many vectors at once: L is read once for most_together of them.
+// Changes of a factor by many vectors; each pass over L serves up to most_together of them.
 
 #include <algorithm>
 #include <bit>
@@ -10,7 +10,7 @@
 
 namespace perilink {
 
-/// The supernodes from that of the column to the root go to the path, which is then in no order.
+/// Adds the supernodes from the column's one to the root to the path, unsorted.
 void InPlaceFactor::add_to_path(Index column) {
   for (Index s = tree_.of_column[column]; s != no_index && !on_path_[s]; s = tree_.parent[s]) {
     path_.push_back(s);
@@ -18,8 +18,8 @@ void InPlaceFactor::add_to_path(Index column) {
   }
 }
 
-/// \param permuted  most_together vectors at most, in the factor's order, none empty
-/// \return the smallest pivot, see downdate_together()
+/// \param permuted  at most most_together vectors in the factor's order, none empty
+/// \return smallest pivot, as downdate_together()
 double InPlaceFactor::change_together(std::span<const SparseVector> permuted) {
   clear_path();
   const auto n = static_cast<std::size_t>(size_);
@@ -84,7 +84,7 @@ double InPlaceFactor::downdate_together(std::span<const SparseVector> x) {
   for (const SparseVector& vector : x) {
     if (vector.size() > 0) permuted.push_back(permute(vector, position_));
   }
-  // Neighbours share most of their paths.
+  // Sort, because neighbours share most of their paths.
   std::stable_sort(permuted.begin(), permuted.end(),
                    [](const auto& a, const auto& b) { return a.rows[0] < b.rows[0]; });
   const std::size_t most = supernodal::most_together;

@@ -13,7 +13,7 @@
 namespace perilink {
 namespace {
 
-/// Below this many numbers of L a parallel region costs more than it saves.
+/// Least numbers of L for which a parallel region saves time.
 constexpr double smallest_parallel_factor = 2e6;
 
 }  // namespace
@@ -59,8 +59,7 @@ void InPlaceFactor::adopt_pattern() {
   for (std::size_t s = numbers.size(); s-- > 0;) {
     if (tree_.parent[s] != no_index) to_root[s] += to_root[tree_.parent[s]];
   }
-  // Every supernode is computed alike wherever the cut runs: any number of threads gives the same
-  // results.
+  // Each supernode is computed in one way for any cut, so results do not depend on threads.
   const double total = std::accumulate(numbers.begin(), numbers.end(), 0.0);
   const bool parallel = threads_ > 1 && total > smallest_parallel_factor;
   cut_ = tree_.cut(std::move(numbers), parallel ? total / (4.0 * threads_) : 0.0);
@@ -69,7 +68,7 @@ void InPlaceFactor::adopt_pattern() {
   beta_.assign(size_, 0.0);
   w_.assign(size_, 0.0);
   on_path_.assign(tree_.parent.size(), 0);
-  path_.clear();  // left by a former pattern
+  path_.clear();  // remove the path of a former pattern
   wanted_.clear();
   local_.assign(static_cast<std::size_t>(longest_) * 2 * threads_, 0.0);
   together_.clear();
@@ -77,7 +76,7 @@ void InPlaceFactor::adopt_pattern() {
   to_root_ = std::move(to_root);
 }
 
-/// L L' -> L D L': d_j = l_jj^2 goes to the diagonal, the column below is divided by l_jj.
+/// Converts L L' to L D L': d_j = l_jj^2 on the diagonal; the column below is divided by l_jj.
 void InPlaceFactor::turn_into_ldl() {
   const Index count = num_supernodes();
 #pragma omp parallel for schedule(dynamic, 16) num_threads(threads_)
@@ -143,7 +142,7 @@ void InPlaceFactor::descend(ThreadChoice& choice, const Function& on_supernode) 
   });
 }
 
-/// The supernodes of the wanted unknowns and all above them, which they need.
+/// Marks the supernodes of the wanted unknowns and their ancestors, which they depend on.
 void InPlaceFactor::keep_current(std::span<const std::uint8_t> wanted) {
   wanted_.assign(tree_.parent.size(), 0);
   for (Index k = 0; k < size_; ++k) {
@@ -167,13 +166,14 @@ void InPlaceFactor::solve(std::span<const double> rhs, std::span<double> solutio
   for (Index k = 0; k < size_; ++k) solution[k] = vector_[position_[k]];
 }
 
-/// Eliminates x along its path and leaves p = L^-1 x in p_, where it may be already.
+/// Eliminates x along its path and stores p = L^-1 x in p_, unless p_ already holds it.
 void InPlaceFactor::forward_path(const SparseVector& permuted) {
   if (permuted.size() > 0 && permuted == on_path_of_) return;
   forward_path(permuted, permuted.size() == 0 ? no_index : permuted.rows[0]);
 }
 
-/// The same along the path from column `start`, at or before the first row of x; no_index: none.
+/// Eliminates x along the path from column `start`, at or before the first row of x; no_index: no
+/// path.
 void InPlaceFactor::forward_path(const SparseVector& permuted, Index start) {
   clear_path();
   on_path_of_ = permuted;
@@ -197,10 +197,10 @@ void InPlaceFactor::clear_path() {
   path_.clear();
 }
 
-/// D of K -+ x x' on the path, whose recurrence is a chain of scalars, and what the change of the
-/// columns needs; sets vector_ to the right-hand side D^-1 p (old D) of the backward pass.
+/// Computes D of K -+ x x' on the path by a recurrence of scalars, and the coefficients that change
+/// the columns. Sets vector_ to the right-hand side D^-1 p (old D) of the backward pass.
 void InPlaceFactor::start_change(double sign) {
-  on_path_of_ = {};  // p_ is that of the factor before the change
+  on_path_of_ = {};  // p_ belongs to the factor before the change
   std::fill(vector_.begin(), vector_.end(), 0.0);
   double sigma = sign;
   for (const Index s : path_) {
@@ -279,7 +279,7 @@ std::vector<double> InPlaceFactor::columns(std::span<const SparseVector> x) {
   return result;
 }
 
-/// One vector: the backward pass for K^-1 x changes the columns of the path as it comes by.
+/// Downdates by one vector; the backward pass for K^-1 x also changes the columns of the path.
 void InPlaceFactor::downdate_one(const SparseVector& x, double load_change, double pivot,
                                  std::span<double> solution) {
   const SparseVector permuted = permute(x, position_);
@@ -297,13 +297,13 @@ void InPlaceFactor::downdate_one(const SparseVector& x, double load_change, doub
       backward_on(s, vector_.data(), local);
     }
   });
-  // Supernodes that were skipped left zeros: the solution stays as it is there.
+  // Skipped supernodes have zeros, so the solution keeps its values there.
   const double scale = extension / pivot;
   for (Index k = 0; k < size_; ++k) solution[k] += scale * vector_[position_[k]];
 }
 
-/// With K^-1 x_b across each other the solution goes over to
-/// u + sum (load_change + x'u) / pivot K^-1 x.
+/// For vectors that do not interact, the solution becomes u + sum (load_change + x'u) / pivot K^-1
+/// x.
 void InPlaceFactor::downdate(std::span<const SparseVector> x, std::span<const double> load_changes,
                              std::span<const double> pivots, std::span<double> solution) {
   if (!solution.empty()) {
@@ -317,7 +317,7 @@ void InPlaceFactor::downdate(std::span<const SparseVector> x, std::span<const do
   for (const SparseVector& column : x) change_path(permute(column, position_), -1.0);
 }
 
-/// K -+ x x' on the columns of its path.
+/// Changes the columns of the path of x for K -+ x x'.
 void InPlaceFactor::change_path(const SparseVector& permuted, double sign) {
   forward_path(permuted);
   start_change(sign);
@@ -328,8 +328,8 @@ void InPlaceFactor::change_path(const SparseVector& permuted, double sign) {
 
 void InPlaceFactor::update(const SparseVector& x) { change_path(permute(x, position_), 1.0); }
 
-/// Trapezoids of the supernodes that the backward pass of the last event computed, those of the
-/// path once more for the forward elimination.
+/// Returns bytes of L that the last event read. These are the supernodes of the backward pass; the
+/// path counts twice, because the forward elimination reads it too.
 double InPlaceFactor::bytes_read_by_event() const {
   double numbers = 0.0;
   for (Index s = 0; s < static_cast<Index>(tree_.parent.size()); ++s) {

@@ -10,14 +10,13 @@
 
 namespace perilink {
 
-/// Factor L D L' on the supernodal pattern that CHOLMOD found, changed in place. A downdate never
-/// adds entries, so the dense blocks stay as they are; CHOLMOD's own update would first turn them
-/// into a simplicial factor and lose their speed.
+/// Factor L D L' on CHOLMOD's supernodal pattern, changed in place. A downdate never adds entries,
+/// so the dense blocks stay. CHOLMOD's own update would convert them to a slower simplicial factor.
 ///
-/// Per event: the forward elimination of x runs along one path of the elimination tree only (the
-/// unknowns of a bond are mutually coupled, so one path holds them all), once for its pivot and the
-/// downdate after it; one backward pass gives K^-1 x, and with it the new solution (Sherman &
-/// Morrison), and changes the columns of the path as it comes by.
+/// Each event needs one forward elimination of x along one path of the elimination tree. The
+/// unknowns of a bond are mutually coupled, so one path contains them all. The pivot and the
+/// downdate share this elimination. One backward pass gives K^-1 x and the new solution (Sherman &
+/// Morrison), and changes the columns of the path.
 class InPlaceFactor final : public Factor {
  public:
   explicit InPlaceFactor(int threads);
@@ -26,16 +25,16 @@ class InPlaceFactor final : public Factor {
   void refactorize(const SparseMatrix& matrix) override;
   void solve(std::span<const double> rhs, std::span<double> solution) override;
   void keep_current(std::span<const std::uint8_t> wanted) override;
-  /// Forward along each path, one backward pass for all.
+  /// Eliminates along each path, with one backward pass for all vectors.
   std::vector<double> columns(std::span<const SparseVector> x) override;
   double pivot(const SparseVector& x) override;
   void compliance(std::span<const SparseVector> x, std::span<double> result) override;
   void downdate(std::span<const SparseVector> x, std::span<const double> load_changes,
                 std::span<const double> pivots, std::span<double> solution) override;
-  /// One pass over the union of the paths of most_together vectors at a time.
+  /// Needs one pass over the joined paths of up to most_together vectors.
   double downdate_together(std::span<const SparseVector> x) override;
   double path_of(std::span<const SparseVector> x) const override;
-  /// Forward along the paths of the rows, one backward pass.
+  /// Eliminates along the paths of the rows, with one backward pass.
   void add_solution(const SparseVector& b, std::span<double> solution) override;
   void update(const SparseVector& x) override;
   int factorizations() const override { return factorizations_; }
@@ -72,27 +71,27 @@ class InPlaceFactor final : public Factor {
   CholmodFactorPtr factor_;
   Index size_ = 0;
   int factorizations_ = 0;
-  double flops_ = 0.0;  ///< for one factorisation
+  double flops_ = 0.0;  ///< operations of one factorisation
 
-  std::vector<Index> position_;  ///< per unknown: its place in the factor's order
+  std::vector<Index> position_;  ///< per unknown: position in the factor's order
   SupernodeTree tree_;
   SupernodeTree::Cut cut_;
-  Index longest_ = 0;  ///< most rows of a supernode
+  Index longest_ = 0;  ///< largest number of rows of a supernode
 
-  std::vector<double> vector_;  ///< work vector in the factor's order
+  std::vector<double> vector_;  ///< work vector, in the factor's order
   std::vector<double> local_;   ///< rows of a supernode, two parts per thread
-  SparseVector on_path_of_;  ///< the x, in the factor's order, whose L^-1 x p_ holds; empty: none
-  std::vector<Index> path_;  ///< supernodes of the path, ascending
+  SparseVector on_path_of_;     ///< the x, in the factor's order, with p_ = L^-1 x; empty: none
+  std::vector<Index> path_;     ///< supernodes of the path, ascending
   std::vector<std::uint8_t> on_path_;  ///< per supernode
-  std::vector<std::uint8_t> wanted_;   ///< supernodes that backward passes compute; empty: all
+  std::vector<std::uint8_t> wanted_;   ///< supernodes computed by backward passes; empty: all
   std::vector<double> p_;              ///< L^-1 x along the path, in the factor's order
   std::vector<double> beta_;           ///< per column of the path
-  std::vector<double> w_;              ///< x less its eliminations, along the path
-  /// Where several vectors change the factor at once: what is left of each, shape (vectors, n), and
-  /// which are at each supernode, a bit each. Zero between changes.
+  std::vector<double> w_;              ///< x reduced by its eliminations, along the path
+  /// Changes by several vectors: remainder of each vector, shape (vectors, n), and the vectors at
+  /// each supernode, one bit each. Both are zero between changes.
   std::vector<double> together_;
   std::vector<std::uint32_t> at_supernode_;
-  std::vector<double> to_root_;  ///< per supernode: numbers of L from there to the root
+  std::vector<double> to_root_;  ///< per supernode: numbers of L from it to the root
 };
 
 }  // namespace perilink

@@ -2,8 +2,8 @@
 
 namespace perilink {
 
-/// How the equations of an equilibrium are solved: by a factor, by conjugate gradients without one,
-/// or by what serves the body at hand.
+/// Method that solves the equilibrium equations: factor, conjugate gradients, or the faster of the
+/// two for the body.
 enum class LinearSolver { automatic, direct, iterative };
 
 }  // namespace perilink

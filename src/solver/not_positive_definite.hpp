@@ -7,10 +7,10 @@
 
 namespace perilink {
 
-/// A matrix that is not positive definite: something can move without resistance.
+/// Error: a matrix is not positive definite, so a part can move without resistance.
 class NotPositiveDefinite : public SolverError {
  public:
-  /// \param unknown  one that can move, where it is known
+  /// \param unknown  an unknown that can move, or no_index
   explicit NotPositiveDefinite(const std::string& message, Index unknown = no_index)
       : SolverError(message), unknown_(unknown) {}
   Index unknown() const { return unknown_; }

@@ -19,8 +19,8 @@ namespace {
 
 static_assert(sizeof(idx_t) == sizeof(Index), "METIS must be built with 32-bit indices");
 
-/// Numbers the particles that own unknowns 0, 1, … in order of appearance.
-/// \return first unknown of each such particle, with the number of unknowns appended
+/// Returns the first unknown of each particle in order of appearance, followed by the number of
+/// unknowns.
 std::vector<Index> first_unknowns(std::span<const Index> groups) {
   std::vector<Index> first;
   for (std::size_t k = 0; k < groups.size(); ++k) {
@@ -30,8 +30,9 @@ std::vector<Index> first_unknowns(std::span<const Index> groups) {
   return first;
 }
 
-/// Adjacency of the particles, both directions, no loops, from the columns of their first unknowns
-/// (a bond couples all unknowns of its ends, so one column shows every neighbour).
+/// Returns the adjacency of the particles in both directions without loops, from the columns of
+/// their first unknowns. A bond couples all unknowns of its ends, so one column has every
+/// neighbour.
 Csr particle_graph(const SparseMatrix& lower, const std::vector<Index>& first) {
   const Index count = static_cast<Index>(first.size()) - 1;
   std::vector<Index> node_of(lower.cols());
@@ -40,7 +41,7 @@ Csr particle_graph(const SparseMatrix& lower, const std::vector<Index>& first) {
   }
   const Index* outer = lower.outerIndexPtr();
   const Index* inner = lower.innerIndexPtr();
-  // Neighbours above `node`, each once: rows of a column ascend, so repeats are adjacent.
+  // Neighbours above `node`, each once: rows of a column ascend, so duplicates are adjacent.
   auto for_each_pair = [&](auto&& visit) {
     for (Index node = 0; node < count; ++node) {
       Index previous = node;
@@ -67,19 +68,19 @@ Csr particle_graph(const SparseMatrix& lower, const std::vector<Index>& first) {
   return graph;
 }
 
-/// Nested dissection. \return status of METIS
+/// Orders by nested dissection. \return status of METIS
 int dissect(Csr& graph, std::vector<idx_t>& order) {
   idx_t count = graph.rows();
   std::vector<idx_t> position(order.size());
   idx_t options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_NUMBERING] = 0;
-  options[METIS_OPTION_SEED] = 1;  // the same case is ordered alike in every run
+  options[METIS_OPTION_SEED] = 1;  // fixed, so that every run has one ordering
   return METIS_NodeND(&count, graph.offsets.data(), graph.values.data(), nullptr, options,
                       order.data(), position.data());
 }
 
-/// Reads as many bytes as there are. \return whether there were so many
+/// Reads `size` bytes. \return false if the file ends earlier
 bool read_all(int file, void* bytes, std::size_t size) {
   auto* next = static_cast<char*>(bytes);
   while (size > 0) {
@@ -92,7 +93,7 @@ bool read_all(int file, void* bytes, std::size_t size) {
   return true;
 }
 
-/// In the child: what dissect() finds goes into the pipe.
+/// Runs dissect() in the child process and writes its result to the pipe.
 [[noreturn]] void dissect_into(int pipe, Csr& graph, std::vector<idx_t>& order) {
   const int status = dissect(graph, order);
   std::vector<idx_t> answer = {status};
@@ -107,9 +108,9 @@ bool read_all(int file, void* bytes, std::size_t size) {
   _exit(0);
 }
 
-/// METIS takes SIGTERM for itself while it works and jumps out of whatever it was doing, an
-/// allocation perhaps, in the thread that the signal happens to reach: the program would fail, hang
-/// or crash instead of stopping. So METIS works in a child, that no such signal reaches.
+/// Runs METIS in a child process with signals blocked. METIS handles SIGTERM itself and leaves its
+/// work by a jump, possibly out of an allocation, in any thread. The program would then fail, hang
+/// or crash instead of stopping.
 /// \return status of METIS
 int dissect_apart(Csr& graph, std::vector<idx_t>& order) {
   int ends[2];

@@ -22,12 +22,12 @@
 namespace perilink {
 namespace {
 
-/// Memory is taken in pieces of so many numbers: what was given back before holds them.
+/// Numbers per allocation; blocks of this size fit into freed memory.
 constexpr std::size_t piece = std::size_t{1} << 18;
-/// Supernodes of more columns are parted: half of their triangle would lie idle.
+/// Wider supernodes are split, because half of their triangle would be unused.
 constexpr Index widest = 512;
-/// Factors of so many numbers are solved with by several threads. Subtrees have this part of the
-/// numbers at most; those that one thread takes together have the second part or little more.
+/// Numbers of a factor from which several threads solve. Subtrees have at most the second part of
+/// the numbers. Subtrees of one share have together the third part or slightly more.
 constexpr double enough_for_threads = 2e6, most_of_subtree = 0.4, least_together = 0.2;
 
 std::vector<Index> one_each(const SparseMatrix& graph) {
@@ -39,20 +39,20 @@ std::vector<Index> one_each(const SparseMatrix& graph) {
 }  // namespace
 
 struct PreconditionerFactor::Parts {
-  /// Supernodes of rows, from those of points.
+  /// Pattern of supernodes of rows, derived from supernodes of points.
   struct Pattern {
     /// \param sizes  rows of each point
     Pattern(const cholmod_factor& points, std::span<const Index> sizes);
 
-    cholmod_factor view{};  // the pattern for CHOLMOD, its arrays below
+    cholmod_factor view{};  // pattern as a CHOLMOD factor; it points to the arrays below
     std::vector<Index> first_column{0}, first_row{0}, rows;
     double flops = 0.0;
   };
 
-  /// Subtrees of a solution that a thread takes together.
+  /// Subtrees that one thread solves together.
   struct Share {
     std::vector<std::pair<Index, Index>> subtrees;  // [first, last] supernodes
-    std::vector<double> above;                      // what they add to rows above them, size n
+    std::vector<double> above;                      // their sums for rows above them, size n
   };
 
   Parts(const SparseMatrix& graph, std::span<const Index> sizes, int most_threads);
@@ -73,7 +73,7 @@ struct PreconditionerFactor::Parts {
   std::vector<std::unique_ptr<float[]>> memory;
   std::vector<float*> values;              // per supernode
   std::vector<double> pivots;              // one over D
-  std::vector<Share> shares;               // the same for any number of threads
+  std::vector<Share> shares;               // independent of the number of threads
   std::vector<Index> top;                  // supernodes above the subtrees, descending
   std::vector<std::vector<double>> local;  // per thread: rows of a supernode
   ThreadChoice choice;                     // for solutions
@@ -82,7 +82,7 @@ struct PreconditionerFactor::Parts {
 PreconditionerFactor::Parts::Pattern::Pattern(const cholmod_factor& points,
                                               std::span<const Index> sizes) {
   const Index* order = static_cast<const Index*>(points.Perm);
-  std::vector<Index> first{0};  // row of each point in the order of elimination
+  std::vector<Index> first{0};  // first row of each point in the order of elimination
   for (std::size_t p = 0; p < points.n; ++p) first.push_back(first.back() + sizes[order[p]]);
   std::vector<Index> own;
   for (Index s = 0; s < static_cast<Index>(points.nsuper); ++s) {
@@ -116,7 +116,7 @@ PreconditionerFactor::Parts::Parts(const SparseMatrix& graph, std::span<const In
                                    int most_threads)
     : threads(most_threads), choice(most_threads) {
   CholmodSession session;
-  // What joins supernodes is counted in columns, here in points.
+  // CHOLMOD's limits for merging supernodes count columns; here columns are points.
   const double mean = static_cast<double>(std::accumulate(sizes.begin(), sizes.end(), Index{0})) /
                       static_cast<double>(std::max<std::size_t>(sizes.size(), 1));
   for (std::size_t& most : session.get()->nrelax) {
@@ -134,7 +134,7 @@ PreconditionerFactor::Parts::Parts(const SparseMatrix& graph, std::span<const In
 
 void PreconditionerFactor::Parts::take_memory() {
   std::size_t longest = 0, size = 0;
-  std::vector<std::size_t> places;  // supernodes that share the next piece: where they begin
+  std::vector<std::size_t> places;  // offsets of the supernodes in the next block of memory
   for (Index s = 0; s < count; ++s) {
     const auto node = supernode_of<float>(pattern->view, nullptr, s);
     longest = std::max(longest, static_cast<std::size_t>(node.count));
@@ -161,7 +161,7 @@ void PreconditionerFactor::Parts::share_subtrees() {
       SupernodeTree(pattern->view).cut(numbers, (parted ? most_of_subtree : 1.0) * all);
   top = std::move(cut.top);
   const double enough = (parted ? least_together : 1.0) * all;
-  double together = enough;  // numbers of the last share
+  double together = enough;  // numbers in the last share
   for (const auto& [first, last] : cut.subtrees) {
     if (together >= enough) {
       shares.push_back({{}, std::vector<double>(pattern->view.n)});
@@ -172,7 +172,7 @@ void PreconditionerFactor::Parts::share_subtrees() {
   }
 }
 
-/// Forward elimination by a supernode; rows from `end` on are in `above`.
+/// Eliminates forward with a supernode; rows from `end` on are in `above_side`.
 void PreconditionerFactor::Parts::eliminate(Index s, double* side, double* above_side, Index end,
                                             double* rows) const {
   const Supernode<float> node = block(s);
@@ -186,7 +186,7 @@ void PreconditionerFactor::Parts::eliminate(Index s, double* side, double* above
   for (Index r = node.columns; r < node.count; ++r) at(r) = rows[r];
 }
 
-/// Backward substitution.
+/// Substitutes backward with a supernode.
 void PreconditionerFactor::Parts::substitute(Index s, double* side, double* rows) const {
   const Supernode<float> node = block(s);
   std::copy_n(side + node.first, node.columns, rows);
@@ -195,7 +195,7 @@ void PreconditionerFactor::Parts::substitute(Index s, double* side, double* rows
   std::copy_n(rows, node.columns, side + node.first);
 }
 
-/// Calls visit(share, room for rows), by so many threads.
+/// Calls visit(share, buffer for rows) in up to `most` threads.
 template <class Visit>
 void PreconditionerFactor::Parts::for_each_share(int most, Visit visit) {
 #pragma omp parallel for schedule(dynamic, 1) num_threads(most) if (shares.size() > 1)

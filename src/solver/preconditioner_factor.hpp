@@ -9,25 +9,25 @@
 
 namespace perilink {
 
-/// A factor in single precision, for preconditioners that need no more digits: it takes half the
-/// memory, and a solution, in double precision, reads half as much. The matrix, which need not be
-/// stored, is dense in the blocks of pairs of points: their graph gives order and supernodes.
+/// Factor in single precision for preconditioners. It has half the memory, and solutions, which are
+/// in double precision, read half as much. The matrix need not be stored. It is dense in the blocks
+/// of coupled points, so the graph of points gives ordering and supernodes.
 class PreconditionerFactor {
  public:
-  /// \param graph  lower triangle of the pattern by points; its numbers are not read
+  /// \param graph  lower triangle of the pattern by points; its values are ignored
   /// \param sizes  rows of each point
-  /// \throws SolverError  where there is no memory
+  /// \throws SolverError if memory is too small
   PreconditionerFactor(const SparseMatrix& graph, std::span<const Index> sizes, int threads);
   ~PreconditionerFactor();
 
-  /// The points in the order of elimination: so come the rows of the matrix.
+  /// Returns the points in the order of elimination. The rows of the matrix must follow this order.
   std::span<const Index> order() const;
   /// Factorises a matrix of this pattern.
-  /// \return whether it is positive definite, and finite, in single precision
+  /// \return whether the matrix is positive definite and finite in single precision
   bool factorize(const AddColumn& add);
-  /// Solves the right side where it is, size n.
+  /// Solves a right side in place, size n.
   void solve(std::span<double> side);
-  /// Entries are those of L, bytes those that single precision takes.
+  /// Returns the statistics with the entries of L and their bytes in single precision.
   FactorStatistics statistics() const;
 
  private:

@@ -15,24 +15,24 @@
 
 namespace perilink {
 
-/// What the first rank asks the others for, the first word of every order.
+/// Request from the root to the workers, the first word of every message.
 enum class Service : int { end, solve, move_bonds, relax_bonds, move_rows, show_fields };
 
-/// Particles that other ranks own and this one needs to know the motion of.
+/// Ghosts: particles whose motion this rank needs and another rank owns.
 struct Ghosts {
-  std::vector<Index> places;   ///< number of each among the particles that this rank knows
-  std::vector<int> owners;     ///< rank that owns it
-  std::vector<Index> numbers;  ///< its number among the particles that this rank knows
+  std::vector<Index> places;   ///< number of each ghost on this rank
+  std::vector<int> owners;     ///< rank that owns the ghost
+  std::vector<Index> numbers;  ///< number of the ghost on its owner
 };
 
-/// What goes to a rank and what comes from it.
+/// Message buffers to and from a rank.
 struct Exchange {
   int rank = 0;
   Parcel out, in;
 };
 
-/// Processes that work on one body, each on its part of the particles. The first leads: it knows
-/// the whole body, sends the others their parts and takes back what they find.
+/// Communicator: processes that compute one body, each a part of its particles. The first rank is
+/// the root. It has the whole body, sends the workers their parts and receives their results.
 class Ranks {
  public:
   virtual ~Ranks() = default;
@@ -40,49 +40,50 @@ class Ranks {
   virtual int own() const = 0;  ///< number of this process, 0 to count() - 1
   bool leads() const { return own() == 0; }
 
-  /// Collective: each value becomes its sum over the ranks.
+  /// Collective: replaces each value by its sum over the ranks.
   virtual void sum(std::span<double> values) = 0;
 
   virtual void send(int to, std::span<const std::byte> message) = 0;
   virtual std::vector<std::byte> receive(int from) = 0;
-  /// One message each way, with ranks that do the same.
+  /// Sends and receives one message per rank; the other ranks do likewise.
   virtual void exchange(std::span<Exchange> with) = 0;
 
-  /// Collective: perilink::conjugate_gradients() of a system whose unknowns the ranks share out;
-  /// vectors are the own parts, and so are those that both maps are given.
+  /// Collective: perilink::conjugate_gradients() of a system with unknowns divided among the ranks.
+  /// All vectors are the rank's own parts, including the arguments of both maps.
   virtual GradientsReport conjugate_gradients(const LinearMap& product,
                                               const LinearMap& precondition,
                                               std::span<const double> right,
                                               std::span<double> solution, double enough,
                                               double scale, int most_iterations) = 0;
 
-  /// Ends all ranks at once: others may be waiting for this one.
+  /// Ends all ranks at once, because others may be waiting for this one.
   [[noreturn]] virtual void abandon(const std::string& reason) = 0;
 };
 
-/// Brings what ranks know of each other's particles up to date.
+/// Updates the motions of ghosts.
 class GhostLayer {
  public:
-  /// Collective. \param ranks  have to outlive this
+  /// Collective. \param ranks  must outlive this object
   GhostLayer(Ranks& ranks, const Ghosts& ghosts);
 
-  /// Collective: one message to each neighbour. \param width  numbers of a particle in a field
-  /// \param fields  shape (particles that the rank knows, width): those of ghosts are overwritten
+  /// Collective: sends one message to each neighbour.
+  /// \param width  numbers of a particle in a field
+  /// \param fields  shape (particles of the rank, width); values of ghosts are overwritten
   void update(int width, std::initializer_list<std::span<double>> fields);
 
  private:
-  /// Particles that a neighbour has to know, and its own ones that are ghosts here.
+  /// Own particles that a neighbour needs, and its particles that are ghosts here.
   struct Border {
     std::vector<Index> out, in;
   };
 
   Ranks& ranks_;
   std::vector<Border> borders_;
-  std::vector<Exchange> messages_;  ///< one for each border
+  std::vector<Exchange> messages_;  ///< one per border
 };
 
-/// What the first rank does for all: what goes wrong in it alone ends all ranks, which else would
-/// wait for it for ever. The solver's errors are those of all ranks.
+/// Runs the root's part. An error in the root ends all ranks, which would otherwise wait forever.
+/// Errors of the solver occur in all ranks.
 template <class Act>
 auto lead(Ranks& ranks, Act act) {
   try {
@@ -91,7 +92,7 @@ auto lead(Ranks& ranks, Act act) {
     throw;
   } catch (const std::exception& error) {
     ranks.abandon(failure_text(error));
-    throw;  // not reached, which GCC does not see
+    throw;  // not reached; needed by GCC
   }
 }
 

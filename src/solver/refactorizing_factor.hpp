@@ -4,14 +4,15 @@
 
 namespace perilink {
 
-/// Factorises the changed matrix anew at every event: the yardstick for speed and exactness.
+/// Factor that is recomputed from the changed matrix at every event, as a standard of speed and
+/// exactness.
 class RefactorizingFactor final : public CholmodRoute {
  public:
   explicit RefactorizingFactor(int threads) : CholmodRoute(threads) {}
 
   void factorize(const SparseMatrix& matrix, std::span<const Index> groups) override;
   void refactorize(const SparseMatrix& matrix) override;
-  /// One factorisation for all of them.
+  /// Needs one factorisation for all vectors.
   void downdate(std::span<const SparseVector> x, std::span<const double> load_changes,
                 std::span<const double> pivots, std::span<double> solution) override;
   void update(const SparseVector& x) override;

@@ -9,10 +9,10 @@ namespace {
 
 using Side = LongLanes<float, block_width>;
 
-/// Rows worked on together: what they share is loaded once.
+/// Rows processed together, so that shared values are loaded once.
 constexpr Index together = 4;
 
-/// Rows of a supernode and where their right sides are.
+/// Rows of a supernode and the positions of their right sides.
 class Rows {
  public:
   Rows(const SingleFactor::Supernode& node, float* sides)
@@ -27,7 +27,7 @@ class Rows {
   }
   Index count() const { return node_.columns + static_cast<Index>(node_.rows.size()); }
 
-  /// Takes the first `columns` columns, whose solutions are known, from `Count` rows.
+  /// Subtracts the first `columns` columns, whose solutions are known, from `Count` rows.
   template <Index Count>
   void eliminate(Index row, Index columns) const {
     Side sums[Count] = {};
@@ -41,7 +41,7 @@ class Rows {
     for (Index r = 0; r < Count; ++r) side(row + r) -= sums[r];
   }
 
-  /// Takes `Count` rows, whose solutions are known, from the first `columns` columns.
+  /// Subtracts `Count` rows, whose solutions are known, from the first `columns` columns.
   template <Index Count>
   void substitute(Index row, Index columns) const {
     Side solved[Count];
@@ -61,7 +61,7 @@ class Rows {
   Side* sides_;
 };
 
-/// The few columns from `begin` to `end`, after or before which all others are taken.
+/// Solves the triangle of the few columns from `begin` to `end`.
 void forward_triangle(const Rows& rows, Index begin, Index end) {
   for (Index k = begin; k < end; ++k) {
     Side sum = rows.side(k);

@@ -97,7 +97,7 @@ TEST_F(Memory, MeshesLargerThanItAreRefusedBeforeTheyAreRead) {
   write_text(work() / "mesh.toml", text);
   const ProcessEnd end = run_program(work(), {"check", "mesh.toml"});
   EXPECT_EQ(end.exit_status, 2);
-  EXPECT_THAT(end.err, HasSubstr("huge.msh: has 2199 GB, to read it takes"));
+  EXPECT_THAT(end.err, HasSubstr("huge.msh: has 2199 GB, reading it takes"));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Bars in whole runs, from the case to the files: what only the program puts together.
+// Bars in whole runs, from case to files, to test how the program joins its parts.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ using namespace test;
 
 constexpr double steel = 200e3, area = 100.0;  // N, mm
 
-/// A beam of 200 by 100 (by 100) with one bar, held at its left end.
+/// Returns a beam of 200 by 100 (by 100) with one bar, fixed at its left end.
 /// \param rest  keys of the bar, then tables
 std::string beam(bool space, const std::string& bar, const std::string& rest) {
   const std::string depth = space ? "z = [0, 100]\n" : "";
@@ -43,7 +43,7 @@ const std::string elastic = "[analysis]\ntype = \"elastic\"\n";
 
 double told(const WholeRun& run, const char* key) { return run.summary.json.at(key).get<double>(); }
 
-/// Columns of the last row of the only table of a kind: force and moment.
+/// Returns sums of the columns of the last reaction table's only kind: force and moment.
 std::vector<double> sum_of_reactions(const WholeRun& run, int step) {
   const std::string text = read_text(run.work / fmt::format("reactions_{:06}.csv", step));
   std::vector<double> values(5);
@@ -55,12 +55,12 @@ std::vector<double> sum_of_reactions(const WholeRun& run, int step) {
   return {values[2], values[3], values[4]};
 }
 
-/// Name of the table of bars beside the last fields.
+/// Returns the name of the table of bars that belongs to the last fields.
 std::string bars_file(const WholeRun& run) {
   return replaced(replaced(run.series().back().file, "fields", "bars"), ".vtu", ".csv");
 }
 
-/// Values of the segments of bars, in their order.
+/// Returns values of the bar elements, in order.
 std::vector<double> of_segments(const VtuGrid& grid, const char* name) {
   const std::vector<double>& kinds = grid.find_cell_data("element")->values;
   const std::vector<double>& all = grid.find_cell_data(name)->values;
@@ -71,15 +71,15 @@ std::vector<double> of_segments(const VtuGrid& grid, const char* name) {
   return values;
 }
 
-/// Stress of the segment in the middle of the bar.
+/// Returns the stress of the middle bar element.
 double stress_in_the_middle(const WholeRun& run) {
   const VtuGrid grid = run.fields(run.series().size() - 1);
   const std::vector<double> stresses = of_segments(grid, "axial_stress");
   return stresses.at(stresses.size() / 2);
 }
 
-/// Nothing else loads the body: the bar is stressed by its strain less what the concrete gives way,
-/// and the concrete, which nothing pulls, lies in balance with it.
+/// Without loads the bar's stress is that of its strain less the deformation of the concrete. The
+/// concrete is unloaded and in equilibrium with the bar.
 TEST(BarRuns, PrestrainAloneStressesTheBar) {
   const WholeRun run(beam(false, straight + "prestrain = 1e-3\n", elastic));
   EXPECT_EQ(run.summary.json.at("status"), "completed");
@@ -90,7 +90,7 @@ TEST(BarRuns, PrestrainAloneStressesTheBar) {
   EXPECT_NEAR(stress, uniform, 0.1 * uniform);
 }
 
-/// Flow is left behind between stages, by segments that end at points of their own.
+/// Plastic strain stays between stages, as segments with shifted origins.
 TEST(BarRuns, BarsYieldInStages) {
   const WholeRun run(
       beam(false, straight + "yield_strength = 10\n",
@@ -101,7 +101,7 @@ TEST(BarRuns, BarsYieldInStages) {
   EXPECT_LT(told(run, "energy_error"), 1e-9);
 }
 
-/// Every set of loads has a load factor of its own, and counts in what holds the body.
+/// Every load case has its own load factor and contributes to the reactions.
 TEST(BarRuns, ReactionsOfStagesAreInBalance) {
   const WholeRun run(
       beam(false, straight,
@@ -124,7 +124,7 @@ TEST(BarRuns, ReactionsOfStagesAreInBalance) {
   EXPECT_NEAR(lifted, 50.0, 1e-6);
 }
 
-/// A straight bar is free to turn about itself, whichever way it lies.
+/// A straight bar can rotate about its axis, for any direction.
 TEST(BarRuns, StraightBarsBendInSpace) {
   const auto energy = [](const std::string& bar) {
     const WholeRun run(beam(true, bar, pulled_right + elastic));
@@ -140,7 +140,7 @@ TEST(BarRuns, StraightBarsBendInSpace) {
   }
 }
 
-/// Anchors stand still while particles move in time: what is written goes by where they belong.
+/// Embedded points do not move in time with their particles, so output uses their positions.
 TEST(BarRuns, RelaxationTellsWhatElasticityDoes) {
   for (const std::string bond : {"", "bond = \"linear\"\nbond_stiffness = 50\n"}) {
     const WholeRun still(beam(false, straight + bond, pulled_right + elastic));
@@ -164,8 +164,8 @@ TEST(BarRuns, RelaxationTellsWhatElasticityDoes) {
   }
 }
 
-/// The end of a bar is drawn out of a solid that stays whole, by events and slowly in time: loads,
-/// energies, slips and bond stresses are the same but for the teeth and what is left of motion.
+/// The end of a bar is pulled out of an unbroken solid, by events and slowly in time. Loads,
+/// energies, slips and bond stresses agree, except for the segments and remaining motion.
 TEST(BarRuns, BondsSlipInTimeAsTheyDoByEvents) {
   const std::string drawn = replaced(
       beam(false, straight + "bond = \"curve\"\nbond_curve = [[0.001, 2], [0.05, 6], [0.2, 1]]\n",
@@ -193,7 +193,8 @@ TEST(BarRuns, BondsSlipInTimeAsTheyDoByEvents) {
     near(*std::max_element(b.begin(), b.end()), *std::max_element(a.begin(), a.end()), name);
     near(b.at(8), a.at(8), name);
   }
-  // Bond stresses stay on their curve (1 to 6) also where the bar is drawn, but for their teeth.
+  // Bond stresses stay on their curve (1 to 6) within the overshoot of the segments, also at the
+  // pulled end.
   for (const double stress : of_segments(of_still, "bond_stress")) {
     EXPECT_GT(stress, 0.9);
     EXPECT_LT(stress, 6.3);
@@ -202,13 +203,13 @@ TEST(BarRuns, BondsSlipInTimeAsTheyDoByEvents) {
   EXPECT_EQ(table.rows.size(), 16u);
 }
 
-/// Both halves of a closed bar bear the same, and so does what they give to the solid: it has no
-/// end where its line begins.
+/// Both halves of a closed bar have equal stresses and bond forces, because the start of its line
+/// is no end of the bar.
 TEST(BarRuns, ClosedBarsHaveNoEnds) {
   const WholeRun run(beam(false, "points = [[55, 25], [145, 25], [145, 75], [55, 75], [55, 25]]\n",
                           pulled_right + elastic));
   const std::vector<double> stresses = of_segments(run.fields(0), "bond_stress");
-  // The rectangle, of sides of 9 and 5 segments, is its own mirror image about y = 50.
+  // The rectangle, of sides with 9 and 5 segments, is symmetric about y = 50.
   ASSERT_EQ(stresses.size(), 28u);
   const std::size_t side = 9;
   double most = 0.0, apart = 0.0;
@@ -220,7 +221,7 @@ TEST(BarRuns, ClosedBarsHaveNoEnds) {
   EXPECT_LT(apart, 1e-6 * most);
 }
 
-/// A bond whose table ends at zero slips on its way there, as one that ends next to it does.
+/// A bond with a table that ends at zero slips before, as a bond whose table ends close to it.
 TEST(BarRuns, BondsThatEndSlipBefore) {
   const auto yields = [](const char* last) {
     const WholeRun run(beam(false,

@@ -1,4 +1,4 @@
-// Beams as cases: deflections of handbooks, elements that carry them, and beams that break.
+// Beams as cases: handbook deflections, beams constrained by host elements, and breaking beams.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -16,8 +16,8 @@
 namespace perilink {
 namespace {
 
-/// A beam of the length 12, E = 2 and a section of 3 wide by 0.5 high, which is 1 high beyond x = 8
-/// where it is stepped; clamped at its left end.
+/// Returns a cantilever of length 12 with E = 2 and a section 3 wide and 0.5 high; stepped beams
+/// are 1 high beyond x = 8.
 CaseFile cantilever(double spacing, double horizon_ratio, bool stepped, const std::string& more) {
   return parse_case(
       fmt::format("[body]\nproblem = \"beam\"\nthickness = 3\nspacing = {}\nhorizon_ratio = {}\n"
@@ -45,9 +45,10 @@ std::vector<double> deflections(const CaseFile& input) {
 
 constexpr double EI = 2.0 * 3.0 * 0.125 / 12.0;
 
-/// P L^3 / 3 E I, and of the stepped one P ((L^3 - l^3) / 3 E I + l^3 / 24 E I), l = 4 eight times
-/// as stiff. Whatever the horizon: every bond is a beam, and bonds share the section. Tolerance:
-/// the round-off of a matrix with a condition of 1e6.
+/// Deflections are P L^3 / 3 E I, and P ((L^3 - l^3) / 3 E I + l^3 / 24 E I) for the stepped beam.
+/// Its stiffer part has l = 4 and is eight times as stiff. Both are exact for any horizon: every
+/// bond is a beam, and bonds share the section. Tolerance: round-off of a matrix with a condition
+/// number of 1e6.
 TEST(Beams, LoadedAtTheirEndsAreExactAtTheirParticles) {
   const std::string load = "[[point_loads]]\nat = [12, 0]\nforce = [0, -0.001]\n";
   const double L = std::pow(12.0, 3), l = std::pow(4.0, 3);
@@ -58,8 +59,9 @@ TEST(Beams, LoadedAtTheirEndsAreExactAtTheirParticles) {
   }
 }
 
-/// q L^4 / 384 E I between two clamps. The load is shared by the particles: the trapezoidal rule
-/// has order four where the slopes of the influence line vanish at both ends.
+/// The deflection is q L^4 / 384 E I between two clamps. Particles divide the load by the
+/// trapezoidal rule. Its order is four, because the slopes of the influence line vanish at both
+/// ends.
 TEST(Beams, BetweenClampsConvergeWithOrderFour) {
   const std::string more =
       "[[supports]]\nregion = \"right\"\nfix = [\"x\", \"y\", \"rotation\"]\n"
@@ -74,8 +76,8 @@ TEST(Beams, BetweenClampsConvergeWithOrderFour) {
   EXPECT_NEAR(std::log2(errors[1] / errors[2]), 4.0, 0.1);
 }
 
-/// On springs k per length, loaded in the middle: w = P b / 2 k with b^4 = k / 4 E I of an infinite
-/// beam (Hetenyi 1946); this one reaches to 12 / b = 6.4 on either side by its symmetry.
+/// The deflection of an infinite beam on springs k per length under a point load is w = P b / 2 k,
+/// b^4 = k / 4 E I (Hetenyi 1946). By symmetry this beam extends to 12 / b = 6.4 on either side.
 TEST(Beams, OnSpringsDeflectAsWinklersBeam) {
   const double beta = std::pow(0.01 / (4 * EI), 0.25), exact = 0.001 * beta / (2 * 0.01);
   const CaseFile input = parse_case(
@@ -89,8 +91,8 @@ TEST(Beams, OnSpringsDeflectAsWinklersBeam) {
   EXPECT_NEAR(-deflections(input)[0], exact, 2e-3 * exact);
 }
 
-/// A moment at the end bends it to a circle, which quadratic elements carry without an error; a
-/// force bends it to a cubic parabola, which they meet with order two.
+/// An end moment gives a circle, which quadratic elements represent exactly. An end force gives a
+/// cubic parabola, with an error of order two.
 TEST(Beams, AreCarriedByLineElements) {
   const auto embedded = [](const std::string& load, int spacings) {
     const std::string elements = fmt::format("[elements]\nspacings = {}\n", spacings);
@@ -107,7 +109,8 @@ TEST(Beams, AreCarriedByLineElements) {
   EXPECT_GT(std::log2(coarse / fine), 1.8);
 }
 
-/// A bar 30 long of concrete on two supports or pulled; E = 30 000, f_t = 3, G_F = 0.1.
+/// Breaks a bar of concrete of length 30, on two supports or in tension; E = 30 000, f_t = 3, G_F =
+/// 0.1.
 DamageResult broken(const std::string& loads, const std::string& elements) {
   const CaseFile input = parse_case(
       "[body]\nproblem = \"beam\"\nthickness = 20\nspacing = 10\nhorizon_ratio = 3\n"
@@ -126,8 +129,9 @@ DamageResult broken(const std::string& loads, const std::string& elements) {
   return run_damage_analysis(model, damage_options(input, 1), nobody);
 }
 
-/// f_t A, which teeth raise by 1 % and the first of them by 2 (measured), and G_F A: what bonds
-/// beside the crack dissipate before it opens, and the path between teeth, add 1.7 %.
+/// The peak is f_t A, raised 1 % by the segments and 2 % by the first of them (measured). The
+/// dissipated energy is G_F A; bonds near the crack before it opens and the path between segments
+/// add 1.7 %.
 TEST(Beams, PulledTakeTheStrengthAndTheFractureEnergy) {
   const DamageResult result = broken(
       "[[supports]]\nregion = \"left\"\nfix = [\"rotation\"]\n"
@@ -138,8 +142,8 @@ TEST(Beams, PulledTakeTheStrengthAndTheFractureEnergy) {
   EXPECT_LT(result.energy_error, 1e-9);
 }
 
-/// A bond that bends to an S, its ends held parallel, has a stretched face at each end: it breaks
-/// where its energy says so, at s_eq^2 = (h / l)^2 (v / l)^2 = s_c^2 of its shear alone.
+/// A bond in S-shaped bending with parallel ends has a stretched face at each end. It breaks at the
+/// energy of its shear: s_eq^2 = (h / l)^2 (v / l)^2 = s_c^2.
 TEST(Beams, BreakWhereTheyBendToAnS) {
   const CaseFile input = parse_case(
       "[body]\nproblem = \"beam\"\nthickness = 1\nspacing = 10\nhorizon_ratio = 1\n"
@@ -161,8 +165,9 @@ TEST(Beams, BreakWhereTheyBendToAnS) {
   EXPECT_NEAR(result.peak_displacement, critical * 10.0 * 10.0 / 2.0, 1e-9);
 }
 
-/// In bending a face bears sqrt 3 times the strength where a bond begins to soften, one of a mean
-/// length beside the load a little more; and elements that let go in time change nothing.
+/// In bending the face stress is sqrt 3 times the strength where a bond of mean length begins to
+/// soften. Near the load it is slightly larger. Host elements that are released before do not
+/// change the result.
 TEST(Beams, BendToSqrtThreeTimesTheStrength) {
   const std::string loads =
       "[[supports]]\nregion = \"right\"\nfix = [\"y\"]\n"

@@ -1,6 +1,6 @@
-// Newton's law for bodies in motion and at rest: their momentum is what loads and reactions give
-// them, free bodies under balanced loads keep neither momentum nor spin and stay symmetric, and
-// bodies that come to rest are held by what loads them.
+// Newton's law for bodies in motion and in static equilibrium. Momentum is the impulse of loads and
+// reactions. Free bodies under balanced loads have no momentum and no spin and stay symmetric. In
+// static equilibrium reactions balance the loads.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ namespace {
 
 constexpr int bodies_of_each_kind = 25;
 
-/// A rectangle or cuboid of particles one apart, and what a test adds to its case.
+/// Rectangle or cuboid of particles at unit spacing, with the tables that a test adds.
 struct RandomBody {
   int dim = 2;
   Vector3 size{};
@@ -68,7 +68,7 @@ class RandomBodies {
   std::mt19937 random_{54};
 };
 
-/// A table whose vector has as many components as the body.
+/// Returns a table with a vector of as many components as the body's dimension.
 std::string vector_of(const RandomBody& body, double x, double y, double z = 0.0) {
   return body.dim == 2 ? fmt::format("[{}, {}]", x, y) : fmt::format("[{}, {}, {}]", x, y, z);
 }
@@ -118,7 +118,7 @@ class MotionRecorder final : public BondRunObserver {
   const Inertia& inertia_;
 };
 
-/// A case that goes through time, with a row for every step.
+/// Case of a run in time with a row per step.
 struct Moved {
   explicit Moved(const std::string& text)
       : input(parse_case(text, "")),
@@ -135,7 +135,7 @@ struct Moved {
   BondRunCase built;
   MotionRecorder recorder;
   ExplicitResult result;
-  double size = 0.0;  ///< sum of the sizes of the loads [force]
+  double size = 0.0;  ///< sum of the magnitudes of the loads [force]
 };
 
 std::string through_time(double damping = 0.0) {
@@ -149,7 +149,7 @@ double largest(const Vector3& values) {
   return std::max({std::abs(values[0]), std::abs(values[1]), std::abs(values[2])});
 }
 
-/// Largest difference between the motions of particles that mirror each other, over the motion.
+/// Returns the largest difference between the motions of mirrored particles, over the motion.
 double asymmetry(const Moved& run, const RandomBody& body, int axis) {
   const Network& network = run.model.network;
   const auto key = [&](Index i, bool mirrored) {
@@ -176,7 +176,7 @@ double asymmetry(const Moved& run, const RandomBody& body, int axis) {
   return difference / motion;
 }
 
-/// Under tractions that balance, and symmetric ones leave nothing to take out but round-off.
+/// Tractions balance; symmetric tractions leave only round-off.
 TEST(BodiesInMotion, FreeOnesUnderBalancedLoadsKeepNoMomentumNoSpinAndTheirSymmetry) {
   RandomBodies random;
   double momentum = 0.0, spin = 0.0, unlike = 0.0;
@@ -201,7 +201,7 @@ TEST(BodiesInMotion, FreeOnesUnderBalancedLoadsKeepNoMomentumNoSpinAndTheirSymme
       momentum = std::max(momentum, largest(row.momentum) / impulse);
       spin = std::max(spin, largest(row.spin) / (impulse * largest(body.size)));
     }
-    // Constants of state-based particles are fitted one by one, without regard to symmetry.
+    // Constants of state-based particles are fitted particle by particle, without symmetry.
     if (!is_symmetric || text.find("\"particles\"") != std::string::npos) continue;
     for (int axis = 0; axis < body.dim; ++axis) {
       const double here = asymmetry(run, body, axis);
@@ -216,7 +216,8 @@ TEST(BodiesInMotion, FreeOnesUnderBalancedLoadsKeepNoMomentumNoSpinAndTheirSymme
   EXPECT_LT(spin, 1e-13);
 }
 
-/// What holds or drives a body: nothing, one component, an edge, springs, a velocity.
+/// Returns random supports or prescribed motion: no support, one component, an edge, springs, a
+/// velocity.
 std::string held_by(RandomBodies& random, const RandomBody& body) {
   const std::string springs = fmt::format("[[springs]]\nregion = \"lo\"\ntotal = {}\n",
                                           vector_of(body, 1 + random.pick(9), 5, 3));
@@ -261,7 +262,7 @@ TEST(BodiesInMotion, ChangeTheirMomentumByLoadsAndReactions) {
   EXPECT_LT(deviation, 1e-11);
 }
 
-/// A case that comes to rest.
+/// Case that ends in static equilibrium.
 struct Rested {
   explicit Rested(const std::string& text)
       : input(parse_case(text, "")),
@@ -282,7 +283,7 @@ struct Rested {
 
 constexpr const char* to_rest = "[analysis]\ntype = \"relaxation\"\ntolerance = 1e-9\n";
 
-/// A body of bonds.
+/// Returns the next random body of bonds.
 RandomBody next_of_bonds(RandomBodies& random) {
   for (;;) {
     RandomBody body = random.next();
@@ -314,8 +315,8 @@ TEST(BodiesInMotion, AtRestReactionsBalanceLoads) {
   EXPECT_LT(deviation, 1e-8);
 }
 
-/// A cut through the body, or bonds that break one after the other: pieces that are driven resist
-/// nothing.
+/// A cut through the body or successive failures separate displaced pieces, which then have no
+/// resistance.
 TEST(BodiesInMotion, TornOnesComeToNoRest) {
   RandomBodies random;
   for (int k = 0; k < bodies_of_each_kind; ++k) {
@@ -340,7 +341,7 @@ TEST(BodiesInMotion, TornOnesComeToNoRest) {
     const Rested run(text + rest);
     EXPECT_EQ(run.result.termination, Termination::collapsed) << text << run.result.reason;
     EXPECT_NE(run.result.reason.find("in pieces"), std::string::npos) << run.result.reason;
-    // The tolerance of rest, 1e-9, times some hundred that drove the whole body.
+    // The tolerance of equilibrium, 1e-9, times the load of several hundred on the whole body.
     EXPECT_NEAR(run.result.last.load, 0.0, 1e-6) << text;
   }
 }

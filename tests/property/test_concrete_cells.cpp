@@ -1,4 +1,4 @@
-// Bonds of all directions with the law of concrete under uniform strain: the curves of an
+// Bonds of all directions with the law of concrete under uniform strain, compared with curves of an
 // independent integration.
 
 #include <gtest/gtest.h>
@@ -18,8 +18,8 @@ using namespace test;
 
 constexpr double modulus = 24850.0, ratio = 0.22;
 
-/// Fine directions and teeth: 0.1 % of the peak each, 0.9 % behind it, where directions go one by
-/// one.
+/// Number of directions with fine segments: errors of 0.1 % of the peak before it and 0.9 % beyond,
+/// where directions fail one after another.
 constexpr int directions = 360;
 constexpr double overshoot = 0.005;
 
@@ -28,8 +28,8 @@ std::vector<CellBond> cell_of(Problem constants) {
   const double lambda = constants == Problem::plane_stress
                             ? modulus * ratio / (1.0 - ratio * ratio)
                             : modulus * ratio / ((1.0 + ratio) * (1.0 - 2.0 * ratio));
-  // Weights with the sum w and the ratio q of shear have mu = w (1 + q) / 8 and
-  // lambda = w (1 - q) / 8.
+  // Weights with the sum w and the shear ratio q give mu = w (1 + q) / 8 and lambda = w (1 - q) /
+  // 8.
   std::vector<CellBond> cell;
   for (int i = 0; i < directions; ++i) {
     const double angle = (i + 0.5) * std::numbers::pi / directions;
@@ -65,7 +65,7 @@ TEST(ConcreteCells, FollowTheCurvesOfTheLaw) {
     EXPECT_NEAR(peak_of(path), std::abs(highest.stress), 0.003 * std::abs(highest.stress)) << k;
     for (std::size_t j = k; j < k + points_of_curve; ++j) {
       const ConcretePoint& point = concrete_points[j];
-      // At the strain of the peak the force of the bonds along the pull goes at once.
+      // At the strain of the peak the force of the bonds in the loading direction drops at once.
       const double strain = std::abs(point.strain) * (j == k + place_of_peak ? 0.998 : 1.0);
       EXPECT_NEAR(stress_at(path, strain), std::abs(point.stress), 0.01 * std::abs(highest.stress))
           << "strain " << point.strain << " of curve " << k / points_of_curve;
@@ -73,12 +73,12 @@ TEST(ConcreteCells, FollowTheCurvesOfTheLaw) {
   }
 }
 
-/// Nothing is pulled, so that all bonds sleep.
+/// Without tension all bonds stay inactive.
 TEST(ConcreteCells, StayElasticWhereNothingIsPulled) {
   EXPECT_TRUE(path_of({Problem::plane_stress, true, Across::held, -1.0, 0.0}).empty());
 }
 
-/// The same path as that of an equal law with teeth in tension alone where bonds do not shear.
+/// Where bonds do not shear, the path equals the path of a law with equal segments in tension only.
 TEST(ConcreteCells, AgreeWithOtherLawsInTension) {
   const std::vector<CellBond> cell = isotropic_cell(Problem::plane_stress, 1.0);
   const SofteningShape shape{Softening::concrete};

@@ -1,5 +1,5 @@
-// Patches with the law of concrete, driven along x with free sides, bear what the cell of their
-// bonds says, less what goes as damage gathers.
+// Patches with the law of concrete, displaced along x with free sides, have the strength of their
+// bonds' cell, less the loss by gradual damage.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,8 @@ namespace {
 
 using namespace test;
 
-/// Concrete of Gerstle, Sau & Aguilera (2007), twelve spacings wide, moved at the right end.
+/// Returns a patch of concrete of Gerstle, Sau & Aguilera (2007), twelve spacings wide, displaced
+/// at the right end.
 std::string patch(double move, bool shear_softens) {
   constexpr double side = 101.6;
   return fmt::format(R"(title = "Patch of concrete"
@@ -64,12 +65,12 @@ load_fraction = 0.5
                      fmt::arg("shear", shear_softens), fmt::arg("move", move));
 }
 
-/// Measured 0.986 and 0.990 of it in tension, 0.954 and 0.945 in compression.
+/// Measured ratios: 0.986 and 0.990 in tension, 0.954 and 0.945 in compression.
 TEST(ConcretePatches, BearWhatTheirCellSays) {
   struct Expected {
     double move;
     bool shear_softens;
-    double strength;  ///< as `check` prints it
+    double strength;  ///< strength reported by `check`
   };
   for (const Expected& each : {Expected{1.0, false, 4.6258}, Expected{1.0, true, 4.5876},
                                Expected{-1.0, false, 34.036}, Expected{-1.0, true, 32.961}}) {

@@ -1,5 +1,5 @@
-// Bodies of bonds with the law of concrete: whichever way they are driven, every event is where
-// the law has it and takes the energy of its tooth, and all routes find the same events.
+// Bodies of bonds with the law of concrete. For any loading every event is at its limit and
+// dissipates the energy of its segment, and all routes give identical events.
 
 #include <gtest/gtest.h>
 
@@ -13,11 +13,11 @@ namespace {
 
 using namespace test;
 
-/// Sums over some hundred events of a body that comes apart.
+/// Tolerance of sums over several hundred events until the body separates.
 constexpr double concrete_tolerance = 1e-8;
 constexpr int rows = 250;
 
-/// Teeth on a branch that make the path one of that branch too.
+/// Least number of events for a branch of the law to count as tested.
 constexpr int few = 5;
 
 struct ConcreteCase {
@@ -58,7 +58,7 @@ class ConcretePath : public testing::TestWithParam<ConcreteCase> {
     }
     return sum;
   }
-  /// Stretch over the limit of the next event, by the rules of the law.
+  /// Returns the stretch over the limit of the next event, by the rules of the law.
   double ratio(Index e, double stretch) const {
     const Network& network = body_.network;
     const BondLaw& law = network.law(e);
@@ -70,7 +70,7 @@ class ConcretePath : public testing::TestWithParam<ConcreteCase> {
     if (segment > 0 || !awake) return 0.0;
     return -x / (segment == 0 ? law.first_in_compression() : law.segment(segment)).limit;
   }
-  /// \return energy that the element gives up by its next event at this motion
+  /// Returns the energy released by the element's next event in this motion.
   double pass(Index e, const StepState& state, double load_factor) {
     const Network& network = body_.network;
     const double all = element_energy(network, state.displacement, e) * load_factor * load_factor;
@@ -124,9 +124,9 @@ TEST_P(ConcretePath, EventsAreWhereTheLawHasThemAndTakeTheEnergyOfTheirTeeth) {
   const DamageResult result = run(body_, {}, recorder);
   EXPECT_GT(recorder.rows.size(), 100U);
   EXPECT_GT(result.last.yield_events, 50);
-  EXPECT_GT(events_[false][false], few) << "teeth in tension";
+  EXPECT_GT(events_[false][false], few) << "segments in tension";
   if (GetParam().drive < 0.0) {
-    EXPECT_GT(events_[false][true], few) << "teeth in compression";
+    EXPECT_GT(events_[false][true], few) << "segments in compression";
   }
 }
 

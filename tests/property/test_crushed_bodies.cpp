@@ -1,5 +1,4 @@
-// Bodies that are pressed until they are crushed, with bonds that close: their runs come to an end
-// that means something.
+// Bodies in compression until crushed, with crack closure: their runs end with a meaningful result.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -17,7 +16,7 @@ using namespace test;
 
 constexpr double block_modulus = 30000.0, height = 50.0;
 
-/// A block of 100 by 50 held at its left side.
+/// Returns a block of 100 by 50 fixed at its left side.
 /// \param material  lines of its material
 std::string crushed_block(const std::string& body, const std::string& material,
                           const std::string& loads) {
@@ -47,7 +46,7 @@ TEST(CrushedBodies, EndBeforeStrainsAreLarge) {
   EXPECT_THAT(told.at("doubts").dump(), testing::HasSubstr("is no strength of the body"));
 }
 
-/// Loads that are asked for are borne, and their peak is in doubt.
+/// Prescribed load steps are carried, and the run warns about the peak.
 TEST(CrushedBodies, AskedForByStepsAreInDoubt) {
   const auto warnings = [](const std::string& load_factors) {
     const WholeRun run(
@@ -63,7 +62,7 @@ TEST(CrushedBodies, AskedForByStepsAreInDoubt) {
   EXPECT_THAT(warnings("[10, 200]"), testing::HasSubstr("is no strength of the body"));
 }
 
-/// The load that a stage goes to is reached where nothing fails on the way.
+/// The load of a stage is reached if no element fails before it.
 TEST(CrushedBodies, AStageEndsAtItsLoadInDoubt) {
   const std::string held =
       crushed_block("[body]\nproblem = \"plane_stress\"\nspacing = 10\nhorizon_ratio = 3\n",
@@ -77,8 +76,8 @@ TEST(CrushedBodies, AStageEndsAtItsLoadInDoubt) {
   EXPECT_THAT(run.summary.json.at("doubts").dump(), testing::HasSubstr("small strains"));
 }
 
-/// A load that stays while bonds break under it, until the rest is far from where it was, is not
-/// borne; its peak is in no doubt.
+/// A constant load under which bonds break until the body moves far away is not carried. The run
+/// does not warn about the peak.
 TEST(CrushedBodies, TornByALoadThatStaysHaveCollapsed) {
   const auto told = [](const std::string& sizes) {
     const WholeRun run(
@@ -97,9 +96,9 @@ TEST(CrushedBodies, TornByALoadThatStaysHaveCollapsed) {
               testing::HasSubstr("until small strains no longer hold"));
 }
 
-/// After an event a bond is beyond its limit at a load factor where another closes. Where the load
-/// grows the other opens, and more of the load comes upon the first; where it falls the other is
-/// closed, and the same. So the first one fails where it is.
+/// After an event a bond exceeds its limit at a load factor where another bond closes. If the load
+/// grows, the other bond opens and loads the first one more. If the load falls, the other bond
+/// closes, which also loads the first one. The first bond therefore fails at this load factor.
 TEST(CrushedBodies, BondsThatBearNoLoadFactorNearByFailAtTheirOwn) {
   const WholeRun run(crushed_block(
       "[body]\nproblem = \"plane_strain\"\nmodel = \"micropolar\"\nspacing = 10\nhorizon_ratio = "

@@ -1,4 +1,4 @@
-// What holds along every path of a damage analysis, whatever the body and its load.
+// Invariants of every path of a damage analysis, for any body and load.
 
 #include <gtest/gtest.h>
 
@@ -10,17 +10,17 @@ namespace {
 
 using namespace test;
 
-/// Energies are sums over at most 150 events; each adds round-off (1e-16) times the condition
-/// number, which reaches some 1e5 while the body comes apart, and no more than the residual allows
-/// (1e-10).
+/// Relative tolerance of energies, which are sums over at most 150 events. Each event adds
+/// round-off (1e-16) times the condition number, up to several 1e5 near separation, limited by the
+/// residual (1e-10).
 constexpr double tolerance = 1e-9;
 
-/// A bar across a crack yields for ever; this many rows hold the whole fracture of bonds that break
-/// at once.
+/// A bar across a crack yields forever. This number of rows covers the whole fracture of brittle
+/// bonds.
 constexpr int rows_of_brittle = 150;
 int most_rows(const BlockCase& block) { return rows_of_brittle * (block.toothed ? 3 : 1); }
 
-/// One row with what the elements themselves say about it.
+/// Row with energies computed from the elements.
 struct Look {
   StepRecord row;
   double stored = 0.0;  ///< sum of k e^2 / 2 over the elements
@@ -67,7 +67,8 @@ class DamagePath : public testing::TestWithParam<BlockCase> {
     }
   }
 
-  /// Displacement over load; of a driven body load over displacement, which must not rise.
+  /// Expects that displacement over load does not fall; for prescribed displacements, that load
+  /// over displacement does not rise.
   void expect_the_body_only_softens() const {
     for (std::size_t k = 1; k < looks_.size(); ++k) {
       const StepRecord &before = looks_[k - 1].row, &after = looks_[k].row;
@@ -93,9 +94,9 @@ TEST_P(DamagePath, EventByEvent) {
   expect_damage_only_grows();
   expect_the_body_only_softens();
   // An element that fails at lambda_k releases lambda_k^2 k e^2 / 2. The path dissipates lambda_k
-  // lambda_(k+1) k e^2 / (2 pivot), and removing stiffness never makes a body stiffer: pivot <= 1.
-  // (The sums can be in either order: where the load drops steeply less is dissipated along the
-  // path than the elements released, the rest went back to the load.)
+  // lambda_(k+1) k e^2 / (2 pivot). Removing stiffness never makes a body stiffer, so pivot <= 1.
+  // The sums can be in either order: where the load drops steeply, part of the released energy
+  // returns to the load.
   for (std::size_t k = 1; k < looks_.size(); ++k) {
     const StepRecord &before = looks_[k - 1].row, &after = looks_[k].row;
     const double released = after.released_energy - before.released_energy;
@@ -116,13 +117,13 @@ TEST_P(DamagePath, InLoadSteps) {
   for (int k = 0; k <= 20; ++k) {
     options.load_factors.push_back(0.9 * first + 0.05 * k * (1.02 * peak - 0.9 * first));
   }
-  options.load_factors.push_back(0.5 * peak);  // and back
+  options.load_factors.push_back(0.5 * peak);  // unload
   go(options);
   expect_work_is_stored_or_dissipated();
   expect_damage_only_grows();
   expect_the_body_only_softens();
-  // All events of a step happen at its load factor, so that with pivot <= 1 the path dissipates at
-  // least what the elements released.
+  // All events of a step have its load factor. With pivot <= 1 the path dissipates at least the
+  // energy that the elements released.
   for (const Look& look : looks_) {
     EXPECT_GE(look.row.dissipated_energy * (1.0 + tolerance), look.row.released_energy);
   }
@@ -166,7 +167,7 @@ std::vector<BlockCase> cases() {
 INSTANTIATE_TEST_SUITE_P(Bodies, DamagePath, testing::ValuesIn(cases()),
                          [](const auto& test) { return to_string(test.param); });
 
-/// The toothed bodies above with the teeth of softening curves.
+/// The bodies with segments above, with segments of softening curves.
 class SofteningPath : public DamagePath {
  protected:
   void expect_path(const SofteningShape& shape) {

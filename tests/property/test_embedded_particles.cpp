@@ -1,4 +1,4 @@
-// Particles that unknowns of others carry: what holds whoever carries them.
+// Embedded particles, constrained by unknowns of other particles: invariants for any hosts.
 
 #include <gtest/gtest.h>
 
@@ -13,13 +13,13 @@ namespace {
 using namespace test;
 using Share = Unknowns::Share;
 
-/// Lets `carriers`, with equal weights, move a free particle.
+/// Particle constrained by `hosts` with equal weights.
 struct Embedded {
   Index particle;
   std::vector<Index> hosts;
 };
 
-/// Numbers the unknowns anew with these particles carried.
+/// Numbers the unknowns again with these particles embedded.
 void carry(AnalysisBody& body, const std::vector<Embedded>& all) {
   const Unknowns before = body.unknowns;
   const int width = body.network.width();
@@ -39,7 +39,7 @@ void carry(AnalysisBody& body, const std::vector<Embedded>& all) {
   }
 }
 
-/// The particle nearest to a point.
+/// Returns the particle nearest to a point.
 Index nearest(const Network& network, double x, double y) {
   Index best = 0;
   double least = std::numeric_limits<double>::infinity();
@@ -68,8 +68,8 @@ AnalysisBody block_of(const EmbeddedCase& param) {
   return make_block(block);
 }
 
-/// A block with a rigid pair (of bonds without moments: one that keeps its direction) and a
-/// particle that moves as the mean of its neighbours on the left and on the right.
+/// Block with a rigid pair and a particle that moves as the mean of its left and right neighbours.
+/// The pair of bonds without moments keeps its direction.
 class EmbeddedParticles : public testing::TestWithParam<EmbeddedCase> {
  protected:
   EmbeddedParticles() : body_(block_of(GetParam())) {
@@ -88,7 +88,7 @@ class EmbeddedParticles : public testing::TestWithParam<EmbeddedCase> {
     carry(body_, {pair_, mean_});
   }
 
-  /// T as a dense matrix, from what was asked for.
+  /// Returns the dense matrix T of the constraints as defined.
   Eigen::MatrixXd dense_map() const {
     const Unknowns& unknowns = body_.unknowns;
     Eigen::MatrixXd map =
@@ -126,7 +126,7 @@ class EmbeddedParticles : public testing::TestWithParam<EmbeddedCase> {
   Embedded pair_, mean_;
 };
 
-/// 1e-10: round-off (1e-16) times a condition number of some 1e5.
+/// Round-off (1e-16) times a condition number of several 1e5.
 constexpr double embedded_round_off = 1e-10;
 
 TEST_P(EmbeddedParticles, EventsAreThoseOfTheConstrainedBody) {
@@ -178,8 +178,8 @@ TEST_P(EmbeddedParticles, WorkIsStoredOrDissipated) {
   EXPECT_LT(result.energy_error, 10.0 * embedded_round_off);
 }
 
-/// From the twentieth row on both particles are free: displacements and events are then those of
-/// a free body with the same secants, and the energy of the freedom is neither lost nor called
+/// From the twentieth row both particles are free. Displacements and events then equal those of a
+/// free body with the same secants. The constraint energy is neither lost nor counted as
 /// dissipation.
 TEST_P(EmbeddedParticles, MayBecomeFreeDuringARun) {
   const AnalysisBody free = block_of(GetParam());
@@ -229,8 +229,8 @@ INSTANTIATE_TEST_SUITE_P(Bodies, EmbeddedParticles,
                                          EmbeddedCase{false, true, true},
                                          EmbeddedCase{true, true, false}));
 
-/// Shape functions that hold a uniform strain leave it exact: all but the middle of a block is held
-/// at a linear displacement, and of the middle one particle is the mean of its neighbours.
+/// Constraints that reproduce uniform strain keep it exact. A linear displacement is prescribed on
+/// a block except its middle, where one particle is the mean of its neighbours.
 TEST(EmbeddedParticle, PassesThePatchTest) {
   AnalysisBody body =
       make_block({{"plane", Pattern::rectangular, Surface::none}, false, false, 10});
@@ -261,7 +261,7 @@ TEST(EmbeddedParticle, PassesThePatchTest) {
   ASSERT_EQ(body.unknowns.count, 16);
   const ElasticResult result = run_elastic_analysis({network, body.unknowns, body.loads, {}});
   for (std::size_t k = 0; k < field.size(); ++k) {
-    EXPECT_NEAR(result.displacement[k], field[k], 1e-12);  // round-off of fields of some ten
+    EXPECT_NEAR(result.displacement[k], field[k], 1e-12);  // round-off of values of about ten
   }
 }
 
@@ -280,7 +280,7 @@ TEST(EmbeddedParticle, ForcesGoWhereTheMotionComesFrom) {
   EXPECT_EQ(unknowns.slots(), (std::vector<std::size_t>{0, 1, 2}));
 }
 
-/// Explicit runs would move them wherever their own bonds pull.
+/// Explicit runs refuse embedded particles, because their own bonds would move them.
 TEST(EmbeddedParticle, IsRefusedWhereEveryParticleMovesByItself) {
   Unknowns unknowns = number_unknowns(2, {0, 0, 1, 1}, std::vector<double>(4, 0.0));
   EXPECT_NO_THROW(expect_nothing_embedded(unknowns));

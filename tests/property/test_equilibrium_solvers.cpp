@@ -1,5 +1,5 @@
-// Conjugate gradients on boxes give the equilibrium that a factor gives, whatever the bonds are and
-// however the body is held and loaded.
+// Conjugate gradients with subdomains give the equilibrium of a factor, for any bonds, supports and
+// loads.
 
 #include <gtest/gtest.h>
 
@@ -21,8 +21,8 @@ namespace {
 
 using namespace test;
 
-/// The error in the norm of energy is below 1e-12; that of displacements may be larger by the
-/// square root of the condition number, 1e3 for the bodies here.
+/// The error in the energy norm is below 1e-12. The error of displacements may be larger by the
+/// square root of the condition number, 1e3 for these bodies.
 constexpr double force_tolerance = 1e-12, closeness = 1e-9;
 
 void expect_equal_answers(const LoadedNetwork& body) {
@@ -46,10 +46,10 @@ void expect_equal_answers(const LoadedNetwork& body) {
 
 struct SolverCase {
   const char* name;
-  std::string body;  ///< in [body]
+  std::string body;  ///< keys of [body]
   bool space = false;
-  std::string more = {};      ///< in the case
-  std::string material = {};  ///< in [[materials]]
+  std::string more = {};      ///< tables of the case
+  std::string material = {};  ///< keys of [[materials]]
 };
 
 void PrintTo(const SolverCase& block, std::ostream* out) { *out << block.name; }
@@ -109,7 +109,7 @@ TEST(EquilibriumSolvers, AgreeOnASlenderBody) {
   expect_equal_answers(make_slender(bar));
 }
 
-/// The extension of a bond of a state-based lattice pulls at all neighbours of its ends.
+/// The extension of a bond of a state-based lattice loads all neighbours of its ends.
 TEST(EquilibriumSolvers, AgreeOnStates) {
   for (const testing_support::StateLatticeCase& lattice : testing_support::state_lattice_cases()) {
     AnalysisBody body =
@@ -133,8 +133,8 @@ TEST(EquilibriumSolvers, AgreeOnStates) {
   }
 }
 
-/// Two halves that one particle joins turn about it, also where the load does not stir them. A
-/// factor finds a pivot of zero.
+/// Two halves joined by one particle can rotate about it, even if the load does not cause rotation.
+/// A factor finds a zero pivot.
 TEST(EquilibriumSolvers, RefuseMechanismsThatNoLoadMoves) {
   SlenderCase bar;
   bar.columns = 80;
@@ -169,8 +169,7 @@ TEST(EquilibriumSolvers, ChooseByTheSizeOfTheBody) {
   problem.unknowns.number = {0, no_index};
   const Unknowns::Share half[] = {{0, 0.5}};
   problem.unknowns.carry(1, half);
-  EXPECT_FALSE(is_for_subdomains(problem, LinearSolver::automatic))
-      << "something carries particles";
+  EXPECT_FALSE(is_for_subdomains(problem, LinearSolver::automatic)) << "a particle is embedded";
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Elements that fail together within a tolerance of the load factor: what a run tells then is what
-// it tells one by one, in fewer rows.
+// Elements that fail together within a tolerance of the load factor give the results of single
+// events in fewer rows.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 using namespace test;
 
-/// What a run has left; runs of one test share a directory, so each is read before the next one.
+/// Results of a run. Runs of one test share a directory, so each is read before the next one.
 struct RunResults {
   explicit RunResults(const std::string& text, int threads = 1) {
     const WholeRun run(text, threads);
@@ -39,7 +39,7 @@ struct RunResults {
   CsvTable table;
 };
 
-/// Rows count their events, and all that is dissipated, stored and done as work belongs together.
+/// Checks that rows count their events and that work equals stored plus dissipated energy.
 void expect_consistent_rows(const RunResults& run) {
   EXPECT_LT(run.told("energy_error"), 1e-9);
   const auto events = run.history("events"), broken = run.history("broken_bonds"),
@@ -49,7 +49,7 @@ void expect_consistent_rows(const RunResults& run) {
   for (std::size_t k = 0; k + 1 < events.size(); ++k) {
     const double before = broken[k] + softened[k], after = broken[k + 1] + softened[k + 1];
     EXPECT_LE(residual[k], 1e-10);
-    if (element[k] < 0.0) continue;  // the end of a stage
+    if (element[k] < 0.0) continue;  // end of a stage
     EXPECT_EQ(before + events[k], after) << "row " << k + 1;
     largest = std::max(largest, events[k]);
   }
@@ -60,7 +60,7 @@ struct ToleratedCase {
   std::string name;
   NotchedBeam beam;
   double tolerance = 0.02;
-  double fewer_rows = 5.0;  ///< at least so many times
+  double fewer_rows = 5.0;  ///< least ratio of the numbers of rows
 };
 
 std::ostream& operator<<(std::ostream& out, const ToleratedCase& tolerated) {
@@ -69,7 +69,7 @@ std::ostream& operator<<(std::ostream& out, const ToleratedCase& tolerated) {
 
 class Tolerated : public testing::TestWithParam<ToleratedCase> {};
 
-/// Measured: smoothed peaks 1.1 % apart at most, energies 1.4 %.
+/// Measured: smoothed peaks differ by at most 1.1 %, energies by 1.4 %.
 TEST_P(Tolerated, RunsTellTheSameInFewerRows) {
   NotchedBeam beam = GetParam().beam;
   const RunResults exact(notched_beam_case(beam));
@@ -99,7 +99,7 @@ std::vector<ToleratedCase> tolerated_cases() {
   staged.weight = 3.0;
   return {{"driven", {}},
           {"forced", forced, 0.02, 4.5},
-          {"micropolar", micropolar, 0.005, 2.0},  // snaps back: a tenth off with 0.02
+          {"micropolar", micropolar, 0.005, 2.0},  // snap-back: 0.02 gives an error of a tenth
           {"carried", embedded},
           {"reinforced", reinforced},
           {"staged", staged}};
@@ -119,7 +119,7 @@ TEST(EventBatches, OfBrittleBondsAreSingleEvents) {
   EXPECT_EQ(RunResults(replaced(text, "event_tolerance = 0\n", "")).bytes, bytes);
 }
 
-/// However small, one by one but for ties.
+/// With a tiny tolerance only exact ties fail together.
 TEST(EventBatches, OfATinyToleranceAreSingleEvents) {
   NotchedBeam beam;
   beam.spacing = 5.0;
@@ -140,7 +140,7 @@ TEST(EventBatches, GiveTheSameBytesForAnyNumberOfThreads) {
   }
 }
 
-/// Loads of steps: measured 2.1 % apart at most, beyond the peak.
+/// Loads of steps differ by at most 2.1 %, beyond the peak (measured).
 TEST(EventBatches, EndStepsAtTheirLoads) {
   NotchedBeam beam;
   beam.analysis =
@@ -157,7 +157,7 @@ TEST(EventBatches, EndStepsAtTheirLoads) {
   EXPECT_EQ(run.history("load_factor"), exact.history("load_factor"));
 }
 
-/// A body of bonds that tie by symmetry, whose batches round-off must not choose.
+/// Bonds tie by symmetry here; round-off must not decide about batches.
 TEST(EventBatches, AreTheSameWithoutAFactor) {
   const RunResults direct(notched_bar_case("direct", 0.02));
   const RunResults found(notched_bar_case("iterative", 0.02));

@@ -1,5 +1,5 @@
-// Events on conjugate gradients are those that a factor finds: the same elements at the same load
-// factors, until the body comes apart.
+// Factor-free events equal those of a factor: the same elements at the same load factors until the
+// body separates.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-/// Load factors that agree to this are the same; ties of the search are narrower.
+/// Relative difference of equal load factors; the search detects ties with a smaller tolerance.
 constexpr double factor_closeness = 1e-9;
 
 struct Outcome {
@@ -32,7 +32,7 @@ Outcome outcome_of(const AnalysisBody& body, bool subdomains, std::vector<double
   return outcome;
 }
 
-/// \param share  so much of the rows
+/// \param share  part of the rows to compare
 void expect_the_same(const Outcome& found, const Outcome& expected, double share) {
   const auto rows = static_cast<std::size_t>(share * static_cast<double>(expected.rows.size()));
   ASSERT_GE(found.rows.size(), rows) << found.result.reason;
@@ -46,8 +46,8 @@ void expect_the_same(const Outcome& found, const Outcome& expected, double share
   }
 }
 
-/// In the last events the motions grow without bound, and with them what is left of errors: load
-/// factors are then farther apart than 1e-9.
+/// In the last events motions and their errors grow without bound; load factors then differ by more
+/// than 1e-9.
 constexpr double before_separation = 0.9;
 
 class Blocks : public testing::TestWithParam<BlockCase> {};
@@ -61,7 +61,7 @@ TEST_P(Blocks, BreakAlike) {
   EXPECT_EQ(found.result.termination, expected.result.termination) << found.result.reason;
 }
 
-/// Forces that are beyond what a body bears take it apart within a step.
+/// Forces beyond the strength separate a body within one step.
 TEST_P(Blocks, BreakAlikeBySteps) {
   if (!GetParam().driven) return;
   const AnalysisBody body = make_block(GetParam());
@@ -70,8 +70,8 @@ TEST_P(Blocks, BreakAlikeBySteps) {
   expect_the_same(outcome_of(body, true, steps), outcome_of(body, false, steps), 1.0);
 }
 
-/// A block that is pulled at both ends and held by three of its unknowns: it gives way far more as
-/// a whole than its bonds stretch.
+/// Returns a block with tension at both ends and three fixed unknowns; its rigid motion is much
+/// larger than the stretch of its bonds.
 AnalysisBody make_loose_block() {
   AnalysisBody body =
       make_block({{"square", Pattern::rectangular, Surface::none}, false, false, 24});
@@ -94,9 +94,9 @@ AnalysisBody make_loose_block() {
   return body;
 }
 
-/// Errors of columns grow with every event that moves the same particles further apart: the
-/// residual that this leaves was taken away at every check and seen by nobody, while load factors
-/// went astray by 1e-5.
+/// Errors of cached columns grow with every event that increases motions of the same particles.
+/// Checks once subtracted the resulting residual without reporting it, while load factors were
+/// wrong by 1e-5.
 TEST(EventsWithoutFactor, LooseBodiesBreakAlike) {
   const AnalysisBody body = make_loose_block();
   const Outcome expected = outcome_of(body, false, {}), found = outcome_of(body, true, {});
@@ -105,8 +105,8 @@ TEST(EventsWithoutFactor, LooseBodiesBreakAlike) {
   EXPECT_LT(found.result.energy_error, 1e-9);
 }
 
-/// Loading plates: where stiff parts move as a whole, single precision has no digits left for what
-/// the soft ones do, and such blocks of columns are left to double precision.
+/// Loading plates: stiff parts move rigidly, and single precision loses the digits of the soft
+/// parts. Such blocks of columns use double precision.
 TEST(EventsWithoutFactor, BodiesWithStiffEndsBreakAlike) {
   for (const double contrast : {1e2, 1e3, 1e5}) {
     AnalysisBody body =

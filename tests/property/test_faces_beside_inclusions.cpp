@@ -1,5 +1,5 @@
-// Blocks with an inclusion anywhere beside a weak face, touching it or cut by it, that are pulled
-// across the face: they carry its strength and take its fracture energy whatever the inclusion is.
+// Blocks with an inclusion at any position near a weak face, touching or crossing it, in tension
+// across the face. They have the strength and fracture energy of the face for any inclusion.
 
 #include <gtest/gtest.h>
 
@@ -22,9 +22,9 @@ constexpr double spacing = 5.0, strength = 3.0, energy = 1.0;
 
 struct Block {
   int columns, rows;
-  double level;             ///< height of the face, in rows
-  std::array<int, 2> x, y;  ///< sides of the inclusion, in spacings
-  double stiffer;           ///< modulus of the inclusion over that of the block
+  double level;             ///< height of the face [rows]
+  std::array<int, 2> x, y;  ///< sides of the inclusion [spacings]
+  double stiffer;           ///< modulus of the inclusion over the modulus of the block
   bool micropolar;
 };
 
@@ -64,9 +64,9 @@ std::string case_of(const Block& block) {
   return text + "[[displacements]]\nregion = \"upper\"\ny = 1\n[stop]\nload_fraction = 1e-4\n";
 }
 
-/// Such short blocks of one material carry 3 to 8 % more than their strength, by their saw-teeth
-/// (up to 5 %) and the contraction that their ends hold. Where an inclusion is not as stiff as the
-/// block, places of the face soften one after another, and it carries less.
+/// Short blocks of one material exceed their strength by 3 to 8 %. Saw-tooth segments cause up to 5
+/// %, prevented contraction at the ends the rest. Inclusions of another stiffness make parts of the
+/// face soften one after another, which reduces the peak.
 TEST(FacesBesideInclusions, KeepTheirStrengthAndEnergy) {
   std::mt19937 random(54);
   const auto among = [&](int first, int last) {

@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-/// Round-off of sums over the bonds of a particle, relative to the stiffest one.
+/// Round-off of sums over the bonds of a particle, relative to the stiffest bond.
 constexpr double green_round_off = 1e-12;
 
 class GreenBonds : public testing::TestWithParam<LatticeCase> {
@@ -49,8 +49,8 @@ TEST_P(GreenBonds, ForceIsTheDerivativeOfTheEnergy) {
   std::vector<double> displacement = random_vector(slots(), 5);
   const std::vector<double> force = forces(displacement);
   const double whole = energy(displacement);
-  // The energy is of fourth degree: central differences with steps h and 2h leave no error but
-  // cancellation.
+  // The energy is a polynomial of degree four, so central differences with steps h and 2h have only
+  // cancellation errors.
   constexpr double step = 1e-2;
   for (std::size_t slot = 0; slot < slots(); slot += 5) {
     const auto difference = [&](double h) {
@@ -67,7 +67,7 @@ TEST_P(GreenBonds, ForceIsTheDerivativeOfTheEnergy) {
   }
 }
 
-/// A quarter turn about z, and a shift.
+/// The motion is a quarter turn about z and a shift.
 TEST_P(GreenBonds, TurningCostsNothing) {
   std::vector<double> displacement(slots());
   const int dim = network_.dim();
@@ -92,7 +92,7 @@ TEST_P(GreenBonds, ForcesAndMomentsBalance) {
     Vector3 x{}, f{};
     for (int a = 0; a < dim; ++a) {
       const std::size_t slot = static_cast<std::size_t>(i) * dim + a;
-      x[a] = network_.particles.position(i)[a] + displacement[slot];  // where it is now
+      x[a] = network_.particles.position(i)[a] + displacement[slot];  // current position
       f[a] = force[slot];
     }
     for (int k = 0; k < 3; ++k) {
@@ -108,7 +108,7 @@ TEST_P(GreenBonds, ForcesAndMomentsBalance) {
   }
 }
 
-/// Forces at small displacements are those of small strains but for their square.
+/// Forces at small displacements equal those of small strains up to second order.
 TEST_P(GreenBonds, SmallMotionsAreSmallStrains) {
   const std::vector<double> direction = random_vector(slots(), 7);
   const auto small = make_explicit_bonds(network_);
@@ -133,8 +133,8 @@ INSTANTIATE_TEST_SUITE_P(
                     LatticeCase{"cubic", Pattern::cubic, Surface::none}),
     [](const auto& tested) { return tested.param.name; });
 
-/// A bond breaks where its energy is that of its critical stretch, so that cracks dissipate what
-/// they do with small strains.
+/// A bond breaks at the energy of its critical stretch, so that cracks dissipate as much as with
+/// small strains.
 TEST(GreenBondsThatBreak, BreakAtTheGreenStretch) {
   const AnalysisBody body = make_chains(1, 2, true, 10.0, 0.5);
   const auto bonds = make_explicit_bonds(body.network, Strain::green);

@@ -1,4 +1,4 @@
-// Finite elements that carry particles: patch tests of bodies of elements and particles.
+// Host elements that constrain particles: patch tests of bodies of elements and particles.
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ struct Patch {
 
 void PrintTo(const Patch& patch, std::ostream* out) { *out << patch.name; }
 
-/// The surface of a body is driven by a uniform strain.
+/// Returns tables that prescribe a uniform strain on the surface of a body.
 std::string patch_end(const std::string& body, int dim, const std::string& elements) {
   std::string text = "[[materials]]\nregion = \"all\"\nyoungs_modulus = 7.0\nfracture_energy = 1\n";
   if (body.find("micropolar") != std::string::npos) text += "poissons_ratio = 0.2\n";
@@ -34,7 +34,7 @@ std::string patch_end(const std::string& body, int dim, const std::string& eleme
   return text + "[analysis]\ntype = \"elastic\"\n[elements]\n" + elements;
 }
 
-/// A lattice, all or a part of it in elements.
+/// Returns a case of a lattice with all or some particles in host elements.
 std::string patch_case(const Patch& patch) {
   const std::string z = patch.space ? "z = [0, 6]\n" : "";
   std::string text = "[body]\n" + patch.body;
@@ -43,10 +43,10 @@ std::string patch_case(const Patch& patch) {
   return text + patch_end(patch.body, patch.space ? 3 : 2, patch.elements);
 }
 
-/// Elements reproduce every linear motion, and calibrated bonds balance every uniform strain, so
-/// the two do together, wherever elements end. 1e-10: the bonds balance to 1e-10.
-/// \param size  extent of the body, which displacements are a part of [length]
-/// \param rest  what the bonds leave out of balance where they have no exact solution
+/// Expects a linear motion. Elements reproduce every linear motion, and calibrated bonds balance
+/// every uniform strain to 1e-10, so both together are exact for any boundary of the elements.
+/// \param size  extent of the body, the scale of displacements [length]
+/// \param rest  residual of the bonds if the calibration has no exact solution
 void expect_linear_motion(const Model& model, double size, double rest = 0.0) {
   const ElasticAnswer answer = solve_elastic(model, {});
   const Particles& particles = model.network.particles;
@@ -107,13 +107,13 @@ INSTANTIATE_TEST_SUITE_P(
       return name;
     });
 
-/// A mesh of particles in elements of a coarser one, which knows nothing of the first: holes and
-/// round sides cut its cells.
+/// Mesh of particles in elements of a coarser, independent mesh; holes and round sides cut its
+/// cells.
 struct MeshPatch {
   const char* name;
-  std::string mesh;  ///< in the folder of meshes; empty: a box
+  std::string mesh;  ///< file in the folder of meshes; empty: a box
   int dim;
-  std::string more;  ///< in [body]
+  std::string more;  ///< keys of [body]
   std::string elements;
 };
 
@@ -150,8 +150,8 @@ INSTANTIATE_TEST_SUITE_P(
                     MeshPatch{"space", "", 3, "", "order = 1\n"}),
     [](const auto& patch) { return std::string(patch.param.name); });
 
-/// Bonds in one half of a box, ordinary linear elements in the other, which share the vertices
-/// between them.
+/// Bonds in one half of a box, ordinary linear elements in the other, with shared vertices between
+/// them.
 class TiedPatches : public testing::TestWithParam<MeshPatch> {};
 
 TEST_P(TiedPatches, UniformStrainIsExact) {
@@ -169,7 +169,8 @@ TEST_P(TiedPatches, UniformStrainIsExact) {
   ASSERT_TRUE(model.network.cells);
   EXPECT_GT(model.network.cells->cells.size(), model.cells.size() / 3);
   EXPECT_EQ(model.embedded.has_value(), !patch.elements.empty());
-  // In space the equal shares of glued facets leave bonds at their edges no exact solution.
+  // In space the equal area fractions of tied facets prevent an exact calibration of bonds at their
+  // edges.
   const double rest = model.network.calibration->residual_after;
   EXPECT_LT(rest, patch.dim == 2 ? 1e-10 : 1e-2);
   expect_linear_motion(model, 6.0, patch.dim == 2 ? 0.0 : rest);
@@ -188,8 +189,8 @@ class Silent : public StepObserver {
   void on_step(const StepRecord& /*record*/, StateSource& /*source*/) override {}
 };
 
-/// Grips on glued vertices take the forces of the finite elements too, also those of an earlier
-/// stage.
+/// Clamps on tied vertices also carry the forces of the finite elements, including those of an
+/// earlier stage.
 TEST(TiedStages, WorkOfGripsBalances) {
   const test::TemporaryDirectory directory;
   std::ofstream(directory / "box.msh")

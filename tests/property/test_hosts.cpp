@@ -1,4 +1,4 @@
-// Finite elements that carry particles: events beside those of free particles.
+// Host elements that constrain particles: events compared with those of free particles.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@
 namespace perilink {
 namespace {
 
-/// A notched beam on three points, with or without elements.
+/// Returns a case of a notched beam in three-point bending, with or without host elements.
 std::string beam_case(const std::string& more) {
   return R"([body]
 pattern = "rectangular"
@@ -98,8 +98,8 @@ TEST(Hosts, ConversionKeepsTheEventsAndTheEnergies) {
   EXPECT_EQ(some.termination, all.termination) << some.reason;
   EXPECT_GT(some.conversions, 0);
   EXPECT_EQ(some.missed_releases, 0);
-  // The same bonds at nearly the same loads, as long as the crack has not met a choice: 0.02 is
-  // what elements that wide are too stiff by beside the load.
+  // Bonds and loads agree until the crack reaches an ambiguous event. The tolerance 0.02 is the
+  // excess stiffness of such wide elements near the load.
   ASSERT_GT(embedded.elements.size(), 40u);
   for (std::size_t k = 0; k < 40; ++k) {
     EXPECT_EQ(embedded.elements[k], free.elements[k]) << k;
@@ -107,14 +107,14 @@ TEST(Hosts, ConversionKeepsTheEventsAndTheEnergies) {
   }
   EXPECT_GT(some.elements, 0);
   EXPECT_LT(some.energy_error, 1e-9);
-  // What conversion frees is an error of the elements; here they are as wide as the ligament has
-  // eighths.
+  // Constraint energy freed by releases is an error of the elements, which are as wide as an eighth
+  // of the ligament.
   EXPECT_LT(some.last.constraint_energy, 0.01 * some.last.dissipated_energy);
   EXPECT_NEAR(some.peak_load, all.peak_load, 0.01 * all.peak_load);
 }
 
-/// The first conversion takes all elements: from there on the body is that of free particles, and
-/// nothing of its elements is left in the search.
+/// The first release includes all elements. Afterwards the body equals that of free particles, and
+/// the search ignores elements.
 TEST(Hosts, OfWhichNoneIsLeftChangeNothing) {
   Events free, embedded;
   const DamageResult all = run_case_of(beam_case(""), free);
@@ -129,7 +129,7 @@ TEST(Hosts, OfWhichNoneIsLeftChangeNothing) {
   EXPECT_EQ(some.termination, all.termination) << some.reason;
 }
 
-/// A plate whose bonds follow the law of concrete, torn from a pre-crack.
+/// Returns a case of a plate with the law of concrete, torn from a pre-crack.
 std::string concrete_plate(const std::string& more) {
   return R"([body]
 model = "micropolar"
@@ -178,20 +178,20 @@ TEST(Hosts, BondsOfConcreteKeepTheirLimitsWhenTheyAreFreed) {
   EXPECT_EQ(embedded.elements[0], free.elements[0]);
 }
 
-/// The beam above with another feature of event analyses, written over its lines.
+/// The beam above with another feature of event analyses, by edits of its lines.
 struct Feature {
   const char* name;
   std::vector<std::pair<std::string, std::string>> edits;
   std::string more;
-  std::string elements = "";  ///< more keys of theirs
+  std::string elements = "";  ///< further keys of [elements]
 };
 
 void PrintTo(const Feature& feature, std::ostream* out) { *out << feature.name; }
 
 class EmbeddedFeatures : public testing::TestWithParam<Feature> {};
 
-/// The margins are those of ConversionKeepsTheEventsAndTheEnergies; of the first twenty events two
-/// may come later, since some nearly tie.
+/// The margins are those of ConversionKeepsTheEventsAndTheEnergies. Two of the first twenty events
+/// may come later, because some nearly tie.
 TEST_P(EmbeddedFeatures, AreThoseOfFreeParticles) {
   const auto with = [](const std::string& elements) {
     std::string text = beam_case(GetParam().more + elements);
@@ -267,7 +267,7 @@ INSTANTIATE_TEST_SUITE_P(
         Feature{"two_tips", {}, "[[cracks]]\npoints = [[71, -1], [71, 11]]\n"}),
     [](const auto& feature) { return std::string(feature.param.name); });
 
-/// An alert as late as this, and no halo, miss bonds that are past their limit.
+/// This late release threshold without a buffer zone misses bonds beyond their limit.
 const std::string missed_elements = "[elements]\nspacings = 4\nalert = 0.99\nhalo = 0.01\n";
 
 TEST(Hosts, LateConversionsAreCounted) {
@@ -288,7 +288,7 @@ TEST(Hosts, LateConversionsAreCounted) {
   }
 }
 
-/// The history is that of the run that needed no elements too many; the beginnings leave nothing.
+/// The history equals that of the run without unneeded elements; restarted runs leave no rows.
 TEST(Hosts, ARunBeginsAgainAfterALateConversion) {
   const test::TemporaryDirectory work;
   const CaseFile input =
@@ -311,7 +311,7 @@ TEST(Hosts, ARunBeginsAgainAfterALateConversion) {
   EXPECT_EQ(read_pvd((work / "fields.pvd").string()).size(), 4u);  // after 0, 40, 80 and 120
 }
 
-/// One load step sees what many see, though it has no row before its end.
+/// One load step reports the missed releases of many steps, though it has one row.
 TEST(Hosts, LateConversionsOfTheFirstLoadStepAreCounted) {
   const auto late_in = [](const std::string& factors) {
     const CaseFile input =

@@ -1,6 +1,6 @@
-// Bodies of two materials of different fracture energy that meet in a row of particles: a crack
-// along their joint takes the smaller energy, whichever material is named first and however a
-// pre-crack is drawn.
+// Bodies of two materials with different fracture energies that meet in a row of particles. A crack
+// along the joint needs the smaller energy, for any order of the materials and any drawing of the
+// pre-crack.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ using namespace test;
 
 struct JointStrip {
   double spacing = 2.0;
-  int columns = 30, rows = 16, joint = 8;  ///< in spacings
+  int columns = 30, rows = 16, joint = 8;  ///< [spacings]
   int crack = 12;                          ///< length of the pre-crack along the joint
   std::array<double, 2> modulus{30000.0, 30000.0}, energy{0.1, 10.0};  ///< below and above
   std::string model = "bond_based";
@@ -74,7 +74,8 @@ std::string case_of(const JointStrip& strip, bool swapped, bool backwards) {
          "region = \"top\"\nx = 0\ny = 0.1\n[stop]\nload_fraction = 0.3\n";
 }
 
-/// Largest relative difference between the bonds of two networks; infinite where others are left.
+/// Returns the largest relative difference between the bonds of two networks; infinite if different
+/// bonds remain.
 double network_difference(const Network& a, const Network& b) {
   if (a.bonds.first != b.bonds.first || a.bonds.second != b.bonds.second) return infinity;
   double largest = 0.0;
@@ -118,8 +119,8 @@ TEST(JointStrengths, DoNotDependOnTheOrderOfMaterialsOrTheDirectionOfACrack) {
 }
 
 /// A steady crack between clamps releases the strain energy of the strip ahead of it. With the
-/// smaller energy along the joint the drive stays within what lattice trapping leaves, 1.15 times
-/// that of the smooth crack; with the mean of both energies it is 1.3 times and more.
+/// smaller energy along the joint the energy release is at most 1.15 times that of the smooth
+/// crack, by lattice trapping. With the mean of both energies it is at least 1.3 times.
 TEST(JointStrengths, AreThoseOfTheWeakerMaterial) {
   JointStrip strip;
   strip.columns = 60;

@@ -1,5 +1,5 @@
-// Bodies of two materials that meet in a plane: fields that are linear on either side of it, with
-// the same strains along it and the same tractions across it, are in equilibrium.
+// Bodies of two materials that meet in a plane. Piecewise linear fields with continuous strains
+// along the plane and tractions across it are in equilibrium.
 
 #include <gtest/gtest.h>
 
@@ -20,8 +20,9 @@ using test::JointCase;
 
 using Gradient = std::array<Vector3, 3>;
 
-/// Displacement gradients below and above: strains along the joint and tractions across it are the
-/// same. \param field  a component of the strain below, axes ascending
+/// Returns displacement gradients below and above, with equal strains along the joint and equal
+/// tractions across it.
+/// \param field  component of the strain below, axes ascending
 std::array<Gradient, 2> gradients(const std::array<LameConstants, 2>& constants, int dim,
                                   std::array<int, 2> field) {
   const int n = dim - 1;
@@ -43,7 +44,7 @@ std::array<Gradient, 2> gradients(const std::array<LameConstants, 2>& constants,
   return sides;
 }
 
-/// Largest difference between the forces of bonds and the tractions on the surface, over those on a
+/// Returns the largest difference between bond forces and surface tractions, over the force on a
 /// facet.
 double largest_rest(const JointBody& joint, std::array<int, 2> field) {
   const Network& network = joint.network;
@@ -61,7 +62,7 @@ double largest_rest(const JointBody& joint, std::array<int, 2> field) {
       for (int b = 0; b + 1 < dim; ++b) u += g[a][b] * x[b];
       motion.push_back(u);
     }
-    if (network.carries_moments()) {  // as the layer turns; in the plane nothing does
+    if (network.carries_moments()) {  // rotation of the layer; zero in the plane
       if (dim == 3) motion.push_back(0.5 * (g[2][1] - g[1][2]));
       if (dim == 3) motion.push_back(0.5 * (g[0][2] - g[2][0]));
       motion.push_back(0.5 * (g[1][0] - g[0][1]));
@@ -123,8 +124,8 @@ INSTANTIATE_TEST_SUITE_P(
                     JointCase{"moments_cubic", Pattern::cubic, 3, 4.0, 2.5, {{0.15, 0.15}}}),
     [](const auto& tested) { return tested.param.name; });
 
-/// Also where a layer is thinner than the horizon: no weights balance uniform strains of the whole
-/// body there.
+/// Layers may be thinner than the horizon; then no weights balance uniform strains of the whole
+/// body.
 TEST(Joints, ThreeMaterialsInThinLayersAreInBalance) {
   LatticeInput lattice;
   lattice.surface = Surface::calibrated;
@@ -153,9 +154,9 @@ Index bonds_across(const Network& network) {
   return count;
 }
 
-/// Energy over that inside its layer of a plane cut parallel to the joint; only bonds that cross it
-/// in the middle count. Numbers of bonds in the middle of a mesh vary: its cuts are compared by the
-/// force that they carry, which is the same for all.
+/// Returns the energy of a plane cut parallel to the joint over the energy of a cut inside its
+/// layer. Bonds that cross it in the middle count. Their number varies in a mesh, so cuts are
+/// compared by energy per force; all cuts have equal forces.
 double energy_of_cut(const JointBody& joint, double height) {
   const Network& network = joint.network;
   const int last = network.dim() - 1;
@@ -178,8 +179,8 @@ double energy_of_cut(const JointBody& joint, double height) {
 
 class CutsBesideJoints : public testing::TestWithParam<JointCase> {};
 
-/// Without the bonds across, and with those that the layers share: cuts along the joint take the
-/// energy of their layer, not of a mean, within the three percent that rows differ by.
+/// Cuts along the joint need the energy of their layer, not a mean, within the 3 % by which rows
+/// differ. Without the bonds across the joint and with bonds that the layers share.
 TEST_P(CutsBesideJoints, TakeTheEnergyOfTheirLayer) {
   const int count = GetParam().dim == 2 ? 32 : 16;
   JointBody joint(GetParam(), count);
@@ -190,7 +191,7 @@ TEST_P(CutsBesideJoints, TakeTheEnergyOfTheirLayer) {
   EXPECT_EQ(bonds_across(joint.network), 0);
   for (const double rows : {-2.5, -1.5, -0.5, 0.5, 1.5, 2.5}) {
     const double height = height_of_joint + 0.9 * rows / count;
-    // Single cuts of a mesh differ by a few percent inside, too.
+    // Single cuts of a mesh differ by a few percent inside a layer too.
     EXPECT_NEAR(energy_of_cut(joint, height), 1.0,
                 GetParam().pattern == Pattern::irregular ? 0.08 : 0.035)
         << rows;
@@ -206,7 +207,7 @@ INSTANTIATE_TEST_SUITE_P(
                     JointCase{"cubic", Pattern::cubic, 3, 4.0, 2.0}),
     [](const auto& tested) { return tested.param.name; });
 
-/// Critical stretches of the continuum are not told layer by layer.
+/// Critical stretches of the continuum are independent of layers.
 TEST(Joints, KeepTheBondsAcrossWhereTheContinuumBreaksThem) {
   JointBody joint({"rectangular", Pattern::rectangular, 2, 4.0, 3.0}, 8);
   EXPECT_EQ(bonds_across(joint.network), 0);
@@ -215,8 +216,8 @@ TEST(Joints, KeepTheBondsAcrossWhereTheContinuumBreaksThem) {
   EXPECT_GT(bonds_across(build_network(joint.body, joint.input)), 0);
 }
 
-/// The lower part of the lower half can break: its bonds, a horizon away from the joint, are those
-/// of a body without one.
+/// The lower part of the lower half can break. Its bonds are a horizon away from the joint and
+/// equal those of a body without one.
 TEST(Joints, WhatBreaksElsewhereLeavesThemInBalance) {
   for (const Pattern pattern : {Pattern::rectangular, Pattern::irregular}) {
     JointBody joint({"", pattern, 2, 4.0, 2.0}, 16);

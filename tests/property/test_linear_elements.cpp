@@ -1,4 +1,4 @@
-// Linear elements on lattices and meshes: the patch test and order 2 in displacement.
+// Linear elements on lattices and meshes: patch test and second-order convergence of displacements.
 
 #include <gtest/gtest.h>
 
@@ -18,11 +18,11 @@ namespace perilink {
 namespace {
 
 constexpr double youngs_modulus = 3.0;
-constexpr double poissons_ratio = 0.2;  // neither that of bonds in the plane nor in space
+constexpr double poissons_ratio = 0.2;  // differs from the bonds' ratio in the plane and in space
 
 using Field = std::function<Vector3(const Vector3&)>;
 
-/// The unit box, filled by a lattice or an irregular mesh, with its elements.
+/// Unit box of a lattice or an irregular mesh, with its elements.
 struct ElementBox {
   Body body;
   LinearElements elements;
@@ -73,13 +73,13 @@ struct BoxCase {
   int dim;
 };
 
-/// Without this CTest lists the boxes by their bytes.
+/// Prints the name; otherwise CTest would list the bytes of a box.
 void PrintTo(const BoxCase& box, std::ostream* stream) { *stream << box.name; }
 
 class LinearElementsOn : public testing::TestWithParam<BoxCase> {};
 
-/// Tractions of a uniform stress on the whole surface, rigid motion held at three corners: the
-/// linear field comes out. Condition numbers near 1e3 leave 13 digits.
+/// Tractions of a uniform stress on the whole surface with a statically determinate support at
+/// three corners give the linear field. Condition numbers near 1e3 leave 13 digits.
 TEST_P(LinearElementsOn, ThePatchTestHoldsUnderTractions) {
   const int dim = GetParam().dim;
   const ElementBox box(GetParam().pattern, dim, 5);
@@ -112,7 +112,7 @@ TEST_P(LinearElementsOn, ThePatchTestHoldsUnderTractions) {
       }
     }
   }
-  // All of the origin's displacements, those of (1, 0, 0) across x, and that of (0, 1, 0) along z.
+  // Fixed: all displacements of the origin, those of (1, 0, 0) across x, that of (0, 1, 0) along z.
   std::vector<std::uint8_t> held(expected.size(), 0);
   for (Index i = 0; i < box.body.particles.size(); ++i) {
     const Vector3 x = box.position(i);

@@ -9,13 +9,13 @@
 #include "io/case/case_file.hpp"
 
 /// \file
-/// What holds for every way to load a body: forces, driven displacements, both together, yielding
+/// Invariants for every kind of load: forces, prescribed displacements, both together, yielding
 /// bars.
 
 namespace perilink {
 namespace {
 
-/// A small block held below; `loading` is what pulls it, `more` anything else of the case.
+/// Returns a small block fixed below with the load `loading` and further tables `more`.
 Model block(const std::string& loading, const std::string& more = "") {
   return build_model(parse_case(R"(
 [body]
@@ -53,12 +53,12 @@ const std::string driven = "[[displacements]]\nregion = \"cap\"\ny = 1.0\n";
 const std::string pulled = "[[loads]]\nregion = \"cap\"\nforce = [0, 100]\n";
 const std::string weight = "[[loads]]\nregion = \"block\"\nbody_force = [0, 0.5]\n";
 
-/// On a driven side, at a loaded one, and as the foundation of a body that nothing else holds in x.
+/// Springs on a displaced side, at a loaded one, and as the only support in x.
 const std::string springs =
     "[[springs]]\nregion = \"cap\"\ntotal = [50, 200]\n"
     "[[springs]]\nregion = \"surface\"\nstiffness = [0.5, 0]\n";
 
-/// Keeps rows and, when asked, looks at the state at every row as field output does.
+/// Stores rows and, on request, the state at every row, as field output does.
 struct RowRecorder final : StepObserver {
   explicit RowRecorder(bool look_at_state = false) : look(look_at_state) {}
   void on_step(const StepRecord& record, StateSource& source) override {
@@ -90,7 +90,7 @@ TEST_P(LoadKind, FirstRowIsTheElasticAnswerAndEnergyBalances) {
   const double expected = first.load_factor * first.load_factor * elastic.strain_energy;
   EXPECT_NEAR(first.strain_energy, expected, 1e-10 * expected);  // two solutions of one system
   EXPECT_NEAR(first.external_work, expected, 1e-10 * expected);
-  EXPECT_LT(result.energy_error, 1e-9);  // the bar of every history
+  EXPECT_LT(result.energy_error, 1e-9);  // error allowed in every history
   EXPECT_GE(result.broken_bonds, 60);
 }
 
@@ -115,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, LoadKind,
                          testing::Values(driven, pulled, driven + weight, pulled + weight,
                                          driven + springs, pulled + springs));
 
-/// A block on springs that are stiff against none of its bonds: a rigid body on its foundation.
+/// A block on springs much softer than its bonds is a rigid body on its foundation.
 TEST(ElasticSupports, CarryTheWholeLoad) {
   const std::string free = R"(
 [body]
@@ -144,9 +144,9 @@ type = "elastic"
 )";
   const Model model = build_model(parse_case(free, "test"));
   const ElasticResult elastic = run_elastic_analysis(model);
-  // Along x: force 1 on stiffness 5. Along y: force 3/2 on 20, and the couple of 3 x and of the
-  // uniform force along x at y = 0 about the centre of the springs: integral of 3 x (x - 1/2) = 1/4
-  // over the lumped second moment of the springs, 20 (1/12 + h^2 / 6) with h = 1/4.
+  // Along x: force 1 on stiffness 5. Along y: force 3/2 on 20. The force 3 x and the uniform force
+  // along x at y = 0 have the couple 1/4 about the centre of the springs, the integral of 3 x (x -
+  // 1/2). It acts on the lumped second moment of the springs, 20 (1/12 + h^2 / 6) with h = 1/4.
   const double turn = 0.25 / (20.0 * (1.0 / 12.0 + 1.0 / 96.0));
   for (Index i = 0; i < 5; ++i) {
     const double x = model.network.particles.position(i)[0];
@@ -156,7 +156,7 @@ type = "elastic"
   }
 }
 
-/// A micropolar body of small width, held below; `loading` turns it above.
+/// Returns a narrow micropolar body, fixed below and rotated above by `loading`.
 Model column(const std::string& loading) {
   return build_model(parse_case(R"(
 [body]
@@ -200,7 +200,7 @@ TEST(DrivenRotation, ABodyTurnedAsAWholeStaysWithoutStress) {
   }
 }
 
-/// The moment that turns a particle by an angle turns it by that angle.
+/// The reaction moment of a prescribed rotation causes that rotation when applied as a load.
 TEST(DrivenRotation, NeedsTheMomentThatMakesIt) {
   const std::string held = "[[supports]]\nregion = \"rim\"\nfix = [\"x\", \"y\", \"rotation\"]\n";
   const Model turned = column(held + "[[point_loads]]\nat = [1, 2]\nmoment = 0.3\n");
@@ -228,7 +228,7 @@ TEST(DrivenBody, ItsDisplacementIsTheDrivenOne) {
     options.stop.broken_bonds = 20;
     run_rows(model, options, recorder);
     for (const StepRecord& row : recorder.rows) {
-      EXPECT_DOUBLE_EQ(row.displacement, row.load_factor);  // driven by 1 at load factor 1
+      EXPECT_DOUBLE_EQ(row.displacement, row.load_factor);  // displacement 1 at load factor 1
     }
   }
 }
@@ -242,7 +242,7 @@ TEST(DrivenBody, LoadFractionLooksAtTheLoad) {
   const DamageResult result = run_rows(model, options, recorder);
 
   ASSERT_EQ(result.termination, Termination::completed);
-  // The last ten rows in turn lie below, the one before them does not.
+  // The last ten consecutive rows are below the limit, the row before them is not.
   const std::size_t count = recorder.rows.size();
   ASSERT_GT(count, 10u);
   for (std::size_t k = count - 10; k < count; ++k) {
@@ -255,7 +255,7 @@ TEST(LoadSteps, StopWithinAStepAtTheNumberOfBrokenBonds) {
   const Model model = block(driven);
   RowRecorder recorder;
   DamageOptions options;
-  options.load_factors = {1.0};  // far beyond what the body bears
+  options.load_factors = {1.0};  // far beyond the strength of the body
   options.stop.broken_bonds = 25;
 
   const DamageResult result = run_rows(model, options, recorder);

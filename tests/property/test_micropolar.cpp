@@ -1,4 +1,4 @@
-// Micropolar bonds: what holds for every lattice, and one bond against the beam of the textbooks.
+// Micropolar bonds: invariants of every lattice, and one bond compared with textbook beams.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ namespace {
 
 using namespace test;
 
-/// Round-off of a sum over the bonds of a particle, relative to the stiffest one.
+/// Round-off of a sum over the bonds of a particle, relative to the stiffest bond.
 constexpr double turning_round_off = 1e-12;
 
 double largest_of(const std::vector<double>& values) {
@@ -101,7 +101,7 @@ TEST(OneFrame, BendsAlikeInEveryPlaneAndTwistsInSpace) {
 
 class MicropolarLattice : public testing::TestWithParam<LatticeCase> {
  protected:
-  /// With a bar across, whose ties and segments carry no moments.
+  /// Adds a bar across, whose ties and segments have no moments.
   void SetUp() override {
     const LatticeInput input = body_input(GetParam(), 3);
     NetworkInput constants = micropolar_input(input);
@@ -136,7 +136,7 @@ TEST_P(MicropolarLattice, ForceIsTheDerivativeOfTheEnergyAndStiffnessThatOfTheFo
   const Unknowns unknowns = all_free(network_);
   const Eigen::MatrixXd stiffness = dense(network_, secants, unknowns);
   const InternalForce result = internal_force(network_, secants, motion);
-  // The energy is quadratic: differences are exact but for cancellation.
+  // The energy is quadratic, so differences have only cancellation errors.
   const double step = 1e-2;
   for (std::size_t slot = 0; slot < motion.size(); slot += 5) {
     const double middle = motion[slot];
@@ -219,7 +219,7 @@ TEST_P(MicropolarLattice, PrescribedPartsAddToTheDeformation) {
   EXPECT_NEAR(sum, expected, 1e-12 * expected);
 }
 
-/// A free body has exactly its rigid modes: rotations of particles hang on to the displacements.
+/// A free body has exactly its rigid modes: displacements determine rotations of particles.
 TEST_P(MicropolarLattice, OnlyRigidMotionsAreFree) {
   const std::vector<double> intact(static_cast<std::size_t>(network_.num_elements()), 1.0);
   const Eigen::VectorXd eigenvalues =
@@ -243,7 +243,7 @@ TEST_P(MicropolarLattice, OnlyRigidMotionsAreFree) {
   EXPECT_GT(pinned[0], 1e-6 * scale_);
 }
 
-/// Rotations of particles that only ties and segments end at are never unknown.
+/// Particles with ties and bar segments only have no unknown rotations.
 TEST_P(MicropolarLattice, NodesOfBarsDoNotRotate) {
   const Unknowns unknowns = all_free(network_);
   int bars = 0;
@@ -266,8 +266,8 @@ INSTANTIATE_TEST_SUITE_P(
                     LatticeCase{"face_centred", Pattern::face_centred, Surface::none}),
     [](const auto& tested) { return tested.param.name; });
 
-/// An interior particle in a homogeneous strain without rotation feels neither force nor moment and
-/// holds the energy of the solid that was asked for.
+/// An interior particle in a homogeneous strain without rotation has no force and no moment. Its
+/// energy equals the energy of the given solid.
 TEST(MicropolarBulk, HasYoungsModulusAndPoissonsRatio) {
   for (const double nu : {-0.2, 0.0, 0.2, 0.3}) {
     const LatticeInput body = body_input({"", Pattern::hexagonal, Surface::none}, 10);
@@ -298,7 +298,7 @@ TEST(MicropolarBulk, HasYoungsModulusAndPoissonsRatio) {
   }
 }
 
-/// One bond with its inflection away from the middle: forces from the matrix of its modes.
+/// Single bond with its inflection away from the middle; forces from the matrix of its modes.
 class Inflected : public testing::TestWithParam<int> {
  protected:
   Network make(double inflection) const {
@@ -317,8 +317,8 @@ TEST_P(Inflected, BondsResistNoRigidMotion) {
   for (const double f : internal_force(network, intact, motion).forces) EXPECT_NEAR(f, 0.0, 1e-15);
 }
 
-/// In a uniform strain without rotations the couple k_b xi^2 n x (eps n) is shared as the
-/// inflection says, and forces do not depend on it.
+/// In a uniform strain without rotations the inflection divides the couple k_b xi^2 n x (eps n)
+/// between the ends. Forces do not depend on it.
 TEST_P(Inflected, EndsShareTheCouple) {
   const std::array<Vector3, 3> strain = {{{1.0, 0.3, -0.2}, {0.3, -0.5, 0.1}, {-0.2, 0.1, 0.4}}};
   const std::vector<double> intact = {1.0};
@@ -335,7 +335,7 @@ TEST_P(Inflected, EndsShareTheCouple) {
   }
 }
 
-/// The equivalent stretch that the search compares is sqrt(2 U / (k xi^2)).
+/// The equivalent stretch of the search is sqrt(2 U / (k xi^2)).
 TEST_P(Inflected, SearchMeasuresTheEnergy) {
   const Network network = make(0.2);
   const std::vector<double> intact = {1.0};
@@ -352,9 +352,9 @@ TEST_P(Inflected, SearchMeasuresTheEnergy) {
 
 INSTANTIATE_TEST_SUITE_P(InPlaneAndSpace, Inflected, testing::Values(2, 3));
 
-/// In a homogeneous strain the bonds of a calibrated body break by their direction and length, not
-/// by what the calibration made of them: the order of breaking is that of
-/// s^2 + b (g / xi)^2 / xi^2 with s = n.eps n, g / xi = t.eps n and one b for the whole body.
+/// In a homogeneous strain the bonds of a calibrated body break by direction and length, not by
+/// their calibrated stiffness. Bonds break in the order of s^2 + b (g / xi)^2 / xi^2. Here s =
+/// n.eps n, g / xi = t.eps n, and b is one number for the body.
 TEST(UnstructuredMicropolar, BreaksByTheStrainAlone) {
   const Network network =
       build_network(make_unstructured(1, 10), unstructured_micropolar_input(10));

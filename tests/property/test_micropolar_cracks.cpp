@@ -1,4 +1,4 @@
-// Cracks of micropolar bodies on irregular meshes: bonds break at the crack and nowhere else.
+// Cracks of micropolar bodies on irregular meshes: bonds break only at the crack.
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@
 namespace perilink {
 namespace {
 
-/// A plate [-3, 3]^2 with a hole of radius 1 around the origin, pulled apart along x: it splits
-/// along x = 0. The mesh is three times finer at the hole.
+/// Returns a plate [-3, 3]^2 with a hole of radius 1 around the origin in tension along x. It
+/// splits along x = 0. The mesh is three times finer at the hole.
 std::string pulled_plate(double poissons_ratio) {
   return R"([body]
 mesh = "full_plate_with_hole.msh"

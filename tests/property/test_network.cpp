@@ -15,7 +15,7 @@ namespace {
 
 using namespace test;
 
-/// Round-off of a sum over the bonds of a particle, relative to the stiffest one times
+/// Round-off of a sum over the bonds of a particle, relative to the stiffest bond times
 /// displacement.
 constexpr double round_off = 1e-12;
 
@@ -28,7 +28,7 @@ double largest(const std::vector<double>& values) {
 class NetworkProperty : public testing::TestWithParam<LatticeCase> {
  protected:
   void SetUp() override {
-    // A bar across adds ties and segments where the surface allows; it passes between particles.
+    // A bar across adds ties and segments where the surface allows it; it passes between particles.
     const LatticeInput input = body_input(GetParam(), 4);
     NetworkInput constants = network_input(input);
     const Vector3 end = input.solid[0].upper;
@@ -127,7 +127,7 @@ TEST_P(NetworkProperty, StiffnessIsTheDerivativeOfTheForce) {
     const Eigen::MatrixXd stiffness = dense_stiffness(secants);
     std::vector<double> displacement(num_slots(), 0.0);
     for (std::size_t column = 0; column < num_slots(); ++column) {
-      displacement[column] = 0.5;  // the force is linear and odd: one difference is exact
+      displacement[column] = 0.5;  // force is linear and odd, so one difference is exact
       const InternalForce result = internal_force(network_, secants, displacement);
       displacement[column] = 0.0;
       for (std::size_t row = 0; row < num_slots(); ++row) {
@@ -181,7 +181,7 @@ class BulkProperty : public testing::TestWithParam<LatticeCase> {
  protected:
   static constexpr int columns = 10;
 
-  /// A particle that the horizon keeps away from every surface.
+  /// Returns a particle farther than the horizon from every surface.
   static Index middle(const Particles& particles, const Box& box) {
     Index best = 0;
     double least = 1e300;
@@ -248,8 +248,8 @@ TEST_P(BulkProperty, AStraightCrackReleasesTheFractureSum) {
   const Lattice& lattice = body.lattice;
   const int dim = lattice.dim;
   const int normal = dim - 1;
-  // The crack runs between two rows in the middle; bonds whose lower end lies in a window of whole
-  // periods, away from the surfaces, belong to the window's piece of crack.
+  // The crack runs between two rows in the middle. Bonds with their lower end in a window of whole
+  // periods, away from the surfaces, belong to the window's part of the crack.
   const auto middle_row = std::floor(0.5 * input.solid[0].upper[normal] / lattice.step[normal]);
   const double crack = (middle_row + 0.5) * lattice.step[normal];
   double area = dim == 2 ? input.thickness : 1.0;

@@ -1,4 +1,4 @@
-// Pre-cracks of random bodies: stresses beside them, faces that close, particles that they cut off.
+// Pre-cracks of random bodies: nearby stresses, crack closure, particles cut off.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -34,7 +34,7 @@ std::string text_of(const std::vector<Line>& cracks) {
   return text;
 }
 
-/// A plate of the unit spacing.
+/// Plate with unit spacing.
 struct Plate {
   int width = 16, height = 14;
   std::string surface = "none";
@@ -86,7 +86,7 @@ class Drawing {
     plate.height = whole(10, 13);
     return plate;
   }
-  /// Well inside the plate: what a crack cuts off at the surface is loaded.
+  /// Returns a line well inside the plate, because loads act on particles cut off at the surface.
   Line line(const Plate& plate, double longest) {
     const auto point = [&] {
       return std::array{between(3.1, plate.width - 3.1), between(3.1, plate.height - 3.1)};
@@ -118,7 +118,7 @@ std::vector<double> stresses(const Model& model, Secants secants, std::span<cons
   return particle_stresses(stress_input(model, neighbourhoods, secants), motion);
 }
 
-/// Secants of a body that has events as well, the same in twins whose bonds have other numbers.
+/// Returns secants of a body after events, equal in twin bodies with other numbers of bonds.
 std::vector<double> damaged(const Network& network, const std::vector<double>& part) {
   std::vector<double> secants;
   for (Index e = 0; e < network.num_elements(); ++e) {
@@ -129,8 +129,9 @@ std::vector<double> damaged(const Network& network, const std::vector<double>& p
   return secants;
 }
 
-/// In one motion the stress beside an open crack is that of a body without the cut bonds, and where
-/// all of them are closed that of one without a crack. Both are the same sums of some thirty terms.
+/// In one motion the stress near an open crack equals the stress in a body without the cut bonds.
+/// If all cut bonds are closed, it equals the stress in an uncracked body. Both are identical sums
+/// of about thirty terms.
 TEST(StressBesidePreCracks, DoesNotCountOpenBonds) {
   double open = 0.0, closed = 0.0;
   for (int body = 0; body < num_bodies; ++body) {
@@ -160,7 +161,7 @@ TEST(StressBesidePreCracks, DoesNotCountOpenBonds) {
     const std::vector<double> same = damaged(gaping.network, part);
     open = std::max(open, largest_difference(stresses(gaping, same, motion),
                                              stresses(closing, secants, motion)));
-    if (width > 2) continue;  // closed bonds that carry moments do not shear
+    if (width > 2) continue;  // closed bonds with moments do not shear
     std::vector<double> axial(secants.size(), 1.0);
     std::vector<double> cut = axial;
     for (const Index e : closing.network.cut_elements) cut[e] = 0.0;
@@ -173,8 +174,8 @@ TEST(StressBesidePreCracks, DoesNotCountOpenBonds) {
   RecordProperty("closed", fmt::format("{:.2e}", closed));
 }
 
-/// A crack along the pull is none: the stress is uniform. The body gets thinner, so bonds across
-/// the crack close; all others gape.
+/// A crack along the tension has no effect: the stress is uniform. The body contracts, so bonds
+/// across the crack close; all others open.
 TEST(StressBesidePreCracks, IsUniformAlongThePull) {
   Plate plate;
   plate.width = 40;
@@ -195,16 +196,18 @@ TEST(StressBesidePreCracks, IsUniformAlongThePull) {
     const auto x = model.network.particles.position(i);
     if (std::abs(x[1] - 8.5) > 1.0 || std::abs(x[0] - 20.0) > 8.0) continue;
     ++beside;
-    // One horizon away from 1 by the inhomogeneity of lattice strains at a free side.
+    // Lattice strains at a free side are inhomogeneous; one horizon away this is the difference
+    // from 1.
     EXPECT_NEAR(stress[6 * i], 1.0, 0.06) << x[0] << " " << x[1];
     EXPECT_NEAR(stress[6 * i + 1], 0.0, 0.06) << x[0] << " " << x[1];
   }
   EXPECT_EQ(beside, 34);
 }
 
-/// Pressure on all sides closes every bond: the body is as stiff, and as stressed, as a whole one.
+/// Pressure on all sides closes every bond, so stiffness and stresses are those of an uncracked
+/// body.
 TEST(ElasticPreCracks, UnderPressureAreNone) {
-  // Where cracks cut something off, soft springs hold it: 1e-7 of a bond's stiffness.
+  // Parts cut off by cracks are supported by soft springs: 1e-7 of a bond's stiffness.
   double energy[2] = {}, stress[2] = {};
   for (int body = 0; body < num_bodies; ++body) {
     Drawing drawing(1000 + body);
@@ -232,8 +235,8 @@ TEST(ElasticPreCracks, UnderPressureAreNone) {
   RecordProperty("stress", fmt::format("{:.2e} {:.2e}", stress[0], stress[1]));
 }
 
-/// The energy is convex: an equilibrium in which closed bonds are shorter and open ones longer is
-/// the only one.
+/// The energy is convex. An equilibrium with shortened closed bonds and stretched open ones is
+/// therefore unique.
 TEST(ElasticPreCracks, AreClosedWhereTheyAreCompressed) {
   int some_of_both = 0;
   double wrong = 0.0;
@@ -242,7 +245,7 @@ TEST(ElasticPreCracks, AreClosedWhereTheyAreCompressed) {
     Plate plate = drawing.plate();
     plate.cracks.push_back(drawing.line(plate, 12.0));
     Model model = plate.build();
-    // Forces that balance: those of a random uniform stress.
+    // Forces balance, because they come from a random uniform stress.
     const double xx = drawing.between(-1.0, 1.0), yy = drawing.between(-1.0, 1.0);
     for (Index i = 0; i < model.network.particles.size(); ++i) {
       model.loads.forces[2 * i] *= xx;
@@ -270,7 +273,7 @@ TEST(ElasticPreCracks, AreClosedWhereTheyAreCompressed) {
   RecordProperty("wrong", fmt::format("{:.2e}", wrong));
 }
 
-/// Lines cut into pieces, in another order and direction.
+/// Returns lines cut into pieces, in another order and direction.
 std::vector<Line> shuffled(const std::vector<Line>& lines, Drawing& drawing) {
   std::vector<Line> pieces;
   for (const Line& line : lines) {
@@ -281,7 +284,7 @@ std::vector<Line> shuffled(const std::vector<Line>& lines, Drawing& drawing) {
     pieces.push_back({middle, line[1]});
     if (drawing.whole(0, 1) == 1) std::ranges::reverse(pieces.back());
   }
-  // The first line tells on which side of them a particle lies where they meet.
+  // The first line decides the side of a particle where lines meet.
   std::shuffle(pieces.begin() + 1, pieces.end(), drawing.engine());
   for (auto piece = pieces.begin() + 1; piece != pieces.end(); ++piece) {
     if (drawing.whole(0, 1) == 1) std::ranges::reverse(*piece);
@@ -289,7 +292,7 @@ std::vector<Line> shuffled(const std::vector<Line>& lines, Drawing& drawing) {
   return pieces;
 }
 
-/// Stars around a particle and scattered lines, so many that they cut particles off.
+/// Stars around a particle and scattered lines, enough to cut off particles.
 TEST(ManyPreCracks, RunAndDoNotDependOnHowTheyAreDrawn) {
   double difference = 0.0, by_iterations = 0.0;
   int cut_off = 0, failed = 0;
@@ -305,7 +308,7 @@ TEST(ManyPreCracks, RunAndDoNotDependOnHowTheyAreDrawn) {
       plate.cracks.push_back({{x, y}, {x + reach * std::cos(angle), y + reach * std::sin(angle)}});
     }
     for (int k = drawing.whole(0, 40); k > 0; --k) plate.cracks.push_back(drawing.line(plate, 4.0));
-    std::erase_if(plate.cracks, [&](const Line& line) {  // loads on what is cut off are refused
+    std::erase_if(plate.cracks, [&](const Line& line) {  // loads on parts cut off are refused
       return line[1][0] < 3.1 || line[1][1] < 3.1 || line[1][0] > plate.width - 3.1 ||
              line[1][1] > plate.height - 3.1;
     });
@@ -339,7 +342,7 @@ TEST(ManyPreCracks, RunAndDoNotDependOnHowTheyAreDrawn) {
   RecordProperty("cut_off", cut_off);
 }
 
-/// Two cracks that begin at one particle are the crack through it.
+/// Two cracks that begin at one particle equal the crack through it.
 TEST(ManyPreCracks, FromOneParticleAreTheLineThroughIt) {
   Plate plate;
   plate.cracks = {{{4.0, 7.0}, {12.0, 7.0}}};

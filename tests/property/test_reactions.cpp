@@ -1,4 +1,4 @@
-// Reactions of bodies whose particles finite elements constrain: statics says what they are.
+// Reactions of bodies with host elements, compared with statics.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@
 namespace perilink {
 namespace {
 
-/// Round-off of sums of bond forces, which are some 1e3 times the loads in a slender body.
+/// Round-off of sums of bond forces, which are about 1e3 times the loads in a slender body.
 constexpr double balanced = 1e-10;
 
 std::string region(const std::string& name, double x0, double x1, double y0, double y1) {
@@ -31,7 +31,8 @@ std::string support(const std::string& place, const std::string& fix) {
   return fmt::format("[[supports]]\nregion = \"{}\"\nfix = [{}]\n", place, fix);
 }
 
-/// A body of `columns` by `rows` spacings, its lower left corner at (x, y); beams lie along y = 0.
+/// Body of `columns` by `rows` spacings with its lower left corner at (x, y); beams lie along y =
+/// 0.
 struct Strip {
   explicit Strip(std::mt19937& random) : engine(random) {
     beam = whole(0, 3) == 0;
@@ -88,8 +89,8 @@ struct Reactions {
     }
     sum = reaction_table(places, model, state).sum;
   }
-  /// Largest of the sums of forces, and of moments about the middle of the body over its size, in
-  /// parts of the forces.
+  /// Returns the largest sum of forces, or of moments about the body's middle over its size,
+  /// relative to the forces.
   double imbalance(const Strip& strip) const {
     const double moment = std::abs(sum.moment[2]) / strip.size();
     return std::max({std::abs(sum.force[0]), std::abs(sum.force[1]), moment}) / size;
@@ -100,7 +101,7 @@ struct Reactions {
   bool embedded = false;
 };
 
-/// Two supports share a load as the law of the lever says.
+/// Returns the error of the reactions of two supports, by the law of the lever.
 double error_of_simple_beam(Strip& strip) {
   const int first = strip.whole(0, 4), second = strip.whole(strip.columns - 4, strip.columns);
   const double a = strip.column(first), b = strip.column(second);
@@ -117,7 +118,8 @@ double error_of_simple_beam(Strip& strip) {
                    std::abs(found.at[0].force[1] + py + roller), found.imbalance(strip)});
 }
 
-/// A wall has the whole load, and its moment about the middle of the wall.
+/// Returns the error of a clamp's reaction: the whole load and its moment about the middle of the
+/// clamp.
 double error_of_clamp(Strip& strip) {
   const double px = strip.real(-1.0, 1.0), py = strip.real(-2.0, -1.0);
   std::string text = support("left", strip.beam ? "\"x\", \"y\", \"rotation\"" : "\"x\", \"y\"");
@@ -130,7 +132,7 @@ double error_of_clamp(Strip& strip) {
                    found.imbalance(strip)});
 }
 
-/// The driven end pulls as the wall holds.
+/// Returns the difference between the forces at the displaced end and at the clamp.
 double error_of_driven_end(Strip& strip) {
   std::string text = support("left", strip.beam ? "\"x\", \"y\", \"rotation\"" : "\"x\", \"y\"");
   text += fmt::format("[[displacements]]\nregion = \"right\"\ny = {}\n", 0.01 * strip.size());
@@ -140,7 +142,7 @@ double error_of_driven_end(Strip& strip) {
                   found.imbalance(strip));
 }
 
-/// A pin and springs at the other end.
+/// Returns the error of the reactions of a pin and of springs at the other end.
 double error_of_springs(Strip& strip) {
   const double py = strip.real(-2.0, -1.0), at_x = strip.column(strip.whole(0, strip.columns));
   std::string text = region("pin", strip.x, strip.x, strip.y, strip.y);
@@ -169,7 +171,7 @@ TEST(Reactions, OfAHundredBodiesOfElementsFollowStatics) {
   RecordProperty("largest_deviation", fmt::format("{:.2g}", largest));
 }
 
-/// The last file of reactions of a run, and what the run doubts.
+/// Last file of reactions of a run, and its warnings.
 struct RunReactions {
   explicit RunReactions(const std::string& text) : run(text) {
     const std::string file = run.series().back().file;
@@ -190,7 +192,7 @@ struct RunReactions {
   std::vector<std::array<double, 5>> rows;  ///< x, y, force_x, force_y, moment
 };
 
-/// 400 by 100, elements of eight spacings of 5.
+/// Case of a beam of 400 by 100 with elements of eight spacings of 5.
 std::string tall_beam(const std::string& supports, const std::string& loads) {
   return "[body]\nspacing = 5\nhorizon_ratio = 3\nthickness = 10\n" + region("b", 0, 400, 0, 100) +
          region("left", 0, 0, 0, 100) + region("lp", 20, 20, 0, 0) + region("rp", 380, 380, 0, 0) +
@@ -220,7 +222,7 @@ TEST(Reactions, OfAWallAreTheLoadAndItsMoment) {
   }
 }
 
-/// Elements convert before bonds break: rows at the end have other elements than the model.
+/// Elements are released before bonds break, so rows at the end have fewer elements than the model.
 TEST(Reactions, OfABodyThatBreaksAreItsLoad) {
   for (const char* loads : {"[[loads]]\nregion = \"right\"\nforce = [0, -1000]\n",
                             "[[displacements]]\nregion = \"right\"\ny = -1\n"}) {
@@ -239,7 +241,7 @@ TEST(Reactions, OfABodyThatBreaksAreItsLoad) {
   }
 }
 
-/// With what a later stage drives, and by conjugate gradients.
+/// Includes displacements prescribed in a later stage, and conjugate gradients.
 TEST(Reactions, BalanceInEveryKindOfRun) {
   const std::string stages =
       "[[stages]]\nname = \"weight\"\nto = 1\n[[stages]]\nname = \"pull\"\nto = 0.001\n"
@@ -254,7 +256,7 @@ TEST(Reactions, BalanceInEveryKindOfRun) {
                   fmt::format("[[loads]]\nregion = \"right\"\nforce = [0, -1000]\n"
                               "[analysis]\ntype = \"{}\"\nsolver = \"iterative\"\n{}",
                               kind, kind[0] == 'd' ? "[stop]\nbroken_bonds = 2\n" : ""));
-    text.erase(text.find("[elements]\n"), 24);  // only a factor serves them
+    text.erase(text.find("[elements]\n"), 24);  // only a factor supports them
     const RunReactions iterative(text);
     EXPECT_NEAR(iterative.rows.back()[3] / iterative.rows[0][3], 0.0, 1e-8);
     EXPECT_TRUE(iterative.run.summary.warnings.empty()) << iterative.run.summary.text;

@@ -1,5 +1,5 @@
-// Loads that climb above a first peak once a part of the body has failed: summaries tell the first
-// peak from the residual strength, by events and by stages.
+// Loads that exceed a first peak after a part of the body has failed. Summaries distinguish the
+// first peak from the residual strength, by events and by stages.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -17,9 +17,9 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
 
-/// Two strips between the same grips, `weak` and `strong` wide, of strengths 3 and `strength` and
-/// modulus 30 000, pulled by their ends. No bond that the grips keep whole reaches the other grip,
-/// by a particle between.
+/// Returns two strips between common clamps, `weak` and `strong` wide, with strengths 3 and
+/// `strength` and the modulus 30 000, in tension. Between the unbreakable bonds of the clamps there
+/// is at least one particle.
 std::string two_strips(double weak, double strong, double strength, const std::string& more) {
   const double left = weak + 40.0, right = left + strong;
   return fmt::format(R"([body]
@@ -73,8 +73,8 @@ y = 1
                      weak, left, right, more, strength);
 }
 
-/// The weak strip breaks at 3 (weak + strong), and at once: it softens faster than the strong one
-/// takes its load. Alone the strong one carries its strength times its width.
+/// The weak strip breaks at 3 (weak + strong) in one snap, because it softens faster than the
+/// strong one takes its load. The strong strip then carries its strength times its width.
 TEST(ResidualStrength, IsNotThePeak) {
   for (const auto& [weak, strong, strength] :
        {std::array{80.0, 40.0, 12.0}, std::array{120.0, 60.0, 12.0},
@@ -103,7 +103,7 @@ TEST(ResidualStrength, IsNotThePeak) {
   }
 }
 
-/// A strip that is weaker than the other by a fifth of the load: the load never climbs again.
+/// The weaker strip is a fifth of the load below the other, so the load never exceeds its peak.
 TEST(ResidualStrength, IsNoneWhereTheLoadStaysBelowItsPeak) {
   const test::WholeRun run(two_strips(160.0, 60.0, 6.0, "[stop]\nload_fraction = 0.1\n"));
   EXPECT_EQ(run.summary.json.at("peak_load"), run.summary.json.at("largest_load"));

@@ -1,4 +1,4 @@
-// Plates and shells as cases: deflections of handbooks, and plates that break.
+// Plates and shells as cases: handbook deflections, and breaking plates.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@
 namespace perilink {
 namespace {
 
-/// A quarter of a unit plate, clamped at x = 1/2 and y = 1/2, under a pressure of one. E t^3 = 1.
+/// Quarter of a unit plate, clamped at x = 1/2 and y = 1/2, under a pressure of one. E t^3 = 1.
 CaseFile clamped_plate(double thickness, const std::string& energy, const std::string& more) {
   const std::string fix = "fix = [\"x\", \"y\", \"z\", \"rx\", \"ry\", \"rz\"]\n";
   return parse_case(
@@ -43,9 +43,9 @@ double deflection(const CaseFile& input) {
   return -gauge_values(model, {{}, result.displacement}, neighbourhoods)[0];
 }
 
-/// Timoshenko & Woinowsky-Krieger 1959, section 44: 0.00126 q a^4 / D; 0.00126532 of later work
-/// (Taylor & Govindjee 2004). The study has order two and 6e-4 at this spacing, a thickness of 1e-3
-/// and of 1e-4 alike.
+/// Reference deflection: 0.00126 q a^4 / D (Timoshenko & Woinowsky-Krieger 1959, section 44),
+/// 0.00126532 in later work (Taylor & Govindjee 2004). The error has order two and is 6e-4 at this
+/// spacing, for thicknesses of 1e-3 and 1e-4.
 TEST(Shells, ThinClampedPlateBendsAsKirchhoffs) {
   const double D = 1.0 / (12.0 * (1.0 - 0.09));
   for (const double thickness : {1e-3, 1e-4}) {
@@ -55,9 +55,9 @@ TEST(Shells, ThinClampedPlateBendsAsKirchhoffs) {
   }
 }
 
-/// The largest moments are those in the middles of the clamped edges (0.0513 q a^2), and cracks
-/// begin there; work is stored or dissipated to round-off; each failed bond was at its limit, as
-/// FrameLimitSearch says, where the energy of its modes holds k xi^2 s_c^2 / 2.
+/// The largest moments (0.0513 q a^2) are at the middles of the clamped edges, where cracks begin.
+/// Work is stored or dissipated to round-off. Each failed bond was at the limit of
+/// FrameLimitSearch, where the energy of its modes is k xi^2 s_c^2 / 2.
 TEST(Shells, ClampedPlatesCrackAlongTheirEdges) {
   const CaseFile input = clamped_plate(0.02, "1e-3", "[stop]\nbroken_bonds = 40\n");
   const Model model = build_model(input);
@@ -81,7 +81,7 @@ TEST(Shells, ClampedPlatesCrackAlongTheirEdges) {
   double energy = 0.0;
   for (int m = 0; m < 6; ++m) {
     double stiffness = modes.stiffness[m];
-    if (m == 1 || m > 3) {  // shear, by the ratio of before the calibration
+    if (m == 1 || m > 3) {  // shear, with the ratio before the calibration
       stiffness *= model.network.ratio_of_bending(first) * model.network.stiffness[first] /
                    model.network.bending[first];
     }
@@ -96,7 +96,7 @@ TEST(Shells, ClampedPlatesCrackAlongTheirEdges) {
   EXPECT_NEAR(factor * factor * energy, limit, 1e-8 * limit);
 }
 
-/// In pure bending the strain of the faces is t kappa / 2: clamped, w = kappa x^2 / 2.
+/// In pure bending the face strain is t kappa / 2; for a clamped plate w = kappa x^2 / 2.
 TEST(Shells, FacesShowTheStrainOfBending) {
   const Model model =
       build_model(clamped_plate(0.1, "\"infinite\"", "[analysis]\ntype = \"elastic\"\n"));

@@ -1,5 +1,5 @@
-// Bodies of any slenderness, in any units, come apart: the run ends collapsed with the peak that
-// beam theory wants and energies that balance.
+// Bodies of any slenderness and in any units break completely. The run ends collapsed with the peak
+// of beam theory and balanced energies.
 
 #include <gtest/gtest.h>
 
@@ -28,12 +28,12 @@ TEST_P(SlenderBody, EndsInTwoAndItsEnergiesBalance) {
   for (const StepRecord& row : recorder.rows) {
     largest = std::max(largest, std::abs(row.displacement));
   }
-  // Beam theory: the peak comes at 2 L^2 s_c / 3 h; the last hinge turns no farther.
+  // Beam theory: the peak is at 2 L^2 s_c / 3 h; the last hinge does not rotate farther.
   EXPECT_LT(largest, 1.5 * std::abs(result.peaks.highest().displacement));
 }
 
-/// The section breaks at the same bending moment or force, whatever the length; shear and the few
-/// columns of the ends count for three hundredths of 200 columns.
+/// The section breaks at one bending moment or force for any length. Shear and the few end columns
+/// contribute 3 % at 200 columns.
 TEST_P(SlenderBody, PeaksWhereAShortOneDoes) {
   SlenderCase shorter = GetParam();
   shorter.columns = 200;

@@ -1,5 +1,5 @@
-// Bonds that soften by teeth, on whichever of them: energies, forces and stiffnesses belong to one
-// another, and pulled apart a bond follows its curve and takes its energy.
+// Bonds that soften in segments: energies, forces and stiffnesses are consistent on every segment.
+// A bond in tension follows its curve and dissipates its energy.
 
 #include <gtest/gtest.h>
 
@@ -37,11 +37,11 @@ class SofteningBonds : public testing::TestWithParam<LawCase> {
   SofteningCurve curve() const { return {GetParam().shape, GetParam().energy}; }
 };
 
-/// Two bonds of stiffness 10 side by side, of length one and critical stretch 1/2.
+/// Two parallel bonds of stiffness 10, length one and critical stretch 1/2.
 struct PulledBonds {
   AnalysisBody body = make_chains(1, 2, true, stiffness, critical);
   std::unique_ptr<ExplicitBonds> bonds;
-  double lost = 0.0;  ///< by both
+  double lost = 0.0;  ///< by both bonds
 
   static constexpr double stiffness = 10.0, critical = 0.5;
 
@@ -55,7 +55,7 @@ struct PulledBonds {
     motion.velocity.assign(motion.displacement.size(), 0.0);
     return motion;
   }
-  /// Force of one bond over that at the critical stretch.
+  /// Returns the force of one bond over the force at the critical stretch.
   double pull(double x) {
     std::vector<double> force(8, 0.0);
     lost += bonds->forces(0, 4, 0.0, at(x), force).fractured;
@@ -63,7 +63,7 @@ struct PulledBonds {
     for (const double f : force) sum += 0.5 * std::abs(f);
     return 0.5 * sum / (stiffness * critical);
   }
-  /// Energy of one bond over k s_c^2.
+  /// Returns the energy of one bond over k s_c^2.
   double stored(double x) const {
     return 0.5 * bonds->stored(0, 4, 0.0, at(x)) / (stiffness * critical * critical);
   }
@@ -83,13 +83,13 @@ TEST_P(SofteningBonds, FollowTheirCurveAndTakeItsEnergy) {
     before = force;
   }
   EXPECT_EQ(before, 0.0) << "broken";
-  // A tooth drops at the end of the step in which its limit lies, and every step is 1e-3 of the
-  // critical stretch long or less.
+  // A segment drops at the end of the step that contains its limit. Steps are at most 1e-3 of the
+  // critical stretch.
   EXPECT_NEAR(2.0 * pulled.dissipated(), GetParam().energy, 0.001 * GetParam().energy);
   EXPECT_NEAR(2.0 * work, GetParam().energy, 0.002 * GetParam().energy);
 }
 
-/// Just below, at and above the event of every tooth.
+/// Tests stretches just below, at and above the event of every segment.
 TEST_P(SofteningBonds, FallToTheNextToothAtTheirLimitOnly) {
   const BondLaw law = this->law();
   PulledBonds pulled(law);
@@ -105,7 +105,7 @@ TEST_P(SofteningBonds, FallToTheNextToothAtTheirLimitOnly) {
   }
 }
 
-/// Bodies with bonds intact, softened and broken.
+/// Bodies have intact, softened and broken bonds.
 TEST_P(SofteningBonds, ForceIsTheDerivativeOfTheEnergyAndStiffnessThatOfTheForce) {
   for (const bool micropolar : {false, true}) {
     AnalysisBody body = make_block(
@@ -125,7 +125,7 @@ TEST_P(SofteningBonds, ForceIsTheDerivativeOfTheEnergyAndStiffnessThatOfTheForce
     EXPECT_GT(count([](double a) { return a > 0.0 && a < 1.0; }), 10);
     EXPECT_GT(count([](double a) { return a == 0.0; }), 10);
 
-    // The same state in implicit runs: round-off of some forty bonds a particle.
+    // Compared with implicit runs: round-off of about forty bonds per particle.
     const InternalForce expected = internal_force(network, secants, motion.displacement);
     const double scale = *std::max_element(network.stiffness.begin(), network.stiffness.end());
     for (std::size_t k = 0; k < slots; ++k) {
@@ -138,7 +138,7 @@ TEST_P(SofteningBonds, ForceIsTheDerivativeOfTheEnergyAndStiffnessThatOfTheForce
     const Eigen::VectorXd linear =
         stiffness *
         Eigen::Map<const Eigen::VectorXd>(motion.displacement.data(), static_cast<Index>(slots));
-    constexpr double step = 1e-3;  // the energy of a state is quadratic: no truncation error
+    constexpr double step = 1e-3;  // energy of a state is quadratic: no truncation error
     for (std::size_t k = 0; k < slots; k += 5) {
       EXPECT_NEAR(linear[static_cast<Index>(k)], force[k], 1e-12 * scale);
       BondMotion above = motion, below = motion;

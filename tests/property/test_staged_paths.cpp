@@ -1,4 +1,4 @@
-// What holds along every path of a damage analysis in stages, whatever the body and its loads.
+// Invariants of every path of a damage analysis in stages, for any body and loads.
 
 #include <gtest/gtest.h>
 
@@ -9,21 +9,21 @@ namespace {
 
 using namespace test;
 
-/// Balance over the largest work: energies are sums over some hundred events.
+/// Balance over the largest work: energies are sums over several hundred events.
 constexpr double staged_tolerance = 1e-9;
 
-/// A row with what the elements themselves say about it.
+/// Row with energies and displacements computed from the elements.
 struct StagedLook {
   StepRecord row;
   double stored = 0.0;
   double worst = 0.0;  ///< largest stretch over its limit
-  double error = 0.0;  ///< displacements against a dense solution
-  /// Largest extension of a closed bond and shortening of an open, damaged one that closes, over
-  /// the largest change of length.
+  double error = 0.0;  ///< difference of displacements from a dense solution
+  /// Largest extension of a closed bond, or shortening of an open, damaged bond that can close,
+  /// over the largest change of length.
   double wrong_side = 0.0;
 };
 
-/// A block that a force across it loads first and what pulls or drives it along x then.
+/// Block under a constant transverse force, then with a force or displacement along x.
 class StagedPath : public testing::TestWithParam<BlockCase> {
  protected:
   StagedPath() : body_(make_block(GetParam())) {
@@ -43,7 +43,7 @@ class StagedPath : public testing::TestWithParam<BlockCase> {
     body_.sets = {across, set_of(body_)};
   }
 
-  /// Load factor of the first event of a set alone.
+  /// Returns the load factor of the first event of a load case without the others.
   double first_event(std::size_t set) const {
     Recorder recorder({}, 1);
     run(body_, in_stages({{set, {}, {}}}), recorder);
@@ -109,7 +109,7 @@ class StagedPath : public testing::TestWithParam<BlockCase> {
       EXPECT_NEAR(row.strain_energy, look.stored, staged_tolerance * largest) << "row " << row.step;
       EXPECT_LT(look.error, 1e-8) << "row " << row.step;
       EXPECT_LT(look.wrong_side, 1e-10) << "row " << row.step;
-      // On the way to a load factor that every element bears bonds may close beyond a limit.
+      // Before a load factor that every element can carry, bonds beyond their limit may close.
       if (row.at_constant_load == 0 && row.side_change == 0) {
         EXPECT_LT(look.worst, 1.0 + 1e-8) << "row " << row.step;
       }
@@ -147,7 +147,7 @@ TEST_P(StagedPath, UnloadsAndComesBackToTheSameEvent) {
   EXPECT_NEAR(again.external_work, stopped.external_work, staged_tolerance * stopped.external_work);
 }
 
-/// Nothing fails where the load turns round, and what damaged bonds do depends on the load alone.
+/// At a reversal of the load no element fails, and damaged bonds depend on the load only.
 TEST_P(StagedPath, TurnsRoundAndComesBackToTheSameEvent) {
   const double constant = 0.2 * first_event(0);
   StopRules some;

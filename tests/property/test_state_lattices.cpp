@@ -1,5 +1,5 @@
-// Forces of state-based lattices are the derivative of their energy, the stiffness that of the
-// forces; rigid motions cost nothing.
+// Forces of state-based lattices are the derivative of their energy, and stiffness the derivative
+// of forces. Rigid motions need no energy.
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ TEST_P(StateLattices, ForcesAreTheDerivativeOfTheEnergy) {
   const std::vector<double> forces = internal_force(network_, secants_, u).forces;
   double largest = 0.0;
   for (const double force : forces) largest = std::max(largest, std::abs(force));
-  // The energy is quadratic: central differences are exact but for round-off.
+  // The energy is quadratic: central differences are exact up to round-off.
   const double h = 1e-3;
   for (std::size_t slot = 0; slot < u.size(); slot += 5) {
     const double middle = u[slot];
@@ -42,7 +42,7 @@ TEST_P(StateLattices, ForcesAreTheDerivativeOfTheEnergy) {
     u[slot] = middle - h;
     const double below = energy(u);
     u[slot] = middle;
-    // Round-off of an energy of some hundred terms over h.
+    // Round-off of an energy of several hundred terms over h.
     EXPECT_NEAR(forces[slot], (above - below) / (2.0 * h), 1e-9 * largest);
   }
 }
@@ -56,7 +56,7 @@ TEST_P(StateLattices, RigidMotionsCostNothing) {
   EXPECT_LT(energy(u), 1e-24 * energy(strained));
 }
 
-/// Nothing stretches for nothing, whatever the ratio and the missing bonds.
+/// Every stretch needs energy, for any ratio and missing bonds.
 TEST_P(StateLattices, EnergiesArePositive) {
   std::fill(secants_.begin(), secants_.end(), 1.0);
   const std::size_t size = network_.particles.positions.size();

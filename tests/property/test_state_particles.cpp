@@ -1,5 +1,5 @@
-// State-based particles that stand anywhere: forces are the derivative of the energy, rigid motions
-// cost nothing, nothing deforms for nothing.
+// Unstructured state-based particles: forces are the derivative of the energy, rigid motions need
+// no energy, every deformation needs energy.
 
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ TEST_P(StateParticles, ForcesAreTheDerivativeOfTheEnergy) {
   const std::vector<double> forces = internal_force(network_, secants_, u).forces;
   double largest = 0.0;
   for (const double force : forces) largest = std::max(largest, std::abs(force));
-  // The energy is quadratic: central differences are exact but for round-off.
+  // The energy is quadratic: central differences are exact up to round-off.
   const double h = 1e-3;
   for (std::size_t slot = 0; slot < u.size(); slot += 3) {
     const double middle = u[slot];
@@ -43,7 +43,7 @@ TEST_P(StateParticles, ForcesAreTheDerivativeOfTheEnergy) {
     u[slot] = middle - h;
     const double below = energy(u);
     u[slot] = middle;
-    // Round-off of an energy of some hundred terms over h.
+    // Round-off of an energy of several hundred terms over h.
     EXPECT_NEAR(forces[slot], (above - below) / (2.0 * h), 1e-9 * largest);
   }
 }

@@ -8,7 +8,7 @@ namespace {
 
 using namespace test;
 
-/// Bodies with some of their bonds broken.
+/// Bodies with some broken bonds.
 class StencilBonds : public testing::TestWithParam<StencilCase> {
  protected:
   void SetUp() override {
@@ -25,13 +25,13 @@ class StencilBonds : public testing::TestWithParam<StencilCase> {
 };
 
 TEST_P(StencilBonds, ForceIsTheDerivativeOfTheEnergy) {
-  BondMotion motion = random_motion(network_, 0.1 * size_, 5);  // nothing breaks any more
+  BondMotion motion = random_motion(network_, 0.1 * size_, 5);  // too small to break further bonds
   std::fill(motion.velocity.begin(), motion.velocity.end(), 0.0);
   const ForcesOfAll found = forces_of_all(network_, *bonds_, motion, 0.0);
   ASSERT_EQ(found.losses.broken_halves(), 0);
   const auto energy = [&] { return bonds_->stored(0, network_.particles.size(), 0.0, motion); };
   const double whole = energy();
-  // The energy is a square: central differences leave no error but cancellation.
+  // The energy is quadratic, so central differences have only cancellation errors.
   const double step = 0.1 * size_;
   for (std::size_t slot = 0; slot < found.force.size(); slot += 17) {
     double& u = motion.displacement[slot];
@@ -45,7 +45,7 @@ TEST_P(StencilBonds, ForceIsTheDerivativeOfTheEnergy) {
   }
 }
 
-/// Also the forces of broken bodies sum up to nothing, and have no moment about where they were.
+/// Forces of damaged bodies also sum to zero, with zero moment about the reference positions.
 TEST_P(StencilBonds, ForcesAndMomentsBalance) {
   const ForcesOfAll found =
       forces_of_all(network_, *bonds_, random_motion(network_, 0.1 * size_, 7), 0.0);
@@ -64,7 +64,7 @@ TEST_P(StencilBonds, ForcesAndMomentsBalance) {
       moment[k] += x[(k + 1) % 3] * f[(k + 2) % 3] - x[(k + 2) % 3] * f[(k + 1) % 3];
     }
   }
-  // Round-off of forces at some hundred particles, which lie up to three lengths apart.
+  // Round-off of forces at several hundred particles up to three lengths apart.
   const double tolerance = 1e-14 * largest * network_.particles.size();
   for (int k = 0; k < 3; ++k) {
     EXPECT_NEAR(sum[k], 0.0, tolerance);

@@ -8,8 +8,8 @@
 #include "io/case/case_file.hpp"
 
 /// \file
-/// Planes of symmetry of calibrated bodies: the bonds there pull as those of a body that ends
-/// there, and the reactions of the plane stand for the other half.
+/// Symmetry planes of calibrated bodies. Bonds near the plane act as in a body that ends there, and
+/// the plane's reactions replace the other half.
 
 namespace perilink {
 namespace {
@@ -23,7 +23,7 @@ struct SymmetricBody {
 
 std::ostream& operator<<(std::ostream& out, const SymmetricBody& body) { return out << body.name; }
 
-/// A quarter or an eighth of a bar under tension 3 along y.
+/// Returns a quarter or eighth of a bar with tension 3 along y.
 Model symmetric_bar(const SymmetricBody& tested) {
   const bool space = tested.dim == 3;
   const std::string depth = space ? "z = [0, 1]\n" : "";
@@ -49,7 +49,7 @@ TEST_P(Symmetry, PlanesHoldUniformTension) {
   const ElasticResult elastic = run_elastic_analysis(model);
   const double nu = tested.nu == "0.3333333333333333" ? 1.0 / 3.0 : std::stod(tested.nu);
   const int width = model.network.width();
-  const double bar = 1e-8;  // that of the patch tests of calibrated bonds
+  const double bar = 1e-8;  // tolerance of the patch tests of calibrated bonds
   for (Index i = 0; i < model.network.particles.size(); ++i) {
     const std::span<const double> x = model.network.particles.position(i);
     for (int a = 0; a < tested.dim; ++a) {

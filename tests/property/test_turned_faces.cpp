@@ -1,5 +1,5 @@
-// Squares and cubes on meshes, turned against the axes and pulled across a weak face between their
-// halves: they bear its strength and take its fracture energy.
+// Squares and cubes on meshes, rotated against the axes, in tension across a weak face between
+// their halves. They have the strength and the fracture energy of the face.
 
 #include <gtest/gtest.h>
 
@@ -29,13 +29,13 @@ struct TurnedFace {
   std::string model;
   int count;             ///< cells along a side
   double cell;           ///< [length]
-  double stiffer = 1.0;  ///< modulus of the second half over that of the first
+  double stiffer = 1.0;  ///< modulus of the second half over the modulus of the first
 };
 
-/// Without this CTest lists the cases by their bytes.
+/// Prints the name; otherwise CTest would list the bytes of a case.
 std::ostream& operator<<(std::ostream& out, const TurnedFace& face) { return out << face.name; }
 
-/// A mesh beside the directories of tests, which are emptied by every run.
+/// Mesh file beside the directories of tests, which every run empties.
 class HalvedMesh {
  public:
   explicit HalvedMesh(const TurnedFace& tested)
@@ -48,14 +48,14 @@ class HalvedMesh {
   HalvedMesh& operator=(const HalvedMesh&) = delete;
 
   std::string file() const { return path_.filename().string(); }
-  /// Where a case beside it would be.
+  /// Returns the path of a case file beside the mesh.
   std::string case_path() const { return (path_.parent_path() / "case.toml").string(); }
 
  private:
   std::filesystem::path path_;
 };
 
-/// \param place  where the interface lies
+/// \param place  position of the interface
 CaseFile turned_case(const TurnedFace& tested, const HalvedMesh& mesh, const std::string& place) {
   const bool space = tested.dim == 3;
   std::string text = fmt::format(
@@ -106,7 +106,7 @@ INSTANTIATE_TEST_SUITE_P(Meshes, TurnedFaces,
                                          TurnedFace{"micropolar_cube", 3, "micropolar", 4, 6.0}),
                          [](const auto& tested) { return tested.param.name; });
 
-/// A physical group and its two sides name the same bonds.
+/// A physical group and its two sides select identical bonds.
 TEST(FacesOfGroups, AreThoseBetweenTheHalves) {
   for (const TurnedFace& tested : {TurnedFace{"square", 2, "bond_based", 8, 5.0, 4.0},
                                    TurnedFace{"cube", 3, "bond_based", 4, 6.0, 4.0}}) {

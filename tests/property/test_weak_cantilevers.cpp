@@ -1,4 +1,4 @@
-// Double cantilevers that are glued together open along the glue, at the load of beam theory.
+// Double cantilevers that are glued together open along the glue at the load of beam theory.
 
 #include <gtest/gtest.h>
 
@@ -16,8 +16,8 @@ using namespace test;
 
 constexpr double arm_modulus = 30000.0, arm = 22.5, length = 120.0, fracture_energy = 0.1;
 
-/// Two arms with a crack between them to x = 50, driven apart at x = 0. The glue has the strength
-/// 12, the arms would break at twice that and at ten times the energy.
+/// Returns two arms with a crack between them up to x = 50, displaced apart at x = 0. The glue has
+/// the strength 12; the arms have twice that and ten times the energy.
 std::string cantilever_case(const std::string& model) {
   const std::string ratio = model == "micropolar" ? "poissons_ratio = 0.2\n" : "";
   std::string text = fmt::format(
@@ -68,8 +68,9 @@ TEST_P(WeakCantilevers, OpenAlongTheInterfaceAtTheLoadOfBeamTheory) {
   const std::vector<double> opening = values_of(history, "displacement");
   const std::vector<double> element = values_of(history, "element");
   const double limit = network.interfaces.at(0).strength.first_stretch;
-  // G = 12 P^2 L^2 / (E h^3) and the opening 8 P L^3 / (E h^3), L the length of the crack with what
-  // the roots of the arms turn added: without L, P^2 = 8 (G E h^3 / 12)^(3/2) / (E h^3 opening).
+  // G = 12 P^2 L^2 / (E h^3), and the opening is 8 P L^3 / (E h^3). L is the crack length plus the
+  // effect of rotation at the roots of the arms. Without L: P^2 = 8 (G E h^3 / 12)^(3/2) / (E h^3
+  // opening).
   const double stiffness = arm_modulus * std::pow(arm, 3);
   const double scale = 8.0 * std::pow(fracture_energy * stiffness / 12.0, 1.5) / stiffness;
   double sum = 0.0;
@@ -83,7 +84,7 @@ TEST_P(WeakCantilevers, OpenAlongTheInterfaceAtTheLoadOfBeamTheory) {
     sum += load[k] / std::sqrt(scale / opening[k]);
     ++count;
   }
-  EXPECT_NEAR(sum / count, 1.0, 0.03);  // the teeth, and the shear of the arms
+  EXPECT_NEAR(sum / count, 1.0, 0.03);  // segments, and shear of the arms
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, WeakCantilevers, testing::Values("bond_based", "micropolar"),

@@ -1,5 +1,5 @@
-// Strips that are pulled across a weak interface bear its strength and take its fracture energy,
-// and nothing else in them breaks.
+// Strips in tension across a weak interface have its strength and fracture energy, and no other
+// bonds break.
 
 #include <gtest/gtest.h>
 
@@ -35,8 +35,8 @@ TEST_P(WeakStrips, BearTheStrengthAndTakeTheFractureEnergyOfTheirInterface) {
   EXPECT_LT(told("energy_error"), 1e-9);
 }
 
-/// Particles on the joint of two materials are on the one side of a line along it or on the other:
-/// the bonds across are then those of the stiff half, or those of the soft one.
+/// A line along the joint of two materials puts the joint's particles on one of its sides. The
+/// bonds across then belong to the stiff or to the soft half.
 TEST(WeakStrips, TakeTheirEnergyWhicheverWayALineAlongTheirJointIsDrawn) {
   for (const char* model : {"bond_based", "micropolar"}) {
     WeakStrip strip{false, model};
@@ -67,7 +67,7 @@ std::vector<NamedStrip> weak_strips() {
   bar.spacing = 6.0;
   result.push_back({"bond_based_cubic_bilinear", bar});
   bar.model = "micropolar";
-  bar.width = 18.0;  // an event takes eight times as long as one of the other
+  bar.width = 18.0;  // an event takes eight times as long as in the strip
   result.push_back({"micropolar_cubic_bilinear", bar});
   return result;
 }

@@ -7,7 +7,7 @@
 #include "support/joint_bodies.hpp"
 #include "support/small_networks.hpp"
 
-// Networks of elastic analyses have no limits; all else is that of networks that can break.
+// Networks of elastic analyses have no limits but otherwise equal networks that can break.
 
 namespace perilink {
 namespace {

@@ -124,7 +124,7 @@ AnalysisBody make_block(const BlockCase& block) {
     }
   }
   AnalysisBody body = free_body(build_network(make_body(input), constants));
-  std::mt19937 random(11);  // fixed: the same body in every run
+  std::mt19937 random(11);  // fixed: one body in all runs
   std::uniform_real_distribution<double> scatter(1.0 - block.scatter, 1.0 + block.scatter);
   for (Index e = 0; e < body.network.num_elements(); ++e) {
     const double factor = scatter(random);
@@ -166,7 +166,7 @@ AnalysisBody make_block(const BlockCase& block) {
 
 namespace {
 
-/// That of the change of length alone, for the motions of both ends.
+/// Returns the stiffness against change of length only, for the motions of both ends.
 ElementMatrix axial_stiffness(const Network& network, Index e) {
   const int width = network.width();
   Eigen::VectorXd n = Eigen::VectorXd::Zero(2 * width);
@@ -184,7 +184,7 @@ ElementMatrix stiffness_now(const Network& network, Secants secants, Index e) {
   return block;
 }
 
-/// Where the unknowns of both ends of an element are among those of all particles.
+/// Returns the first index of an end's unknowns in the vector of all particles.
 Index slot_of_end(const Network& network, Index e, Index k) {
   const int width = network.width();
   return k < width ? network.bonds.first[e] * width + k
@@ -232,7 +232,7 @@ Eigen::VectorXd dense_displacement(const AnalysisBody& body, Secants secants,
       }
     }
   }
-  // The quicker of Eigen's two, where nothing is loose.
+  // The faster solver of Eigen, for bodies without loose particles.
   const Eigen::LLT<Eigen::MatrixXd> factor(matrix);
   const bool positive = factor.info() == Eigen::Success;
   const Eigen::VectorXd solution =
@@ -269,7 +269,7 @@ double stretch(const Network& network, std::span<const double> displacement, Ind
   if (!network.carries_moments()) return extension / length;
   const double equivalent =
       std::sqrt(2.0 * element_energy(network, displacement, e) / network.stiffness[e]);
-  // Bonds that symmetry neither stretches nor shortens do not break.
+  // Bonds that symmetry keeps at constant length do not break.
   return (extension > 1e-6 * equivalent ? equivalent : extension) / length;
 }
 

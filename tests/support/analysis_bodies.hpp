@@ -14,15 +14,15 @@
 #include "support/textbook_beams.hpp"
 
 /// \file
-/// Small bodies with supports and loads, and a dense solution of their equilibrium that shares no
-/// code with the program.
+/// Small bodies with supports and loads. Their dense equilibrium solution shares no code with the
+/// program.
 
 namespace perilink::test {
 
-/// All that an analysis needs.
+/// Network with supports and loads.
 using AnalysisBody = LoadedNetwork;
 
-/// Routes by which the factor of a matrix can follow a bond that breaks.
+/// Routes by which a factor can follow a failed bond.
 inline constexpr FactorRoute routes[] = {FactorRoute::in_place, FactorRoute::cholmod_updown,
                                          FactorRoute::refactorize};
 
@@ -39,46 +39,48 @@ inline std::vector<double> intact(const Network& network) {
 /// Body without supports and loads.
 AnalysisBody free_body(Network network);
 
-/// Which component of which particle has a prescribed displacement.
+/// Whether a particle's component has a prescribed displacement.
 using IsHeld = std::function<bool(Index particle, int axis)>;
 
-/// \param carried  whether anchors follow particles; those of explicit runs stand still
+/// Numbers the unknowns.
+/// \param embedded  whether embedded points follow particles; in explicit runs they do not move
 void number(AnalysisBody& body, const IsHeld& is_held, bool embedded = true);
 
 inline std::size_t slot(const AnalysisBody& body, Index particle, int axis) {
   return static_cast<std::size_t>(particle) * body.network.width() + axis;
 }
 
-/// Rows of `columns` bonds in series that know nothing of one another: a square lattice of unit
-/// spacing whose particles keep their y, each bonded to its four neighbours. The left end is held,
-/// the right one pulled by 1 per row or moved by 1. All bonds along x have the stiffness
-/// `stiffness` and the critical stretch `limit`, so that every figure can be worked out by hand.
+/// Independent rows of `columns` bonds in series: a square lattice of unit spacing, with four
+/// neighbours per particle and no displacements along y. The left end is fixed; the right one has
+/// the force 1 per row or the displacement 1. All bonds along x have the stiffness `stiffness` and
+/// the critical stretch `limit`, so all results can be computed by hand.
 AnalysisBody make_chains(int columns, int rows, bool driven, double stiffness, double limit,
                          const std::vector<RebarLine>& bars = {}, BarMaterial bar = {});
 
 /// Four particles at the corners of a unit square, every pair bonded with stiffness 1 and critical
-/// stretch 0.01. The left two are held, the right ones keep their y and are pulled by 1 each. With
-/// horizontal bonds (stiffness 1) and diagonals (1/2 along x) the right ones are independent:
-/// u = 1 / (1 + 1/2) = 2/3, without its horizontal bond 1 / (1/2) = 2.
+/// stretch 0.01. The left two are fixed, the right ones move along x only with the force 1 each.
+/// Horizontal bonds have the stiffness 1 and diagonals 1/2 along x, so the right ones are
+/// independent. Thus u = 1 / (1 + 1/2) = 2/3, or 1 / (1/2) = 2 without the horizontal bond.
 AnalysisBody make_square();
 
-/// Number of the bond between two points.
+/// Returns the number of the bond between two points.
 Index bond_between(const Network& network, std::array<double, 2> from, std::array<double, 2> to);
 
-/// Numbers of the bonds along x that end at height y, from left to right.
+/// Returns bonds along x at height y, from left to right.
 std::vector<Index> bonds_of_row(const Network& network, double y);
 
-/// How a block is loaded and made up.
+/// Loads and laws of a block.
 struct BlockCase {
   LatticeCase lattice;
-  bool driven = false;  ///< the right face is moved, not pulled
-  bool bar = false;     ///< a bar that yields runs along x
+  bool driven = false;  ///< the right face has displacements instead of forces
+  bool bar = false;     ///< a yielding bar runs along x
   int columns = 6;
-  double scatter = 0.1;  ///< relative scatter of the critical stretches; 0: exact ties by symmetry
+  double scatter = 0.1;     ///< relative scatter of the critical stretches; 0: symmetric bonds fail
+                            ///< together
   bool micropolar = false;  ///< Poisson's ratio 0.1, torsion 1.3
-  bool toothed = false;     ///< bonds lose their stiffness in three steps
-  bool closing = false;     ///< damaged ones resist compression like intact ones
-  bool slipping = false;    ///< the bar has bond that falls in two steps; for explicit runs
+  bool toothed = false;     ///< bonds lose their stiffness in three segments
+  bool closing = false;     ///< damaged bonds have their full stiffness in compression
+  bool slipping = false;    ///< the bar's slip springs soften in two segments; for explicit runs
 };
 
 std::string to_string(const BlockCase& block);
@@ -87,35 +89,35 @@ inline std::ostream& operator<<(std::ostream& out, const BlockCase& block) {
   return out << to_string(block);
 }
 
-/// A law between brittle bonds and bars that yield.
+/// Returns a law between brittle bonds and yielding bars.
 inline BondLaw three_segments() { return BondLaw::saw_tooth({{1.0, 1.0}, {0.6, 1.4}, {0.2, 3.0}}); }
 
-/// Block held at the left face and pulled at (or moved by 1 with) the right one. Nothing breaks at
-/// the particles of these faces, so that the block fails between them.
+/// Returns a block fixed at the left face and loaded at the right one. Bonds of particles on these
+/// faces do not break, so the block fails between them.
 AnalysisBody make_block(const BlockCase& block);
 
-/// Stiffness over all components, supported ones and all, as a dense matrix.
+/// Returns the dense stiffness of all components, including supported ones.
 Eigen::MatrixXd dense_stiffness(const Network& network, Secants secants);
 
-/// Displacement at load factor 1 of the components whose flag in `left_out` is zero (all, when it
-/// is empty); the others stay zero.
+/// Returns the displacement at load factor 1. Components with a nonzero flag in `left_out` stay
+/// zero; empty: no such components.
 Eigen::VectorXd dense_displacement(const AnalysisBody& body, Secants secants,
                                    const std::vector<std::uint8_t>& left_out = {});
 
-/// Largest difference of the components that are not left out, relative to the largest
+/// Returns the largest difference of the components that are not left out, over the largest
 /// displacement.
 double difference(std::span<const double> displacement, const Eigen::VectorXd& reference,
                   const std::vector<std::uint8_t>& left_out = {});
 
 double extension_of(const Network& network, std::span<const double> displacement, Index e);
 
-/// Extension of an element per length; of a micropolar bond in tension the stretch of equal energy.
+/// Returns the strain of an element; for a micropolar bond in tension its equivalent stretch.
 double stretch(const Network& network, std::span<const double> displacement, Index e);
 
-/// Energy stored in all elements.
+/// Returns the energy stored in all elements.
 double stored_energy(const Network& network, Secants secants, std::span<const double> displacement);
 
-/// Keeps the rows of a run; calls `look` at each.
+/// Stores the rows of a run and calls `look` for each.
 class Recorder final : public StepObserver {
  public:
   using Look = std::function<void(const StepRecord&, StateSource&)>;

@@ -12,7 +12,7 @@
 
 namespace perilink::test {
 
-/// A body whose bonds start from c V V / xi, scaled so that each particle has about its modulus.
+/// Body with initial stiffnesses c V V / xi, scaled so that each particle has about its modulus.
 struct Problem {
   Body body;
   Bonds bonds;

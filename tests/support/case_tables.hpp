@@ -10,28 +10,27 @@
 #include <string>
 #include <vector>
 
-/// \file
-/// Cases written as edits of a base: the tables of tests/cli/malformed. How an entry is written
-/// stands in docs/developers/testing.md.
+/// Cases written as edits of a base, in the tables of tests/cli/malformed.
+/// docs/developers/testing.md describes an entry.
 
 namespace perilink::test {
 
-/// An entry of a table.
+/// Entry of a table.
 struct CaseEntry {
   std::string name;
-  std::string base;                   ///< a file of bases/, or "nothing"
+  std::string base;                   ///< file in bases/, or "nothing"
   std::vector<std::string> edits;     ///< lines of the table, each with its mark
-  std::vector<std::string> expected;  ///< texts that the message contains
+  std::vector<std::string> expected;  ///< texts that the message must contain
 };
 
-/// What googletest shows of an entry.
+/// Prints an entry for googletest.
 inline void PrintTo(const CaseEntry& entry, std::ostream* stream) { *stream << entry.name; }
 
 inline std::filesystem::path malformed_folder() {
   return std::filesystem::path(PERILINK_SOURCE_DIR) / "tests/cli/malformed";
 }
 
-/// Files of a folder in alphabetical order.
+/// Returns files of a folder in alphabetical order.
 inline std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder,
                                                    const std::string& extension) {
   std::vector<std::filesystem::path> files;
@@ -63,7 +62,7 @@ inline void read_case_table(const std::filesystem::path& path, std::vector<CaseE
   }
 }
 
-/// The entries of all tables in a folder of tests/cli/malformed.
+/// Returns entries of all tables in a folder of tests/cli/malformed.
 inline std::vector<CaseEntry> read_case_tables(const std::string& folder) {
   std::vector<CaseEntry> entries;
   for (const auto& path : files_of(malformed_folder() / folder, ".txt")) {
@@ -83,7 +82,7 @@ inline std::vector<std::string> split(const std::string& text, const std::string
   return parts;
 }
 
-/// Text with {{300 * ab}} repeated and {{xFC}} as the byte.
+/// Repeats {{300 * ab}} and replaces {{xFC}} by the byte.
 inline std::string spelled_out(const std::string& text) {
   std::string result;
   std::size_t start = 0;
@@ -103,7 +102,7 @@ inline std::string spelled_out(const std::string& text) {
   return result + text.substr(start);
 }
 
-/// A text on its way from the base to the case.
+/// Applies edits to the text of a base.
 class LineEditor {
  public:
   explicit LineEditor(const std::string& text) : lines_(split(text, "\n")) { lines_.pop_back(); }
@@ -154,14 +153,15 @@ class LineEditor {
   std::size_t cursor_ = 0;
 };
 
-/// The text of a case. \param base  text of its base
+/// Returns the text of a case.
+/// \param base  text of its base
 inline std::string edited_text(const CaseEntry& entry, const std::string& base) {
   LineEditor editor(base);
   for (const std::string& edit : entry.edits) editor.apply(edit);
   return editor.text();
 }
 
-/// The text of a case whose base is a file.
+/// Returns the text of a case with a file as base.
 inline std::string case_text(const CaseEntry& entry) {
   if (entry.base == "nothing") return edited_text(entry, "");
   const std::filesystem::path path = malformed_folder() / "bases" / (entry.base + ".toml");

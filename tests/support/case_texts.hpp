@@ -7,7 +7,7 @@
 #include "support/replaced.hpp"
 
 /// \file
-/// Cases that the tests of the reader start from.
+/// Base cases for tests of the reader.
 
 namespace perilink {
 
@@ -184,7 +184,7 @@ time_step = 0.001
 fields_times = [0.5, 4]
 )";
 
-/// What the reader says of a case: its refusal, or "accepted".
+/// Returns the reader's message for a refused case, or "accepted".
 inline std::string message_of(const std::string& text) {
   try {
     parse_case(text, "case.toml");

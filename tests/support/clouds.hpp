@@ -7,11 +7,11 @@
 #include "support/simplex_meshes.hpp"
 
 /// \file
-/// Bodies of irregular particles, with calibrated bonds.
+/// Bodies of unstructured particles with calibrated bonds.
 
 namespace perilink::test {
 
-/// The unit square of `count` steps across in upright strips, one for each material.
+/// Returns a unit square with `count` steps across, in upright strips of one material each.
 inline Body make_unstructured(int num_materials, int count) {
   const Mesh mesh = box_mesh(2, count);
   std::vector<Index> material;
@@ -25,7 +25,7 @@ inline Body make_unstructured(int num_materials, int count) {
   return body;
 }
 
-/// One micropolar material, horizon of three steps.
+/// Returns input with one micropolar material and a horizon of three steps.
 inline NetworkInput unstructured_micropolar_input(int count) {
   NetworkInput input;
   input.model = BondModel::micropolar;

@@ -5,18 +5,18 @@
 
 namespace perilink::test {
 
-/// A point of a curve of stress over strain of the law of Gerstle, Sau & Aguilera (2007), section
-/// 6, under uniform strain. Source: independent integration of the law, 2D plane stress, with the
-/// constants of the paper's Eqs. 15 and 17: E = 24850, nu = 0.22, limits 0.00014 (to twice that) in
-/// tension, 0.001 (to three times that) in compression.
+/// Point of a stress-strain curve under uniform strain for the law of Gerstle, Sau & Aguilera
+/// (2007), section 6. Source: independent integration of the law in plane stress, with the
+/// constants of the paper's Eqs. 15 and 17. These are E = 24850, nu = 0.22, and the limits 0.00014
+/// in tension (softening to twice that) and 0.001 in compression (to three times that).
 struct ConcretePoint {
   Problem constants;
-  bool keeps_shear;  ///< shear is elastic until the bond breaks
+  bool keeps_shear;  ///< shear stays elastic until the bond breaks
   Across across;
-  double strain, stress;  ///< below zero in compression
+  double strain, stress;  ///< negative in compression
 };
 
-/// Five of each curve; the fourth is where the stress is largest.
+/// Five points per curve; the fourth has the largest stress.
 inline constexpr ConcretePoint concrete_points[] = {
     {Problem::plane_stress, true, Across::held, 0.0001, 2.61139},
     {Problem::plane_stress, true, Across::held, 0.00018, 4.2022},

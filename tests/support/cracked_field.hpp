@@ -7,8 +7,8 @@
 
 namespace perilink::test {
 
-/// Field file of a plate of nx × ny particles (× nz in three dimensions), cracked from below at the
-/// middle to half its height and opened; made up, no mechanics. Hexagonal plates have shifted rows.
+/// Invented field file of a plate of nx × ny particles (× nz in three dimensions). An open crack
+/// runs from below to half its height in the middle. Hexagonal plates have shifted rows.
 struct CrackedPlate {
   int nx = 25;
   int ny = 8;
@@ -46,7 +46,7 @@ inline void append_particles(VtuGrid& grid, const CrackedPlate& plate) {
   }
 }
 
-/// One row of particles of `kind` (1 ghost, 2 rebar) at height y.
+/// Appends a row of particles of `kind` (1 ghost, 2 rebar) at height y.
 inline void append_row(VtuGrid& grid, const CrackedPlate& plate, double y, double kind) {
   for (int i = 0; i < plate.nx; ++i) {
     grid.points.insert(grid.points.end(), {plate.spacing * i, y, 0.0});

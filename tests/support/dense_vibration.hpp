@@ -10,7 +10,7 @@
 
 namespace perilink::test {
 
-/// Stiffness of the unknown components as a dense matrix, column by column from internal forces.
+/// Returns the dense stiffness of the unknown components, column by column from internal forces.
 inline Eigen::MatrixXd dense_stiffness_of_unknowns(const AnalysisBody& body) {
   const std::vector<Index>& number = body.unknowns.number;
   Eigen::MatrixXd matrix(body.unknowns.count, body.unknowns.count);
@@ -27,7 +27,8 @@ inline Eigen::MatrixXd dense_stiffness_of_unknowns(const AnalysisBody& body) {
   return matrix;
 }
 
-/// Period of the slowest vibration but for `free` ones that cost nothing, of dense matrices.
+/// Returns the period of the slowest vibration after `free` modes without energy, from dense
+/// matrices.
 inline double dense_period(const AnalysisBody& body, const Inertia& inertia, Index free = 0) {
   Eigen::VectorXd mass(body.unknowns.count);
   for (std::size_t slot = 0; slot < inertia.mass.size(); ++slot) {
@@ -41,7 +42,7 @@ inline double dense_period(const AnalysisBody& body, const Inertia& inertia, Ind
   return 2.0 * std::numbers::pi / std::sqrt(solver.eigenvalues()[free]);
 }
 
-/// A cantilever of `length` by `height` spacings, held at its left end.
+/// Returns a cantilever of `length` by `height` spacings, clamped at its left end.
 inline AnalysisBody cantilever(int length, int height) {
   LatticeInput input = body_input({"beam", Pattern::rectangular, Surface::none}, height);
   const double spacing = input.spacing;

@@ -3,12 +3,12 @@
 #include <string>
 
 /// \file
-/// Small meshes as gmsh writes them.
+/// Small meshes in gmsh's format.
 
 namespace perilink::test {
 
-/// The square [0, 2] x [0, 2] of four triangles around a point off its centre. The right half of
-/// the edges carries no group. Tags have gaps, and the group "lower" is met with a negative tag.
+/// Square [0, 2] x [0, 2] of four triangles around a point off its centre. Edges of the right half
+/// belong to no group. Tags have gaps, and elements refer to the group "lower" by a negative tag.
 inline const char* const square_mesh = R"($MeshFormat
 4.1 0 8
 $EndMeshFormat
@@ -60,8 +60,8 @@ $Elements
 $EndElements
 )";
 
-/// Two tetrahedra on both sides of the triangle x + y + z = 1, of two groups; the triangle itself
-/// is the group "between" and the faces z = 0 of the first the group "floor".
+/// Two tetrahedra of two groups on both sides of the triangle x + y + z = 1. The triangle is the
+/// group "between"; the face z = 0 of the first tetrahedron is the group "floor".
 inline const char* const tetrahedra_mesh = R"($MeshFormat
 4.1 0 8
 $EndMeshFormat

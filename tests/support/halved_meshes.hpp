@@ -14,11 +14,11 @@
 #include "support/simplex_meshes.hpp"
 
 /// \file
-/// Meshes of squares and cubes of two halves, turned against the axes.
+/// Meshes of squares and cubes with two halves, rotated against the axes.
 
 namespace perilink::test {
 
-/// Axes of a body turned by 30 degrees about z, in space then by 20 degrees about x.
+/// Rotates by 30 degrees about z, in space then by 20 degrees about x.
 inline std::array<double, 3> turned(const std::array<double, 3>& x, int dim) {
   const double a = std::acos(-1.0) / 6.0, b = dim == 3 ? std::acos(-1.0) / 9.0 : 0.0;
   const double along = x[0] * std::cos(a) - x[1] * std::sin(a);
@@ -27,15 +27,15 @@ inline std::array<double, 3> turned(const std::array<double, 3>& x, int dim) {
           across * std::sin(b) + x[2] * std::cos(b)};
 }
 
-/// A group of cells or of their sides.
+/// Group of cells or of their sides.
 struct HalvedGroup {
   std::string name;
   int dim;
-  std::set<std::vector<Index>> elements;  ///< by their points
+  std::set<std::vector<Index>> elements;  ///< points of each element
 };
 
-/// The halves "first" and "second", the sides "left" and "right" of the body and the "face" between
-/// the halves, which lies along one side of the cells.
+/// Returns the halves "first" and "second", the body's sides "left" and "right", and the "face"
+/// between the halves, which consists of sides of cells.
 inline std::vector<HalvedGroup> halves_of(const Mesh& mesh) {
   std::vector<HalvedGroup> groups = {{"first", mesh.dim, {}},
                                      {"second", mesh.dim, {}},
@@ -62,7 +62,8 @@ inline std::vector<HalvedGroup> halves_of(const Mesh& mesh) {
   return groups;
 }
 
-/// As gmsh writes it; `count` cells, an even number, along each side of the given length.
+/// Returns a mesh in gmsh's format with `count` cells, an even number, along each side of length
+/// `side`.
 inline std::string halved_mesh_text(int dim, int count, double side) {
   Mesh mesh = box_mesh(dim, count);
   for (Index i = 0; i < mesh.num_points(); ++i) {

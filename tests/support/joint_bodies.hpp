@@ -19,16 +19,16 @@ struct JointCase {
   const char* name;
   Pattern pattern;
   int dim;
-  double contrast;  ///< modulus above over that below
+  double contrast;  ///< modulus above over modulus below
   double ratio;     ///< horizon over spacing
-  /// Poisson's ratios below and above of micropolar bonds; none: bonds without moments.
+  /// Poisson's ratios of micropolar bonds below and above; empty: bonds without moments.
   std::optional<std::array<double, 2>> poisson = std::nullopt;
 };
 
-/// Without this CTest lists the cases by their bytes.
+/// Prints the name; otherwise CTest would list the bytes of a case.
 inline void PrintTo(const JointCase& tested, std::ostream* stream) { *stream << tested.name; }
 
-/// The unit box, of the second material where the last axis is above the joint.
+/// Unit box with the second material above the joint along the last axis.
 struct JointBody {
   Body body;
   NetworkInput input;
@@ -53,7 +53,7 @@ struct JointBody {
       body = make_mesh_body(mesh, material, 1.0);
       body.lattice.surface = Surface::calibrated;
       input.horizon = tested.ratio * body.lattice.spacing;
-      input.critical_stretch = Constants::continuum;  // as of every mesh in case files
+      input.critical_stretch = Constants::continuum;  // as for meshes in case files
     } else {
       LatticeInput lattice;
       lattice.pattern = tested.pattern;

@@ -15,7 +15,7 @@
 
 namespace perilink::testing_support {
 
-/// Nikravesh & Gerstle 2018, Table 1, in N, m, kg, s.
+/// Returns the material of Nikravesh & Gerstle 2018, Table 1, in N, m, kg, s.
 inline LatticeMaterial paper_concrete() {
   LatticeMaterial material;
   material.youngs_modulus = 25e9;
@@ -27,7 +27,7 @@ inline LatticeMaterial paper_concrete() {
   return material;
 }
 
-/// The same without damping.
+/// Returns the material of paper_concrete() without damping and with another Poisson's ratio.
 inline LatticeMaterial elastic_concrete(double poissons_ratio = 0.2) {
   LatticeMaterial material = paper_concrete();
   material.poissons_ratio = poissons_ratio;
@@ -35,7 +35,7 @@ inline LatticeMaterial elastic_concrete(double poissons_ratio = 0.2) {
   return material;
 }
 
-/// Rectangle of the given half sides about the origin.
+/// Returns a rectangle of given half sides around the origin.
 inline LatticeCut rectangle(double half_width, double half_height, double spacing, double degrees,
                             double thickness = 0.15) {
   LatticeCut cut;
@@ -54,8 +54,8 @@ inline ExplicitModel plane_model(const LatticeCut& cut, const LatticeMaterial& m
   return make_explicit_model(problem, rules, hexagonal_rows(cut), material, cut.thickness);
 }
 
-/// Ends of a specimen: those within `depth` of the lowest particle are held in y, those within it
-/// of the highest are driven.
+/// Clamps the ends of a specimen: fixes particles within `depth` of the lowest one in y, and
+/// displaces those within `depth` of the highest.
 inline void clamped_ends(ExplicitModel& model, double depth, double amplitude) {
   const LatticeRows& lattice = model.lattice;
   double low = 1e300, high = -1e300;
@@ -73,7 +73,7 @@ inline void clamped_ends(ExplicitModel& model, double depth, double amplitude) {
   prescribe(model, motions);
 }
 
-/// Velocities without any pattern, so that every mode moves.
+/// Sets velocities without symmetry, so that every mode is excited.
 inline void shake_velocities(const ExplicitModel& model, ExplicitState& state) {
   for (const Index slot : model.lattice.particle_slot) {
     state.velocity[slot] = 1e-3 * std::sin(12.9898 * slot);
@@ -81,7 +81,7 @@ inline void shake_velocities(const ExplicitModel& model, ExplicitState& state) {
   }
 }
 
-/// A plate or a block, both with a hole and driven at one end.
+/// Returns a plate or block with a hole, displaced at one end.
 inline ExplicitModel perforated(Problem problem, LatticeRules rules,
                                 const LatticeMaterial& material) {
   const bool space = problem == Problem::three_dimensional;
@@ -105,7 +105,7 @@ struct LatticeKind {
   bool breakable, yields;
 };
 
-/// One in which some particles crack and flow at once, where they can.
+/// Returns a body in which some particles crack and others flow at once, if the law allows it.
 inline ExplicitModel changing_body(const LatticeKind& kind) {
   LatticeMaterial material = paper_concrete();
   material.breakable = kind.breakable;
@@ -116,7 +116,7 @@ inline ExplicitModel changing_body(const LatticeKind& kind) {
   return perforated(kind.problem, kind.rules, material);
 }
 
-/// So many steps, with three rows.
+/// Returns options of a run of `steps` steps and three rows.
 inline ExplicitOptions short_run(const ExplicitModel& model, Index steps) {
   ExplicitOptions options;
   options.time_step = 0.9 * critical_time_step(model);

@@ -12,7 +12,7 @@
 #include "support/lattice_models.hpp"
 
 /// \file
-/// Lattice bodies of every kind as networks.
+/// Lattice bodies of all kinds as networks.
 
 namespace perilink::testing_support {
 
@@ -35,12 +35,12 @@ inline std::vector<StateLatticeCase> state_lattice_cases() {
   for (const Problem problem :
        {Problem::plane_stress, Problem::plane_strain, Problem::three_dimensional}) {
     for (const double degrees : {0.0, 15.0, 30.0}) cases.push_back({problem, degrees, 0.2});
-    cases.push_back({problem, 15.0, 0.45});  // the sum of the stretches stiffens
+    cases.push_back({problem, 15.0, 0.45});  // the state-based term increases the stiffness
   }
   return cases;
 }
 
-/// Block of `half` spacings on either side of the origin.
+/// Returns a block of `half` spacings on either side of the origin.
 inline ExplicitModel state_block(const StateLatticeCase& lattice, double half) {
   const double spacing = 0.01;
   LatticeCut cut = rectangle(half * spacing, half * spacing, spacing, lattice.degrees,
@@ -55,7 +55,8 @@ inline ExplicitModel state_block(const StateLatticeCase& lattice, double half) {
                              material, 1.0);
 }
 
-/// Per particle: the number of steps along bonds to one that lacks bonds, up to three.
+/// Returns the number of bonds from each particle to the nearest one with missing bonds, at most
+/// three.
 inline std::vector<int> depths(const Network& network) {
   const Csr neighbourhoods = bonds_of_particles(network.bonds, network.particles.size());
   const std::size_t full = network.dim() == 2 ? 6 : 18;

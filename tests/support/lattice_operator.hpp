@@ -13,8 +13,7 @@
 
 namespace perilink::testing_support {
 
-/// Brings stretches, sums and forces up to date with the displacements of a state at rest, to which
-/// it may have jumped.
+/// Computes stretches, sums and forces from the displacements of a state without velocity.
 inline void evaluate(const ExplicitModel& model, ExplicitState& state) {
   const auto rows = static_cast<Index>(model.lattice.rows.size());
   for (Index r = 0; r < rows; ++r) measure_bonds(model, state, r, 0.0);
@@ -24,8 +23,8 @@ inline void evaluate(const ExplicitModel& model, ExplicitState& state) {
   std::fill(state.slack.begin(), state.slack.end(), 0.0);
 }
 
-/// Some bonds weaker, differently in tension and compression; by the consistent rules with weights
-/// of their own in the sums.
+/// Weakens some bonds, differently in tension and compression. The consistent rules also get
+/// separate weights in the sums.
 inline void weaken(const ExplicitModel& model, ExplicitState& state) {
   for (std::size_t k = 0; k < state.in_tension.size(); ++k) {
     const auto number = static_cast<double>(k);
@@ -43,7 +42,7 @@ inline void weaken(const ExplicitModel& model, ExplicitState& state) {
     bond_changes |= BondChanges::altered | BondChanges::weakened;
 }
 
-/// Damage and flow of a step, pass after pass over all rows.
+/// Applies damage and flow of a step, pass after pass over all rows.
 inline void change(const ExplicitModel& model, const LatticeChanges& changes, ExplicitState& state,
                    double time_step) {
   const auto each_row = [&](const auto& work) {
@@ -57,7 +56,7 @@ inline void change(const ExplicitModel& model, const LatticeChanges& changes, Ex
   each_row([&](Index r) { changes.update_sums(state, r, time_step); });
 }
 
-/// The same in a step of no length, after `evaluate`.
+/// Applies damage and flow of a step of zero length, after evaluate().
 inline void change(const ExplicitModel& model, const LatticeChanges& changes,
                    ExplicitState& state) {
   change(model, changes, state, 0.0);
@@ -71,7 +70,7 @@ inline double stored_energy(const ExplicitState& state) {
   return energy;
 }
 
-/// Sum of the bonds' forces on every particle, shape (dim, slots).
+/// Returns the sum of the bond forces on every particle, shape (dim, slots).
 inline std::vector<double> resultants(const ExplicitModel& model, const ExplicitState& state) {
   const LatticeRows& lattice = model.lattice;
   std::vector<double> total(state.displacement.size(), 0.0);
@@ -92,11 +91,11 @@ inline std::vector<double> resultants(const ExplicitModel& model, const Explicit
   return total;
 }
 
-/// Largest eigenvalue of M^-1 K by power iteration, from below.
+/// Returns a lower estimate of the largest eigenvalue of M^-1 K by power iteration.
 inline double highest_frequency_squared(const ExplicitModel& model) {
   ExplicitState state(model);
   const LatticeRows& lattice = model.lattice;
-  const double size = 1e-9 * lattice.spacing;  // so small that the body is linear
+  const double size = 1e-9 * lattice.spacing;  // small enough for linear response
   std::vector<double> shape(state.displacement.size(), 0.0);
   for (const Index slot : lattice.particle_slot) {
     for (int c = 0; c < lattice.dim; ++c) shape[lattice.at(c, slot)] = std::sin(3.7 * slot + c);

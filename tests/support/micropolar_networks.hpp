@@ -18,7 +18,7 @@ inline Network make_micropolar_network(const LatticeCase& lattice_case, int colu
   return build_network(make_body(input), micropolar_input(input));
 }
 
-/// Two particles joined by one micropolar bond of given stiffnesses.
+/// Returns two particles joined by one micropolar bond of given stiffnesses.
 inline Network single_frame(int dim, const std::vector<double>& second, double stiffness,
                             double bending) {
   Network network;
@@ -37,7 +37,7 @@ inline Network single_frame(int dim, const std::vector<double>& second, double s
   return network;
 }
 
-/// Motion of all particles in a homogeneous deformation with the rotation of its skew part, shape
+/// Returns the motion of all particles in a homogeneous deformation, rotations included, shape
 /// (particles, width).
 inline std::vector<double> linear_motion(const Network& network,
                                          const std::array<Vector3, 3>& gradient) {

@@ -9,17 +9,17 @@
 
 namespace perilink::test {
 
-/// A beam in bending on two points, with a notch beside its middle, which softens; driven down at
-/// its top, or pushed.
+/// Softening beam on two supports with a notch beside its middle, displaced downwards at its top or
+/// loaded by a force.
 struct NotchedBeam {
   std::string model = "bond_based";
   double spacing = 2.5;    ///< [length]
-  double force = 0.0;      ///< on the top instead of a driven displacement
-  double weight = 0.0;     ///< force on the top in a stage before
+  double force = 0.0;      ///< on the top, instead of a displacement
+  double weight = 0.0;     ///< force on the top in an earlier stage
   double tolerance = 0.0;  ///< event_tolerance
   std::string analysis;    ///< lines of [analysis]
   std::string stop = "load_fraction = 0.3";
-  std::string sections;  ///< behind all others
+  std::string sections;  ///< further tables at the end
 };
 
 inline std::string notched_beam_case(const NotchedBeam& beam) {
@@ -63,7 +63,7 @@ inline std::string notched_beam_case(const NotchedBeam& beam) {
   return text + beam.sections;
 }
 
-/// A bar in space with a notch in its middle, which softens, pulled apart.
+/// Returns a bar in space with a notch in its middle, which softens in tension.
 inline std::string notched_bar_case(const std::string& solver, double tolerance) {
   std::string text =
       "[body]\nproblem = \"three_dimensional\"\npattern = \"cubic\"\nspacing = 5\n"

@@ -8,13 +8,13 @@
 #include "support/simplex_meshes.hpp"
 
 /// \file
-/// State-based particles that stand anywhere.
+/// State-based particles in unstructured sets.
 
 namespace perilink::test {
 
 inline constexpr IsotropicMaterial soft_solid{30.0, 0.2};
 
-/// The unit square or cube, `count` steps across, its inner vertices shifted.
+/// Returns a unit square or cube with `count` steps across and shifted inner vertices.
 inline Body unstructured_body(int dim, int count) {
   const Mesh mesh = box_mesh(dim, count);
   return make_mesh_body(mesh, std::vector<Index>(static_cast<std::size_t>(mesh.num_cells()), 0),

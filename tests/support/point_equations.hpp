@@ -9,7 +9,7 @@
 
 namespace perilink::test {
 
-/// (A D A' + diagonal) x of the scaled equations, written out.
+/// Returns (A D A' + diagonal) x of the scaled equations, by definition.
 inline Eigen::VectorXd apply_system(const PointEquations& equations,
                                     const std::vector<double>& active, double diagonal,
                                     const Eigen::VectorXd& x) {
@@ -30,7 +30,7 @@ inline Eigen::VectorXd apply_system(const PointEquations& equations,
   return result;
 }
 
-/// Two weights of their own at one point.
+/// Returns equations of one point with two weights.
 inline PointEquations two_weights(std::vector<double> coefficients, std::vector<double> right) {
   PointEquations equations;
   equations.rows = static_cast<int>(right.size());

@@ -18,22 +18,22 @@
 
 namespace perilink::test {
 
-/// What a process left.
+/// Result of a process.
 struct ProcessEnd {
-  int exit_status = -1;  ///< -1 when a signal ended it
-  int signal = 0;        ///< ended it; 0: none
+  int exit_status = -1;  ///< -1 if a signal ended the process
+  int signal = 0;        ///< signal that ended the process; 0: none
   std::string out;
   std::string err;
 };
 
-/// Limits on a process, RLIMIT_AS and the like [bytes].
+/// Limits of a process, such as RLIMIT_AS [bytes].
 using ProcessLimits = std::vector<std::pair<int, rlim_t>>;
 
-/// The program as a process of its own, with its working directory and its output in files beside
-/// that directory.
+/// The program as a separate process with a working directory. Its output goes to files beside that
+/// directory.
 class ProgramProcess {
  public:
-  /// \param directory  working directory; DIRECTORY.out and DIRECTORY.err take the output
+  /// \param directory  working directory; output goes to DIRECTORY.out and DIRECTORY.err
   ProgramProcess(const std::filesystem::path& directory, const std::vector<std::string>& arguments,
                  const ProcessLimits& limits = {})
       : out_(directory.string() + ".out"), err_(directory.string() + ".err") {
@@ -44,7 +44,7 @@ class ProgramProcess {
     argv.push_back(nullptr);
     child_ = fork();
     if (child_ != 0) return;
-    // Only what is safe between fork and exec.
+    // Only calls that are safe between fork and exec.
     const int out = open(out_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     const int err = open(err_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     if (dup2(out, STDOUT_FILENO) < 0 || dup2(err, STDERR_FILENO) < 0) _exit(126);
@@ -68,7 +68,7 @@ class ProgramProcess {
 
   void send(int signal) const { kill(child_, signal); }
 
-  /// Waits until a condition holds. \return false when the process ended first or a minute went by
+  /// Waits for a condition. \return false if the process ended first or a minute passed
   bool wait_until(const std::function<bool()>& condition) const {
     for (int k = 0; k < 6000; ++k) {
       if (condition()) return true;
@@ -100,7 +100,7 @@ class ProgramProcess {
   pid_t child_ = 0;
 };
 
-/// Runs the program to its end.
+/// Runs the program until it ends.
 inline ProcessEnd run_program(const std::filesystem::path& directory,
                               const std::vector<std::string>& arguments,
                               const ProcessLimits& limits = {}) {

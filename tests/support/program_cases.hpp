@@ -5,11 +5,11 @@
 #include <string>
 
 /// \file
-/// Case files that tests give to the program.
+/// Case files for tests of the program.
 
 namespace perilink::test {
 
-/// A few hundred particles with ghosts, pulled apart until 30 bonds are broken: a fraction of a
+/// A few hundred particles with ghosts in tension until 30 bonds are broken; takes less than a
 /// second.
 inline constexpr const char* small_ghost_case = R"(title = "Small block"
 units = "kip, in"
@@ -63,8 +63,8 @@ broken_bonds = 30
 fields_at = [10, 20]
 )";
 
-/// A hexagonal block of 100 by 300 with a weak patch, held below and driven above. 3.5 columns^2
-/// particles.
+/// Returns a hexagonal block of 100 by 300 with a weak patch, fixed below and displaced above; it
+/// has 3.5 columns^2 particles.
 inline std::string hexagonal_case(int columns, int broken_bonds) {
   return fmt::format(R"(title = "Hexagonal block"
 
@@ -118,9 +118,9 @@ broken_bonds = {}
                      columns, broken_bonds);
 }
 
-/// A strip of 2 by 1 whose ends are driven apart by 0.04 while it contracts freely: the strain is
-/// 0.02. Its modulus is 100, so it should store 100 * 0.02^2 / 2 * 2 = 0.04. Its ends are lines, on
-/// which a ghost lattice has no particle.
+/// Strip of 2 by 1 whose ends are displaced apart by 0.04 while it contracts freely, so the strain
+/// is 0.02. With the modulus 100 it should store 100 * 0.02^2 / 2 * 2 = 0.04. Its ends are lines; a
+/// ghost lattice has no particles there.
 inline constexpr const char* tension_strip_case = R"([body]
 surface = "none"
 spacing = 0.25
@@ -167,8 +167,8 @@ x = 0.04
 type = "elastic"
 )";
 
-/// The strip of a lattice of particles, held at one end and drawn out at the other within a second:
-/// elastic, about 250 particles.
+/// Returns a strip of an elastic lattice of about 250 particles, fixed at one end and stretched at
+/// the other within a second.
 /// \param more  lines of [analysis]
 inline std::string lattice_strip_case(double spacing = 0.1, const std::string& more = "") {
   return fmt::format(R"(title = "Lattice strip"
@@ -218,7 +218,7 @@ rows = 100
                      spacing, more);
 }
 
-/// A bar of a face-centred lattice, drawn out within a second: elastic.
+/// Returns a bar of an elastic face-centred lattice, stretched within a second.
 inline std::string lattice_bar_case() {
   return R"([body]
 problem = "three_dimensional"
@@ -268,8 +268,8 @@ fields_times = [0.5]
 )";
 }
 
-/// A bar of 1 by 1 by 4 in tension by 2 along y; its modulus is 100. Rollers and one corner line
-/// hold it so that it may contract.
+/// Returns a bar of 1 by 1 by 4 with the modulus 100 in tension of 2 along y; its supports allow
+/// contraction.
 inline std::string tension_bar_case(const std::string& pattern, double spacing,
                                     const std::string& surface) {
   return fmt::format(R"([body]

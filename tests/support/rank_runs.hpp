@@ -15,7 +15,7 @@
 #include "support/replaced.hpp"
 
 /// \file
-/// Runs of the program under mpiexec.
+/// Runs of the program with mpiexec.
 
 namespace perilink::test {
 
@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 inline fs::path mpi_program() { return fs::path(PERILINK_PROGRAM).parent_path() / "perilink-mpi"; }
 
-/// A bar of 20 by 5 (by 5) under tension and shear at its end, held at the other.
+/// Returns a bar of 20 by 5 (by 5), fixed at one end, with tension and shear at the other.
 inline std::string bar_case(bool in_space, const std::string& body) {
   const std::string depth = in_space ? "z = [0, 5]\n" : "";
   return fmt::format(R"([body]
@@ -71,7 +71,7 @@ solver = "iterative"
                      in_space ? R"("x", "y", "z")" : R"("x", "y")", in_space ? "3, 1, 0" : "3, 1");
 }
 
-/// Driven in place of loaded.
+/// Replaces loads by prescribed displacements.
 inline std::string driven(const std::string& text) {
   const std::size_t begin = text.find("[[tractions]]"), end = text.find("[analysis]");
   return text.substr(0, begin) + "[[displacements]]\nregion = \"right\"\nx = 1\n\n" +
@@ -79,14 +79,14 @@ inline std::string driven(const std::string& text) {
 }
 
 struct RankCase {
-  std::string name, text, many = "broken_bonds";  ///< what summary.json has more than 20 of
+  std::string name, text, many = "broken_bonds";  ///< key of summary.json that must exceed 20
 };
 
 class RankFolder : public testing::Test {
  protected:
   RankFolder() { fs::create_directories(work()); }
   fs::path work() const { return temporary_ / "work"; }
-  /// mpiexec gives the shell's status. Root may start it in containers, where tests run.
+  /// mpiexec returns the shell's status. In containers, where tests run, root may start it.
   ProcessEnd run_ranks(int count, const std::string& words) const {
     const std::string command =
         "exec env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
@@ -108,7 +108,7 @@ class RankFolder : public testing::Test {
   TemporaryDirectory temporary_;
 };
 
-/// Numbers of all rows.
+/// Returns numbers of all rows.
 inline std::vector<double> numbers_of(const std::string& history) {
   std::istringstream rows(history.substr(history.find('\n') + 1));
   std::vector<double> values;

@@ -12,13 +12,13 @@
 #include "discretization/meshes/mesh.hpp"
 
 /// \file
-/// Meshes of boxes, without groups.
+/// Meshes of boxes without groups.
 
 namespace perilink::test {
 
-/// Box [0, 1]^dim of `count` steps along each axis: two triangles in each square, six tetrahedra
-/// around the diagonal of each cube. Points inside are shifted at random by a tenth of a step, and
-/// every third cell runs the wrong way round.
+/// Returns a box [0, 1]^dim with `count` steps along each axis: two triangles per square, six
+/// tetrahedra around the diagonal of each cube. Inner points are shifted at random by a tenth of a
+/// step, and every third cell has negative orientation.
 inline Mesh box_mesh(int dim, int count) {
   Mesh mesh;
   mesh.dim = dim;
@@ -40,7 +40,7 @@ inline Mesh box_mesh(int dim, int count) {
       }
     }
   }
-  // A path from corner to opposite corner along the axes in each order is a simplex.
+  // Each path along the axes to the opposite corner, one per order of axes, is a simplex.
   for (int k = 0; k < std::max(layers, 1); ++k) {
     for (int j = 0; j < count; ++j) {
       for (int i = 0; i < count; ++i) {
@@ -61,7 +61,7 @@ inline Mesh box_mesh(int dim, int count) {
   return mesh;
 }
 
-/// A mesh as gmsh writes it, every point `scale` times and `shift` away from where it was.
+/// Returns a mesh in gmsh's format, with points scaled by `scale` and moved by `shift`.
 inline std::string gmsh_text(const Mesh& mesh, const std::array<double, 3>& scale,
                              const std::array<double, 3>& shift) {
   const Index points = mesh.num_points(), cells = mesh.num_cells();

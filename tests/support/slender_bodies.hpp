@@ -6,14 +6,14 @@
 #include "support/analysis_bodies.hpp"
 
 /// \file
-/// Bars so slender that little of double precision is left of their strains.
+/// Bars so slender that strains have few digits in double precision.
 
 namespace perilink::test {
 
 enum class SlenderLoad { force_across, driven_across, force_along, driven_along };
 
-/// A rectangular lattice of spacing 1, horizon 3.1, held at its first four columns and loaded or
-/// driven at its last two.
+/// Rectangular lattice of spacing 1 and horizon 3.1, fixed at its first four columns, with loads or
+/// displacements at its last two.
 struct SlenderCase {
   int columns = 600;
   int rows = 3;
@@ -21,7 +21,7 @@ struct SlenderCase {
   bool micropolar = false;
   double stiffness_unit = 1.0;  ///< Young's modulus over 3000
   double length_unit = 1.0;     ///< spacing
-  double weak_springs = 0.0;    ///< elastic supports of all particles, in all
+  double weak_springs = 0.0;    ///< total stiffness of elastic supports of all particles
 
   bool driven() const {
     return load == SlenderLoad::driven_across || load == SlenderLoad::driven_along;
@@ -29,7 +29,7 @@ struct SlenderCase {
   int axis() const {
     return load == SlenderLoad::force_across || load == SlenderLoad::driven_across ? 1 : 0;
   }
-  /// From the held columns to the driven ones.
+  /// Returns the distance between the fixed and the displaced columns.
   double lever() const { return (columns - 5) * length_unit; }
 };
 

@@ -13,7 +13,7 @@
 
 namespace perilink::test {
 
-/// One lattice that a test runs on.
+/// Lattice of a parametrised test.
 struct LatticeCase {
   std::string name;
   Pattern pattern;
@@ -33,7 +33,8 @@ inline bool is_plane(Pattern pattern) {
   return pattern == Pattern::rectangular || pattern == Pattern::hexagonal;
 }
 
-/// Body of `columns` spacings across; the rows of hexagonal ones are exactly sqrt(3)/2 apart.
+/// Returns a body of `columns` spacings across; the rows of hexagonal lattices are exactly
+/// sqrt(3)/2 apart.
 inline LatticeInput body_input(const LatticeCase& lattice_case, int columns) {
   LatticeInput input;
   input.pattern = lattice_case.pattern;
@@ -59,8 +60,7 @@ inline NetworkInput network_input(const LatticeInput& body) {
   return input;
 }
 
-/// Input of a body that is calibrated as a whole, however large: a face that no bond crosses sees
-/// to it.
+/// Returns input that is calibrated as a whole for any size, forced by a face that no bond crosses.
 inline NetworkInput in_one_piece(NetworkInput input) {
   input.interfaces.resize(1);
   return input;
@@ -79,14 +79,15 @@ inline std::vector<double> random_vector(std::size_t size, unsigned seed) {
   return result;
 }
 
-/// A third of the elements broken, a third on a later tooth, a third intact.
+/// Returns random secants: a third broken, a third on a later segment, a third intact.
 inline std::vector<double> random_secants(Index size, unsigned seed) {
   std::vector<double> secants = random_vector(static_cast<std::size_t>(size), seed);
   for (double& a : secants) a = a < -0.3 ? 0.0 : a < 0.3 ? 0.6 : 1.0;
   return secants;
 }
 
-/// Displacement of every particle, shape (particles, dim), as a linear function of its position.
+/// Returns the displacement of every particle as a linear function of its position, shape
+/// (particles, dim).
 inline std::vector<double> linear_field(const Particles& particles,
                                         const std::array<Vector3, 3>& gradient) {
   std::vector<double> field;

@@ -5,11 +5,11 @@
 #include <string>
 
 /// \file
-/// Strips whose middle softens.
+/// Strips with a softening middle.
 
 namespace perilink::test {
 
-/// A strip held at one end and driven along x at the other; only its middle may soften.
+/// Strip fixed at one end and displaced along x at the other; only its middle can soften.
 struct SofteningStrip {
   std::string model = "bond_based";
   std::string pattern = "rectangular";
@@ -20,8 +20,9 @@ struct SofteningStrip {
   double youngs_modulus = 30000.0;                   ///< [force/length^2]
   double tensile_strength = 3.0;                     ///< [force/length^2]
   double fracture_energy = 0.1;                      ///< [force/length]
-  double pull = 0.1;                                 ///< driven displacement [length]
-  std::string more;                                  ///< lines of [analysis] and sections behind it
+  double pull = 0.1;                                 ///< prescribed displacement [length]
+  std::string more;                                  ///< lines of [analysis] and the following
+                                                     ///< tables
 };
 
 inline std::string softening_case(const SofteningStrip& strip) {

@@ -9,9 +9,9 @@
 #include "solver/factor.hpp"
 
 /// \file
-/// Small symmetric positive definite matrices with the structure of a bond network, made without
-/// any module but the solver: a square lattice of particles with springs to all neighbours within a
-/// radius, and a spring from every particle to ground.
+/// Small symmetric positive definite matrices with the structure of a bond network, made with the
+/// solver module only. A square lattice of particles has springs to all neighbours within a radius,
+/// and a spring from every particle to ground.
 
 namespace perilink::test {
 
@@ -19,7 +19,7 @@ struct SpringLattice {
   Index size = 0;
   SparseMatrix lower;
   std::vector<Index> groups;
-  std::vector<SparseVector> springs;  ///< x of every spring: K = sum x x' + ground
+  std::vector<SparseVector> springs;  ///< vector x of every spring: K = sum x x' + ground
 
   Eigen::MatrixXd dense() const { return Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>(); }
 };
@@ -29,7 +29,7 @@ inline SpringLattice make_spring_lattice(int columns, int rows, double radius,
   SpringLattice lattice;
   lattice.size = 2 * columns * rows;
   std::vector<Eigen::Triplet<double, Index>> entries;
-  std::mt19937_64 random(7);  // fixed: the same matrix in every run
+  std::mt19937_64 random(7);  // fixed: one matrix in all runs
   std::uniform_real_distribution<double> stiffness(0.5, 1.5);
   for (Index k = 0; k < lattice.size; ++k) {
     entries.emplace_back(k, k, ground);
@@ -74,13 +74,13 @@ inline double relative_difference(const std::vector<double>& a, const std::vecto
   return difference / size;
 }
 
-/// Rows and columns in another order, order[k] the one that comes k-th.
+/// Reorders rows and columns; order[k] is the index that comes k-th.
 inline SparseMatrix reordered(const SparseMatrix& lower, const std::vector<Index>& order) {
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, Index> place(lower.cols());
   for (Index k = 0; k < static_cast<Index>(order.size()); ++k) place.indices()[order[k]] = k;
   SparseMatrix result(lower.rows(), lower.cols());
   result.selfadjointView<Eigen::Lower>() = lower.selfadjointView<Eigen::Lower>().twistedBy(place);
-  return SparseMatrix(result.transpose()).transpose();  // rows of a column in ascending order
+  return SparseMatrix(result.transpose()).transpose();  // sorts the rows of every column
 }
 
 }  // namespace perilink::test

@@ -5,11 +5,11 @@
 #include "support/analysis_bodies.hpp"
 
 /// \file
-/// Bodies that are loaded in stages.
+/// Bodies with stages of loads.
 
 namespace perilink::test {
 
-/// The loads of a body as a set.
+/// Returns loads of a body as a load case.
 inline LoadCase set_of(const AnalysisBody& body) {
   return {body.loads, body.unknowns, body.reference};
 }

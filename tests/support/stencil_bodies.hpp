@@ -5,7 +5,7 @@
 #include "support/small_networks.hpp"
 
 /// \file
-/// Bodies whose bonds recur, and their motions.
+/// Bodies with recurring bonds, and their motions.
 
 namespace perilink::test {
 
@@ -20,7 +20,7 @@ inline std::ostream& operator<<(std::ostream& out, const StencilCase& body) {
   return out << body.name;
 }
 
-/// Plates and blocks with rows of some ten particles; hole and materials as wanted.
+/// Returns a plate or block with rows of about ten particles, with an optional hole and materials.
 inline Network stencil_network(const StencilCase& body) {
   LatticeInput input = body_input({body.name, body.pattern, Surface::none}, 12);
   const Vector3 end = input.solid[0].upper;
@@ -49,7 +49,7 @@ inline std::vector<StencilCase> stencil_cases() {
           {"face_centred_of_two", Pattern::face_centred, false, true}};
 }
 
-/// Both ends of every component move by up to `size` [length].
+/// Returns a random motion in which every component of both ends moves by at most `size` [length].
 inline BondMotion random_motion(const Network& network, double size, unsigned seed) {
   const std::size_t slots = static_cast<std::size_t>(network.particles.size()) * network.width();
   BondMotion motion{random_vector(slots, seed), random_vector(slots, seed + 1)};
@@ -66,7 +66,7 @@ struct ForcesOfAll {
 inline ForcesOfAll forces_of_all(const Network& network, ExplicitBonds& bonds,
                                  const BondMotion& motion, double time_step) {
   ForcesOfAll result;
-  result.force.assign(motion.displacement.size(), NAN);  // all of it has to be overwritten
+  result.force.assign(motion.displacement.size(), NAN);  // every value must be overwritten
   result.losses = bonds.forces(0, network.particles.size(), time_step, motion, result.force);
   return result;
 }

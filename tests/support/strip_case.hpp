@@ -10,8 +10,8 @@
 
 namespace perilink::test {
 
-/// A strip of 40 by 80 with 5 by 9 particles, held at its lower end and pulled at its upper end by
-/// 12. Tests change its sections.
+/// Strip of 40 by 80 with 5 by 9 particles, fixed at its lower end and with the force 12 at its
+/// upper end. Tests change its sections.
 inline constexpr const char* strip_text = R"(title = "A strip in tension"
 units = "kip, in"
 
@@ -57,7 +57,7 @@ force = [0, 12]
 
 inline CaseFile strip_case() { return parse_case(strip_text, "strip.toml"); }
 
-/// The same strip in balance and without supports: its ends are pulled apart.
+/// Returns a strip without supports, with balanced tension at its ends.
 inline CaseFile free_strip_case() {
   CaseFile input = strip_case();
   input.supports.clear();
@@ -69,7 +69,8 @@ inline CaseFile free_strip_case() {
   return input;
 }
 
-/// A bar with 4 by 4 by 8 spacings of 0.1, held at its lower end and pulled at its upper end by 3.
+/// Bar with 4 by 4 by 8 spacings of 0.1, fixed at its lower end and with the force 3 at its upper
+/// end.
 inline constexpr const char* prism_text = R"(title = "A prism in tension"
 
 [body]
@@ -111,7 +112,7 @@ force = [0, 3, 0]
 
 inline CaseFile prism_case() { return parse_case(prism_text, "prism.toml"); }
 
-/// Expects that the model of a case is refused at a key, with a text in the message.
+/// Expects that a case is refused at a key, with a text in the message.
 inline void expect_refused(const CaseFile& input, const std::string& key, const std::string& text) {
   try {
     build_model(input);

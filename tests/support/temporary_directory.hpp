@@ -10,8 +10,8 @@
 
 namespace perilink::test {
 
-/// An empty directory of one test, removed with it. The process is part of its name, since tests
-/// run side by side.
+/// Empty directory of one test, deleted with the object. Its name contains the process number,
+/// because tests run in parallel.
 class TemporaryDirectory {
  public:
   TemporaryDirectory() {

@@ -43,7 +43,7 @@ namespace {
 
 using ElementVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 12, 1>;
 
-/// An element along its own axes, and how these lie: the axial unknowns of a truss, all of a beam.
+/// Element in local axes: the axial unknowns of a truss, all unknowns of a beam.
 struct LocalElement {
   ElementMatrix stiffness, turn;
 };

@@ -18,10 +18,10 @@
 
 namespace perilink::test {
 
-/// Ranks that are threads of this process: what they do together needs no MPI.
+/// Ranks as threads of this process, without MPI.
 class ThreadRanks final : public Ranks {
  public:
-  /// What they share.
+  /// State shared by the ranks.
   class World {
    public:
     explicit World(int size) : count(size), meeting(size), values(size) {}
@@ -88,7 +88,7 @@ class ThreadRanks final : public Ranks {
   int own_;
 };
 
-/// Calls lead(ranks) in this thread and serve(ranks) in those of the other ranks.
+/// Calls lead(ranks) in this thread and serve(ranks) in the threads of the other ranks.
 inline void with_thread_ranks(int count, const std::function<void(Ranks&)>& lead,
                               const std::function<void(Ranks&)>& serve) {
   ThreadRanks::World world(count);
@@ -103,8 +103,8 @@ inline void with_thread_ranks(int count, const std::function<void(Ranks&)>& lead
   lead(first);
 }
 
-/// How far the answer of ranks is from that of one process: the largest difference over the largest
-/// number of the latter.
+/// Returns the largest difference between the results of several ranks and of one process, over the
+/// largest number of the latter.
 inline double difference_of(const std::vector<double>& alone, const std::vector<double>& shared) {
   double size = 0.0, difference = 0.0;
   for (std::size_t k = 0; k < alone.size(); ++k) {

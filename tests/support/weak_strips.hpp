@@ -5,11 +5,11 @@
 #include <string>
 
 /// \file
-/// Bodies that are unbreakable but for an interface between two of their regions.
+/// Bodies that are unbreakable except at an interface between two regions.
 
 namespace perilink::test {
 
-/// A strip, or a bar of square section, that is pulled across an interface in its middle.
+/// Strip, or bar of square section, in tension across an interface in its middle.
 struct WeakStrip {
   bool in_space = false;
   std::string model = "bond_based";
@@ -17,7 +17,8 @@ struct WeakStrip {
   std::string softening = "linear";
   double length = 100.0, width = 50.0;  ///< [length]
   double spacing = 5.0;                 ///< a third of the horizon [length]
-  double stiffer = 1.0;                 ///< modulus of the second half over that of the first
+  double stiffer = 1.0;                 ///< modulus of the second half over the modulus of the
+                                        ///< first
   double tensile_strength = 3.0;        ///< [force/length^2]
   double fracture_energy = 0.1;         ///< [force/length]
 
@@ -59,7 +60,7 @@ inline std::string weak_strip_case(const WeakStrip& strip) {
       "[[interfaces]]\nbetween = [\"first\", \"second\"]\nfracture_energy = {}\n"
       "tensile_strength = {}\nsoftening = \"{}\"\n",
       strip.fracture_energy, strip.tensile_strength, strip.softening);
-  // Without a motion along the interface the last bonds across it break too.
+  // These supports prevent sliding, so that the last bonds across the interface break too.
   text += weak_support("left", "x") + weak_support("edge", "y") + weak_support("far edge", "y");
   if (strip.in_space) text += weak_support("corner", "z") + weak_support("far side", "z");
   return text + "[[displacements]]\nregion = \"right\"\nx = 0.2\n[stop]\nload_fraction = 1e-5\n";

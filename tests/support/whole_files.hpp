@@ -13,7 +13,7 @@
 
 namespace perilink::test {
 
-/// Commas that separate fields: those outside of quotes.
+/// Returns the number of commas outside quotes.
 inline int separators(const std::string& line) {
   int found = 0;
   bool quoted = false;
@@ -24,11 +24,11 @@ inline int separators(const std::string& line) {
   return found;
 }
 
-/// How the program ended that wrote files. A kill ends a write of the kernel between two pages of
-/// memory: what it may cut is the last row, and only there.
+/// Termination of the program that wrote the files. A kill can end a write of the kernel between
+/// two memory pages, so only the last row may be incomplete.
 enum class Ended { by_itself, by_a_kill };
 
-/// Expects a header and rows of as many fields, each with its line end. \return number of rows
+/// Expects a header and rows with as many complete fields. \return number of rows
 inline int expect_whole_table(const std::filesystem::path& path, Ended ended = Ended::by_itself) {
   std::string text = read_text(path);
   const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
@@ -44,8 +44,8 @@ inline int expect_whole_table(const std::filesystem::path& path, Ended ended = E
   return rows;
 }
 
-/// Expects that every file of a directory of results is whole, whatever became of the program that
-/// wrote it, but for temporaries (*.part). \return number of temporaries
+/// Expects that all files of a results directory are complete after any termination, except
+/// temporary files (*.part). \return number of temporary files
 inline int expect_whole_files(const std::filesystem::path& directory,
                               Ended ended = Ended::by_itself) {
   int temporaries = 0;

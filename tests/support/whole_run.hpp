@@ -11,7 +11,7 @@
 
 namespace perilink::test {
 
-/// A run of any kind in a directory of its own, from its case to its summary.
+/// Run of any kind in its own directory, from case to summary.
 class WholeRun {
  public:
   explicit WholeRun(CaseFile of_case, int threads = 1)
@@ -26,7 +26,7 @@ class WholeRun {
       : WholeRun(parse_case(text, ""), threads) {}
 
   CsvTable history() const { return read_csv((work / "history.csv").string()); }
-  /// A column of the history.
+  /// Returns the column of the history.
   std::vector<double> history(const std::string& name) const {
     const CsvTable table = history();
     const auto column = static_cast<std::size_t>(table.column(name));

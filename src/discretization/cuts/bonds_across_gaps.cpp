@@ -8,7 +8,7 @@
 namespace perilink {
 namespace {
 
-/// Cells along one axis that hold a coordinate; two where it lies on a plane between them.
+/// Range of cells along one axis that contain a coordinate; two if it lies on their common plane.
 struct CellRange {
   Index first, last;
 };
@@ -20,7 +20,7 @@ CellRange cells_at(const std::vector<double>& cuts, double x, double tolerance) 
           static_cast<Index>(upper - cuts.begin()) - 1};
 }
 
-/// Whether a cell of the union holds the point or touches it.
+/// Returns whether a cell of the union contains the point or touches it.
 bool is_inside(const Outline& outline, const Vector3& x, double tolerance) {
   CellRange range[3] = {{0, 0}, {0, 0}, {0, 0}};
   for (int a = 0; a < outline.dim; ++a) range[a] = cells_at(outline.cuts[a], x[a], tolerance);
@@ -34,8 +34,9 @@ bool is_inside(const Outline& outline, const Vector3& x, double tolerance) {
   return false;
 }
 
-/// Between two planes of the grid a bond stays in the same cells: their middles decide.
-/// \param stations  room for where it passes planes
+/// Returns whether a bond stays inside. The bond stays in one cell between two planes of the grid,
+/// so the midpoints decide.
+/// \param stations  buffer for the crossings with planes
 bool stays_inside(const Outline& outline, std::span<const double> from, std::span<const double> to,
                   double tolerance, std::vector<double>& stations) {
   stations.assign({0.0, 1.0});

@@ -8,11 +8,11 @@
 
 namespace perilink {
 
-/// Takes out the bonds between solid particles that leave the body on their way: nothing holds the
-/// flanks of a notch or two bodies together across the air between them. Bonds to ghosts stay.
-/// \param solid      the body is the union of these boxes; one box leaves every bond
-/// \param tolerance  a bond this close to a face runs along it, inside [length]
-/// \return number of bonds taken out
+/// Removes bonds between solid particles that leave the body, such as bonds across a notch or
+/// between two bodies. Bonds to ghosts stay.
+/// \param solid      boxes whose union is the body; a single box needs no removal
+/// \param tolerance  a bond this close to a face counts as inside [length]
+/// \return number of removed bonds
 Index remove_bonds_across_gaps(const Particles& particles, Bonds& bonds, std::span<const Box> solid,
                                double tolerance);
 

@@ -13,7 +13,7 @@
 namespace perilink {
 namespace {
 
-/// Corners of a polygon may leave its plane by this much, in its size.
+/// Largest distance of a polygon's corner from its plane, over the polygon's size.
 constexpr double plane_tolerance = 1e-6;
 
 using Piece = CrackCutter::Piece;
@@ -33,7 +33,7 @@ Piece line_piece(const Vector3& from, const Vector3& to, Index crack) {
 Piece polygon_piece(const Crack& crack, Index number) {
   const std::vector<Vector3>& corners = crack.points;
   const std::size_t count = corners.size();
-  Vector3 area{};  // Newell's normal: right for every plane polygon
+  Vector3 area{};  // Newell's normal, valid for every plane polygon
   double size = 0.0;
   for (std::size_t k = 0; k < count; ++k) {
     const Vector3 part =
@@ -64,8 +64,8 @@ Piece polygon_piece(const Crack& crack, Index number) {
   return piece;
 }
 
-/// Whether each line has to be turned round so that lines that meet at their ends run on from the
-/// first of them: a particle there then lies on one side of all.
+/// Returns nonzero for each line that must be reversed, so that connected lines continue the first
+/// one. A particle at a joint then lies on one side of all of them.
 std::vector<std::uint8_t> turned_lines(std::span<const Crack> cracks) {
   std::map<Vector3, std::vector<std::size_t>> meeting;
   for (std::size_t k = 0; k < cracks.size(); ++k) {
@@ -114,7 +114,7 @@ std::vector<Piece> pieces_of(std::span<const Crack> cracks, int dim) {
   return pieces;
 }
 
-/// Whether a point of the piece's line or plane belongs to the piece.
+/// Returns whether a point of the piece's line or plane belongs to the piece.
 bool holds(const Piece& piece, const Vector3& point, double tolerance) {
   for (std::size_t side = 0; side < piece.side_normals.size(); ++side) {
     if (dot(minus(point, piece.corners[side]), piece.side_normals[side]) > tolerance) return false;
@@ -144,8 +144,7 @@ CrackCutter::CrackCutter(std::span<const Crack> cracks, int dim, double spacing)
   }
 }
 
-/// A particle on cracks is moved to the positive side by a distance that is nothing but more than
-/// the tolerance.
+/// Moves a particle on cracks to the positive side by slightly more than the tolerance.
 Vector3 CrackCutter::shifted(const Vector3& particle) const {
   Vector3 shift{};
   const Piece* first = nullptr;
@@ -157,7 +156,7 @@ Vector3 CrackCutter::shifted(const Vector3& particle) const {
   }
   Vector3 position = particle;
   if (first == nullptr) return position;
-  // Normals cancel where a crack is drawn there and back: its first piece has the particle.
+  // Normals cancel where a crack is drawn back and forth; then the first piece decides.
   if (!(norm(shift) > 1e-6)) shift = first->normal;
   const double length = norm(shift);
   for (int axis = 0; axis < 3; ++axis) {
@@ -172,7 +171,7 @@ bool CrackCutter::cuts(const Vector3& first, const Vector3& second, std::span<In
     if (std::min(first[a], second[a]) > upper_[a]) return false;
   }
   const Vector3 from = shifted(first), to = shifted(second);
-  Index last = no_index;  // a crack with a kink counts a bond once
+  Index last = no_index;  // counts a bond once per crack, also at a kink
   for (const Piece& piece : pieces_) {
     if (piece.crack == last || !crosses(piece, from, to, tolerance_)) continue;
     last = piece.crack;

@@ -9,50 +9,51 @@
 
 namespace perilink {
 
-/// A crack that is there before the analysis begins.
+/// Crack that exists before the analysis.
 struct Crack {
-  /// Two dimensions: the points of a line of straight pieces. Three dimensions: the corners of a
-  /// plane convex polygon, in order [length].
+  /// Two dimensions: points of a polyline [length]. Three dimensions: corners of a plane convex
+  /// polygon, in order [length].
   std::vector<Vector3> points;
 };
 
-/// A particle this close to a crack lies on it, in spacings.
+/// A particle this close to a crack lies on it [spacings].
 inline constexpr double on_crack_tolerance = 1e-6;
 
-/// Bonds that cracks cross.
+/// Bonds cut by cracks.
 struct CutBonds {
-  std::vector<std::uint8_t> keep;  ///< per bond: 0 where a crack crosses it
-  std::vector<Index> count;        ///< per crack; a bond that crosses two counts for both
+  std::vector<std::uint8_t> keep;  ///< per bond, 0 if a crack cuts it
+  std::vector<Index> count;        ///< cut bonds per crack; a bond cut by two counts twice
 };
 
-/// Refuses what is no crack.
-/// \throws std::invalid_argument  where a piece has no length, or corners are no convex polygon in
-///         a plane
+/// Checks a crack.
+/// \throws std::invalid_argument if a piece has no length, or the corners are not a plane convex
+///     polygon
 void check_crack(const Crack& crack, int dim);
 
-/// Finds bonds that cross a crack, its ends and border included. A particle on a crack is on its
-/// left, or where corners run counter-clockwise, so that cracks along rows cut too. A line that
-/// begins where an earlier one begins, or ends where it ends, is turned round first. Where pieces
-/// meet the mean normal counts, or where normals cancel the first.
+/// Finds bonds that cross a crack, its ends and border included. A particle on a crack counts as
+/// left of it (2D) or on the side from which the corners run counter-clockwise (3D). Cracks along
+/// rows of particles therefore cut bonds too. A line that shares its start with the start of an
+/// earlier line, or its end with the end, is reversed first. Where pieces meet, the mean normal
+/// decides the side; where normals cancel, the first does.
 class CrackCutter {
  public:
-  /// A straight piece of a line, or a polygon.
+  /// Straight piece of a line, or a polygon.
   struct Piece {
     std::vector<Vector3> corners;
     Vector3 normal{};  ///< unit vector to the positive side
-    /// Outward normals of a polygon's sides, in its plane; of a line's piece beyond its two ends.
+    /// Outward normals of a polygon's sides in its plane, or of a line piece at its two ends.
     std::vector<Vector3> side_normals;
     Index crack = 0;
   };
 
-  /// \param spacing  between particles [length]
-  /// \throws std::invalid_argument  as check_crack()
+  /// \param spacing  distance of neighbouring particles [length]
+  /// \throws std::invalid_argument as check_crack()
   CrackCutter(std::span<const Crack> cracks, int dim, double spacing);
 
-  /// Whether the bond between two particles is cut.
-  /// \param count  bonds that each crack cuts: this one is added; empty: nobody counts
+  /// Returns whether the bond between two particles is cut.
+  /// \param count  cut bonds per crack, incremented; empty: no count
   bool cuts(const Vector3& first, const Vector3& second, std::span<Index> count = {}) const;
-  /// Corners of a box around all cracks; no crack: infinite, the lower above the upper.
+  /// Corners of the box around all cracks; infinite with lower above upper if there are no cracks.
   const Vector3& lower() const { return lower_; }
   const Vector3& upper() const { return upper_; }
 
@@ -64,9 +65,9 @@ class CrackCutter {
   Vector3 lower_{infinity, infinity, infinity}, upper_{-infinity, -infinity, -infinity};
 };
 
-/// The bonds of a body that cracks cut (CrackCutter).
-/// \param spacing  between particles [length]
-/// \throws std::invalid_argument  as check_crack()
+/// Returns bonds of a body that cracks cut.
+/// \param spacing  distance of neighbouring particles [length]
+/// \throws std::invalid_argument as check_crack()
 CutBonds find_cut_bonds(const Particles& particles, const Bonds& bonds,
                         std::span<const Crack> cracks, double spacing);
 

@@ -13,22 +13,22 @@
 namespace perilink {
 namespace {
 
-/// Distances below this are round-off, in spacings.
+/// Distances below this are round-off [spacings].
 constexpr double round_off = 1e-9;
 
-/// Flanks face each other where the cosine between their normals is below this: opposite to within
-/// 60 degrees. At re-entrant corners it is zero.
+/// Largest cosine between the normals of opposite flanks: antiparallel to within 60 degrees. At
+/// re-entrant corners the cosine is zero.
 constexpr double facing = -0.5;
 
-/// Points between two crossings at which the distance from the body is measured; midway it is
-/// nearly the greatest.
+/// Points between two crossings at which the distance from the body is measured. The distance is
+/// nearly the greatest at midway.
 constexpr int num_stations = 7;
 
-/// Surface of the body, and the facets near every particle.
+/// Surface of the body and its facets near every particle.
 struct BodySurface {
   std::vector<FacetGeometry> facets;
   std::vector<Box> boxes;
-  Csr near;            // facets that bonds of the particle can meet
+  Csr near;            // facets that the particle's bonds can meet
   double touch = 0.0;  // [length]
 };
 
@@ -59,13 +59,13 @@ BodySurface surface_of(const Particles& particles, const Bonds& bonds, const Fac
   return surface;
 }
 
-/// Where a bond meets a facet.
+/// Intersection of a bond and a facet.
 struct Meeting {
-  double fraction;  // over the bond's length
+  double fraction;  // position over the bond's length
   Index facet;
 };
 
-/// One bond and the facets around it.
+/// Bond and the facets around it.
 class Passage {
  public:
   Passage(const BodySurface& surface, std::span<const Index> near, const Vector3& from,
@@ -81,7 +81,7 @@ class Passage {
     std::sort(meetings_.begin(), meetings_.end(), [](const Meeting& a, const Meeting& b) {
       return a.fraction != b.fraction ? a.fraction < b.fraction : a.facet < b.facet;
     });
-    // Meetings at the same place end one piece of the bond and begin the next.
+    // Coincident meetings end one piece of the bond and begin the next.
     const double same = surface_.touch / length_;
     std::size_t begin = 0;
     while (begin < meetings_.size()) {
@@ -102,7 +102,7 @@ class Passage {
   }
 
  private:
-  /// False where the bond stays below every facet that it could meet: then it is inside.
+  /// Returns false if the bond stays below every facet that it could meet, so that it is inside.
   bool find_meetings() {
     bool above = false;
     for (const Index f : near_) {
@@ -116,7 +116,7 @@ class Passage {
       const FacetGeometry& facet = surface_.facets[f];
       const double start = height_above(facet, from_), end = height_above(facet, to_);
       above = above || start > surface_.touch || end > surface_.touch;
-      // A bond that runs along a facet meets the neighbours of the facet at its ends.
+      // A bond along a facet meets the facet's neighbours at its ends.
       if (std::abs(start - end) <= surface_.touch) continue;
       const double fraction = start / (start - end);
       if (fraction < -1e-9 || fraction > 1.0 + 1e-9) continue;
@@ -127,8 +127,8 @@ class Passage {
     return above;
   }
 
-  /// Distance from the surface, positive outside. Where several facets are equally near, the one
-  /// that the point stands most directly above tells the side.
+  /// Returns the distance from the surface, positive outside. Among equally near facets, the one
+  /// with the largest height below the point decides the sign.
   double distance(const Vector3& point) const {
     double least = std::numeric_limits<double>::infinity(), height = 0.0;
     for (const Index f : near_) {
@@ -142,7 +142,7 @@ class Passage {
     return height > 0.0 ? least : -least;
   }
 
-  /// Judges the piece between the meetings [begin, end) and [end, last).
+  /// Returns whether the piece between the meetings [begin, end) and [end, last) leaves the body.
   bool piece_leaves(std::size_t begin, std::size_t end, std::size_t last, double allowed) const {
     const double start = meetings_[begin].fraction, stop = meetings_[end].fraction;
     const auto place = [&](double part) {
@@ -181,7 +181,7 @@ Index remove_bonds_outside(const Particles& particles, Bonds& bonds, const Facet
   for (Index b = 0; b < bonds.size(); ++b) {
     const Index i = bonds.first[b], j = bonds.second[b];
     const auto near_i = surface.near.row(i), near_j = surface.near.row(j);
-    if (near_i.empty() || near_j.empty()) continue;  // what a bond meets is near both ends
+    if (near_i.empty() || near_j.empty()) continue;  // meetings are near both ends
     Passage passage(surface, near_i, point_of(particles.positions, particles.dim, i),
                     point_of(particles.positions, particles.dim, j));
     keep[b] = passage.leaves_body(allowed_excursion * spacing) ? 0 : 1;

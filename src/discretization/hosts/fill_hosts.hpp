@@ -8,7 +8,7 @@
 
 namespace perilink {
 
-/// Cells with particles, and no faces, inside their border.
+/// Returns nonzero for each cell with particles and without points of `faces` inside its border.
 template <class Cells>
 std::vector<std::uint8_t> usable_cells(const Cells& cells, const Particles& particles,
                                        std::span<const double> faces) {
@@ -26,8 +26,8 @@ std::vector<std::uint8_t> usable_cells(const Cells& cells, const Particles& part
   return usable;
 }
 
-/// The elements of the usable cells, with their nodes, corners and ends.
-/// \return per cell, its element; no_index where it is none
+/// Adds the host elements of the usable cells, with their nodes, corners and bounds.
+/// \return element of each cell; no_index for unusable cells
 template <class Cells>
 std::vector<Index> add_elements(const Cells& cells, const std::vector<std::uint8_t>& usable,
                                 Hosts& hosts) {
@@ -68,7 +68,7 @@ std::vector<Index> add_elements(const Cells& cells, const std::vector<std::uint8
   return element_of;
 }
 
-/// Elements on the cells of a grid or a mesh, and the particles in them.
+/// Returns host elements on the cells of a grid or a mesh, with the particles inside them.
 template <class Cells>
 Hosts fill_hosts(const Particles& particles, std::span<const double> faces, const Cells& cells) {
   Hosts hosts;
@@ -89,7 +89,7 @@ Hosts fill_hosts(const Particles& particles, std::span<const double> faces, cons
     for (const Index i : hosts.inside.row(element_of[cell])) {
       for (int local = 0; local < cells.nodes_per_cell(); ++local) {
         const double weight = cells.weight(cell, local, particles.position(i));
-        // Exactly nothing at particles on the border that the node does not touch.
+        // Weights of nodes that a border does not touch are exactly zero there.
         hosts.weights.push_back(std::abs(weight) < 1e-12 ? 0.0 : weight);
       }
     }

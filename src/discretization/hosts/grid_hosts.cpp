@@ -6,8 +6,8 @@
 namespace perilink {
 namespace {
 
-/// The cells of a grid, numbered along x first. Axes with one plane are not divided: along them
-/// cells have no extent, and nodes are single.
+/// Cells of a grid, numbered along x first. An axis with one plane is not divided: cells have no
+/// extent along it, and one layer of nodes.
 class Grid {
  public:
   Grid(int dim, const Divisions& divisions, int order, double tolerance)
@@ -24,10 +24,10 @@ class Grid {
     return count;
   }
   int dim() const { return dim_; }
-  /// In one cell; they are numbered along x first.
+  /// Returns the number of nodes in a cell; they are numbered along x first.
   int nodes_per_cell() const { return (order(0) + 1) * (order(1) + 1) * (order(2) + 1); }
 
-  /// Calls visit(cell) for every cell that holds the point, borders included.
+  /// Calls visit(cell) for every cell that contains the point, borders included.
   template <class Visit>
   void for_each_around(std::span<const double> point, Visit visit) const {
     std::array<Index, 3> lowest{}, highest{};
@@ -43,7 +43,7 @@ class Grid {
     }
   }
 
-  /// Whether a point of the cell is farther than the tolerance from its border.
+  /// Returns whether a point of the cell is farther than the tolerance from its border.
   bool is_within(Index cell, std::span<const double> point) const {
     const std::array<Index, 3> at = place(cell);
     for (int a = 0; a < dim_; ++a) {
@@ -54,7 +54,7 @@ class Grid {
     return true;
   }
 
-  /// Number of a node of the cell in the grid of all nodes.
+  /// Returns the number of a cell's node in the grid of all nodes.
   Index node(Index cell, int local) const {
     const std::array<Index, 3> at = place(cell), in = place_in_cell(local);
     Index result = 0;
@@ -72,7 +72,8 @@ class Grid {
   int num_corners() const {
     return (order(0) > 0 ? 2 : 1) * (order(1) > 0 ? 2 : 1) * (order(2) > 0 ? 2 : 1);
   }
-  /// Node of a cell at a corner: around its lower face along the last axis, then the upper one.
+  /// Returns the node of a cell at a corner; corners run around the lower face along the last axis,
+  /// then around the upper one.
   int corner(int number) const {
     constexpr std::array<unsigned, 8> around = {0, 1, 3, 2, 4, 5, 7, 6};  // bit a: end along axis a
     int local = 0;
@@ -88,7 +89,7 @@ class Grid {
     return lower(cell, axis) + part * (upper(cell, axis) - lower(cell, axis));
   }
 
-  /// Shape function of a node at a point of the cell: Lagrange's polynomials along the axes.
+  /// Returns the shape function of a node at a point of the cell: product of Lagrange polynomials.
   double weight(Index cell, int local, std::span<const double> point) const {
     const std::array<Index, 3> in = place_in_cell(local);
     double product = 1.0;
@@ -104,7 +105,7 @@ class Grid {
   }
 
  private:
-  /// Degree of the polynomials along an axis.
+  /// Returns the degree of the polynomials along an axis.
   int order(int axis) const { return axis < dim_ && divisions_[axis].size() > 1 ? order_ : 0; }
   Index intervals(int axis) const {
     return std::max<Index>(1, static_cast<Index>(divisions_[axis].size()) - 1);

@@ -20,7 +20,7 @@ std::vector<Index> all_cells(const Mesh& mesh) {
   return cells;
 }
 
-/// Triangles or tetrahedra with a node at each corner and, of order 2, in the middle of each edge.
+/// Triangles or tetrahedra with a node at each corner and, for order 2, in the middle of each edge.
 class MeshCells {
  public:
   MeshCells(const Mesh& mesh, int order, double tolerance)
@@ -65,8 +65,8 @@ class MeshCells {
     return 0.5 * (position(cell, a, axis) + position(cell, b, axis));
   }
 
-  /// Shape function of a node, by the barycentric coordinates L: of a corner L or L (2 L - 1), of
-  /// the middle of an edge 4 L_a L_b.
+  /// Returns the shape function of a node in barycentric coordinates L: L or L (2 L - 1) for a
+  /// corner, 4 L_a L_b for the middle of an edge.
   double weight(Index cell, int local, std::span<const double> point) const {
     const auto part = [&](int corner) { return search_.height(cell, corner, point); };
     if (local < num_corners()) {
@@ -79,7 +79,7 @@ class MeshCells {
 
  private:
   int num_edges() const { return mesh_.dim == 2 ? 3 : 6; }
-  /// Corners at the ends of an edge of a cell.
+  /// Returns corners at the ends of an edge.
   static std::pair<int, int> ends(int edge) {
     constexpr std::array<std::pair<int, int>, 6> all = {
         {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
@@ -104,9 +104,9 @@ class MeshCells {
 Hosts hosts_on_mesh(const Particles& particles, std::span<const double> faces, const Mesh& mesh,
                     int order, double tolerance) {
   if (const auto overlap = find_overlap(mesh)) {
-    throw std::invalid_argument(
-        fmt::format("the elements {} and {} overlap, so that both would carry the same particles",
-                    mesh.tag_of((*overlap)[0]), mesh.tag_of((*overlap)[1])));
+    throw std::invalid_argument(fmt::format(
+        "the elements {} and {} overlap, so that both would constrain the same particles",
+        mesh.tag_of((*overlap)[0]), mesh.tag_of((*overlap)[1])));
   }
   return fill_hosts(particles, faces, MeshCells(mesh, order, tolerance));
 }

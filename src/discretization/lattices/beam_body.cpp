@@ -9,7 +9,7 @@ namespace {
 
 double middle_of(const Box& box) { return 0.5 * (box.lower[1] + box.upper[1]); }
 
-/// Ends of the boxes along x, ascending, each once.
+/// Returns distinct ends of the boxes along x, ascending.
 std::vector<double> ends_of(const LatticeInput& input) {
   std::vector<double> ends;
   for (const Box& box : input.solid) {
@@ -31,7 +31,7 @@ std::vector<double> ends_of(const LatticeInput& input) {
   return ends;
 }
 
-/// The last box that covers the point; all that do are as high.
+/// Returns the last box that covers the point; all covering boxes must have one height.
 std::size_t box_at(const LatticeInput& input, double x) {
   std::size_t last = input.solid.size();
   for (std::size_t b = input.solid.size(); b-- > 0;) {
@@ -54,7 +54,7 @@ void add_particle(Body& body, double x, double y, Index material) {
   body.particles.kind.push_back(ParticleKind::solid);
 }
 
-/// The ends of the beam, and the faces between its spans.
+/// Adds facets at the ends of the beam and between its spans.
 void add_facets(const LatticeInput& input, Body& body) {
   const auto face = [&](Index particle, double sign, const BeamSpan& inside, Index outside) {
     body.facets.append({&particle, 1}, {sign * inside.height * input.thickness, 0.0, 0.0},
@@ -95,7 +95,7 @@ Body make_beam_body(const LatticeInput& input) {
   add_facets(input, body);
   body.lattice.spacing = longest;
   body.lattice.step[0] = body.spans.size() == 1 ? longest : 0.0;
-  body.lattice.surface = Surface::calibrated;  // its bonds balance every force at the ends too
+  body.lattice.surface = Surface::calibrated;  // bonds balance forces at the ends too
   body.lattice.cell_volume =
       *std::max_element(body.particles.volumes.begin(), body.particles.volumes.end());
   return body;

@@ -4,10 +4,9 @@
 
 namespace perilink {
 
-/// A row of particles along the axis of a beam, through the middles of the boxes. Where one of them
-/// begins or ends there is a particle, and the spacing between these is even and at most the one
-/// that is wanted. The boxes are as high as the beam.
-/// \throws std::invalid_argument where the boxes leave a gap along x, their middles differ in y, or
+/// Fills a beam with a row of particles along the middles of the boxes. Particles lie at each end
+/// of a box. The spacing between these ends is uniform and at most the wanted one.
+/// \throws std::invalid_argument if the boxes leave a gap along x, their middles differ in y, or
 ///     boxes of different heights overlap
 Body make_beam_body(const LatticeInput& input);
 

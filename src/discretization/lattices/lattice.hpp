@@ -13,7 +13,7 @@
 
 namespace perilink {
 
-/// Arrangement of the particles.
+/// Pattern of the particles.
 enum class Pattern {
   rectangular,
   hexagonal,
@@ -22,17 +22,17 @@ enum class Pattern {
   irregular,  ///< vertices of a mesh
 };
 
-/// What is done about the missing bonds at a surface.
+/// Correction of missing bonds at a surface.
 enum class Surface {
-  none,        ///< conforming lattice: particles on the boundary, nothing corrected
+  none,        ///< conforming lattice: particles on the boundary, no correction
   ghost,       ///< Peri2D: cell-centred particles and a ghost layer bonded at half stiffness
-  energy,      ///< bonds scaled so that each particle stores the energy of the continuum
-  calibrated,  ///< bonds that pass the linear patch test, boundary included
+  energy,      ///< each particle's bonds are scaled to the strain energy of the continuum
+  calibrated,  ///< bonds pass the linear patch test, boundary included
 };
 
-/// Spacing of a lattice along the axes. The hexagonal pattern's rows lie sqrt(3)/2 of the column
-/// spacing apart (a little more or less where the rows must end on the boundary); the face-centred
-/// pattern's spacing is the distance of nearest neighbours, its cube sqrt(2) times as long.
+/// Spacing of a lattice along the axes. Rows of the hexagonal pattern are about sqrt(3)/2 of the
+/// column spacing apart; the height adapts so that rows end on the boundary. The spacing of the
+/// face-centred pattern is the distance of nearest neighbours; its cube is sqrt(2) times as long.
 struct Lattice {
   Pattern pattern = Pattern::rectangular;
   Surface surface = Surface::none;
@@ -48,63 +48,62 @@ struct InteriorNeighbourhood {
   std::vector<Vector3> offsets;  ///< [length]
 };
 
-/// Where the particles of a body come from.
+/// Geometry and lattice of a body.
 struct LatticeInput {
   Pattern pattern = Pattern::rectangular;
   Surface surface = Surface::none;
-  double spacing = 0.0;         ///< wanted; a conforming lattice adapts it to the body [length]
+  double spacing = 0.0;         ///< wanted; a conforming lattice adapts it [length]
   double horizon = 0.0;         ///< margin of the ghost layer [length]
   double thickness = 1.0;       ///< two-dimensional bodies only [length]
   std::vector<Box> solid;       ///< the body is the union of these boxes
-  std::vector<Index> material;  ///< per box; where boxes overlap the last one counts
-  /// Whether these differ in stiffness: faces of boxes are joints then, in which rows should lie.
+  std::vector<Index> material;  ///< per box; the last box counts where boxes overlap
+  /// Whether the materials differ in stiffness. Faces of boxes are then joints, which need rows.
   bool unlike_materials = false;
-  double boundary_tolerance = 1e-6;  ///< for "inside a box", in spacings
+  double boundary_tolerance = 1e-6;  ///< tolerance of "inside a box" [spacings]
 };
 
-/// A named part of a mesh (physical group).
+/// Named part of a mesh (physical group).
 struct Group {
   std::string name;
   std::vector<Index> particles;  ///< ascending
-  std::vector<Index> facets;     ///< those on the surface that belong to the group, ascending
-  /// Groups of points and of lines: points [length], shape (points, 3), and the ends of lines,
+  std::vector<Index> facets;     ///< surface facets of the group, ascending
+  /// Groups of points and lines: points [length], shape (points, 3), and the ends of the lines,
   /// shape (lines, 2).
   std::vector<double> line_points = {};
   std::vector<Index> lines = {};
-  /// An end of a line that is no edge of the body: a curve for bars alone.
+  /// End of a line that is not an edge of the body; such a curve is only valid for bars.
   std::optional<Vector3> loose = {};
-  /// Groups of lines, in space of triangles: the sides of cells that they are, by their corners,
-  /// shape (sides, dim).
+  /// Groups of lines (2D) or triangles (3D): corners of their cell sides, shape (sides, dim).
   std::vector<Index> sides = {};
-  std::vector<Index> cells = {};  ///< groups of cells: their numbers in Body::cells, ascending
+  std::vector<Index> cells = {};  ///< groups of cells: numbers in Body::cells, ascending
 };
 
-/// A part of a beam with one section and one material.
+/// Part of a beam with one section and one material.
 struct BeamSpan {
-  Index first = 0, last = 0;  ///< its particles, ends included
+  Index first = 0, last = 0;  ///< range of particles, ends included
   Index material = 0;
-  double height = 0.0;  ///< size of the section in the plane [length]
+  double height = 0.0;  ///< height of the section in the plane [length]
 };
 
-/// Particles and the lattice or the mesh that they belong to.
+/// Particles of a body with their lattice or mesh.
 struct Body {
-  /// With a mesh: pattern irregular, step zero, spacing and cell volume are means.
+  /// With a mesh: pattern irregular, step zero, mean spacing and cell volume.
   Lattice lattice;
   Particles particles;
   Facets facets;              ///< surface and faces between materials; empty with ghosts
   Simplices cells;            ///< meshes only
   std::vector<Group> groups;  ///< meshes only
-  /// Meshes only, per cell: nonzero where it is an ordinary finite element without bonds; empty:
-  /// nowhere. The lattice is then that of the others.
+  /// Meshes only, per cell: nonzero for a tied finite element, which has no bonds; empty: no tied
+  /// elements. `lattice` describes the other cells.
   std::vector<std::uint8_t> tied = {};
   std::vector<BeamSpan> spans = {};  ///< beams only, in the order of their particles
 };
 
-/// Family of a particle far from every surface.
+/// Returns the neighbourhood of a particle far from every surface.
 InteriorNeighbourhood interior_neighbourhood(const Lattice& lattice, double horizon);
 
-/// Radius of the particles that Peri2D's horizon level 0–8 encloses, in spacings
-/// (Gerstle, Sau & Silling 2005, Fig. 5).
+/// Returns the radius of Peri2D's horizon level 0–8 [spacings] (Gerstle, Sau & Silling 2005, Fig.
+/// 5).
 /// \throws std::invalid_argument for a pattern without levels or a level outside 0–8
 double horizon_of_level(Pattern pattern, int level);
 

@@ -5,9 +5,10 @@
 namespace perilink {
 namespace {
 
-/// Shares the volume of every cell inside the body equally among its corners (bilinear and
-/// trilinear shape functions); of a face-centred lattice only the corners with an even sum of
-/// numbers exist, four of each half cube. Volumes of the grid's points, x fastest.
+/// Divides the volume of every cell inside the body equally among its corners (bilinear and
+/// trilinear shape functions). In a face-centred lattice only corners with an even sum of numbers
+/// exist, four per half cube.
+/// \return volumes of the grid's points, x fastest
 std::vector<double> share_cells(const LatticeInput& input, const Lattice& lattice,
                                 const Box& bounds, const std::array<Index, 3>& steps) {
   const bool alternate = lattice.pattern == Pattern::face_centred;

@@ -6,7 +6,7 @@
 namespace perilink {
 namespace {
 
-/// The grid of a conforming lattice: cells with their materials and points with their particles.
+/// Grid of a conforming lattice: materials of its cells and particles at its points.
 class CellGrid {
  public:
   CellGrid(const LatticeInput& input, const Lattice& lattice, const Box& bounds,
@@ -26,7 +26,7 @@ class CellGrid {
 
   const std::array<Index, 3>& steps() const { return steps_; }
 
-  /// Material of a cell, no_index outside the body.
+  /// Returns the material of a cell, no_index outside the body.
   Index material(const std::array<Index, 3>& cell) const {
     for (int axis = 0; axis < 3; ++axis) {
       if (cell[axis] < 0 || cell[axis] >= steps_[axis]) return no_index;
@@ -35,14 +35,14 @@ class CellGrid {
                                     (cell[1] + static_cast<std::size_t>(steps_[1]) * cell[2])];
   }
 
-  /// Particles at the corners of the face below a cell along an axis.
+  /// Returns particles at the corners of the face below a cell along an axis.
   std::vector<Index> corners(const std::array<Index, 3>& cell, int axis) const {
     std::vector<Index> found;
     const int y = (axis + 1) % dim_;
     for (int b = 0; b < (dim_ == 3 ? 2 : 1); ++b) {
       for (int a = 0; a < 2; ++a) {
         std::array<Index, 3> point = cell;
-        point[y] += b ? 1 - a : a;  // around the face, not across
+        point[y] += b ? 1 - a : a;  // around the face, not along its diagonal
         if (dim_ == 3) point[(axis + 2) % 3] += b;
         if (points_.particle(point) != no_index) found.push_back(points_.particle(point));
       }

@@ -17,7 +17,7 @@ struct Misfit {
   double coordinate;
 };
 
-/// First face of the body that is not a plane of the lattice.
+/// Returns the first face of the body that is not a plane of the lattice.
 std::optional<Misfit> find_misfit(const Lattice& lattice, const Box& bounds, const Faces& faces,
                                   double tolerance) {
   for (int axis = 0; axis < lattice.dim; ++axis) {
@@ -31,7 +31,7 @@ std::optional<Misfit> find_misfit(const Lattice& lattice, const Box& bounds, con
   return std::nullopt;
 }
 
-/// Spacings next below and next above the one that misses, of those whose planes meet all faces.
+/// Returns the spacings of the next larger and next smaller numbers of columns that fit all faces.
 std::vector<double> fitting_spacings(const LatticeInput& input, const Lattice& lattice,
                                      const Box& bounds, const Faces& faces, double tolerance) {
   const double extent = bounds.upper[0] - bounds.lower[0];

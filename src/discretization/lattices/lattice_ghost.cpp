@@ -25,8 +25,8 @@ Lattice ghost_lattice(const LatticeInput& input, int dim) {
   return lattice;
 }
 
-/// Points of the grid in and around the body: the solid ones, and the others (positions, row after
-/// row), both sorted by (z, y, x).
+/// Grid points in and around the body: solid particles and positions of the other points, row after
+/// row, both sorted by (z, y, x).
 struct GhostGrid {
   Particles solid;
   std::vector<double> others;
@@ -35,7 +35,7 @@ struct GhostGrid {
 GhostGrid fill_grid(const LatticeInput& input, const Lattice& lattice, const Box& bounds) {
   const int dim = lattice.dim;
   const bool hexagonal = lattice.pattern == Pattern::hexagonal;
-  // Not one step more when the horizon is a multiple of the step but for round-off.
+  // Round-off must not add a step if the horizon is a multiple of the step.
   const auto margin =
       static_cast<Index>(std::ceil(input.horizon / lattice.step[0] * (1.0 - horizon_tolerance)));
   std::array<Index, 3> count{1, 1, 1};
@@ -48,7 +48,7 @@ GhostGrid fill_grid(const LatticeInput& input, const Lattice& lattice, const Box
   for (Index k = 0; k < count[2]; ++k) {
     for (Index j = 0; j < count[1]; ++j) {
       const double shift = hexagonal && j % 2 == 1 ? 0.5 : 0.0;
-      // From 0: a shifted row has a ghost that far out too.
+      // Starts at 0, because shifted rows have a ghost at this distance too.
       for (Index i = 0; i <= count[0]; ++i) {
         if (lattice.pattern == Pattern::face_centred && (i + j + k) % 2 != 0) continue;
         const Vector3 point = {

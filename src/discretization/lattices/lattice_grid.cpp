@@ -9,7 +9,7 @@
 namespace perilink {
 namespace {
 
-/// Halves a window until each part has one. \return whether there were planes enough
+/// Divides a window into `parts` windows. \return false if it has too few planes
 bool split(const LatticeGrid& grid, const GridWindow& window, int parts,
            std::vector<GridWindow>& found) {
   if (parts == 1) {
@@ -38,7 +38,7 @@ bool split(const LatticeGrid& grid, const GridWindow& window, int parts,
 }  // namespace
 
 Index LatticeGrid::number(const GridWindow& window, const GridPoint& point) const {
-  // So many of `count` numbers in a row are even, where the first is even (0) or odd (1).
+  // How many of `count` consecutive numbers are even; the first is even (odd = 0) or odd (odd = 1).
   const auto evens = [&](Index count, Index odd) {
     return alternate ? (count + 1 - odd) / 2 : count;
   };
@@ -95,7 +95,7 @@ std::optional<LatticeGrid> grid_of(const Body& body) {
     grid.count[a] = static_cast<Index>(std::lround((grid.upper[a] - grid.lower[a]) / grid.step[a]));
   }
   if (grid.size(grid.all()) != particles.size()) return std::nullopt;
-  // All cells: less than half a one may be missing, round-off is far below.
+  // The body must fill all cells; round-off is far smaller than the half cell that may be missing.
   double cells = grid.alternate ? 0.5 : 1.0;
   for (int a = 0; a < grid.dim; ++a) cells *= grid.count[a];
   const double filled = std::accumulate(particles.volumes.begin(), particles.volumes.end(), 0.0);

@@ -9,10 +9,10 @@
 
 namespace perilink {
 
-/// A point of a lattice, in steps from the lower corner of its box.
+/// Lattice point, in steps from the lower corner of its box.
 using GridPoint = std::array<Index, 3>;
 
-/// A box of points, those on its faces included.
+/// Box of points, including its faces.
 struct GridWindow {
   GridPoint first{}, last{};
 
@@ -24,24 +24,24 @@ struct GridWindow {
   }
 };
 
-/// A box filled with one rectangular, cubic or face-centred lattice: all its particles, from a few
-/// numbers. They are numbered as make_body() does it: x runs fastest.
+/// Box filled with one rectangular, cubic or face-centred lattice, described by few numbers. Its
+/// particles are numbered as in make_body(): x runs fastest.
 struct LatticeGrid {
   int dim = 3;
   Vector3 lower{}, upper{};      ///< corners [length]
   Vector3 step{};                ///< between points along each axis [length]
   double spacing = 0.0;          ///< Lattice::spacing
-  std::array<Index, 3> count{};  ///< steps along each axis; third in the plane: none
+  std::array<Index, 3> count{};  ///< steps along each axis; zero along z in the plane
   bool alternate = false;        ///< face-centred: every other point carries a particle
 
   GridWindow all() const { return {{}, count}; }
-  /// How many particles of a window come before a point of it.
+  /// Returns the number of the window's particles before a point.
   Index number(const GridWindow& window, const GridPoint& point) const;
   Index size(const GridWindow& window) const {
     return number(window, {window.first[0], window.first[1], window.last[2] + 1});
   }
   Vector3 position(const GridPoint& point) const;
-  /// Points of a window within some steps along each axis.
+  /// Returns a window enlarged by some steps along each axis, within the grid.
   GridWindow grown(const GridWindow& window, const std::array<Index, 3>& steps) const;
 
   /// Calls visit(point) for the particles of a window in their order.
@@ -58,15 +58,16 @@ struct LatticeGrid {
   }
 };
 
-/// The grid whose particles are those of a body, one for one; none where it is something else.
+/// Returns a grid with exactly the particles of a body; empty if the body is no such grid.
 std::optional<LatticeGrid> grid_of(const Body& body);
 
-/// A body of one material on the same lattice that fills another grid.
+/// Returns a body of one material on a grid with the given lattice.
 /// \param thickness  in the plane [length]
 Body body_of(const LatticeGrid& grid, const Lattice& lattice, double thickness);
 
-/// Shares out the particles: halves the box along its longest side, in proportion to the parts on
-/// both sides. \return no parts where it has too few planes
+/// Divides the particles: halves the box along its longest side, in proportion to the parts on both
+/// sides.
+/// \return windows; empty if the box has too few planes
 std::vector<GridWindow> split_grid(const LatticeGrid& grid, int parts);
 
 }  // namespace perilink

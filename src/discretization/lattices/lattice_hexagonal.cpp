@@ -6,9 +6,9 @@
 namespace perilink {
 namespace {
 
-/// Points of a hexagonal lattice in units of half a column, rows from the bottom. Even rows use the
-/// even numbers 0, 2, …, 2n. Odd rows use the odd numbers, and the even ones where a vertical side
-/// of the body ends the row.
+/// Point of a hexagonal lattice in units of half a column; rows are counted from the bottom. Even
+/// rows use the even numbers 0, 2, …, 2n. Odd rows use the odd numbers, and even numbers at
+/// vertical sides of the body that end the row.
 struct HalfColumn {
   Index row;
   Index number;
@@ -29,7 +29,7 @@ class HexagonalCells {
   Index rows() const { return rows_; }
   Index stride() const { return 2 * columns_ + 1; }
   double volume(HalfColumn point) const { return volumes_[slot(point)]; }
-  /// The triangles with the numbers that particles have when those without volume are left out.
+  /// Returns triangles of the particles, numbered without points that have no volume.
   Simplices triangles() const {
     std::vector<Index> number(volumes_.size(), no_index);
     Index count = 0;
@@ -85,9 +85,9 @@ class HexagonalCells {
     materials_.push_back(material_of(triangle));
   }
 
-  /// Triangles between two rows. Those that stand on the even row lie between columns. Those that
-  /// stand on the odd row straddle a column: where a side of the body runs there, only half of the
-  /// triangle counts, and its right angle is a particle of its own.
+  /// Adds the triangles between two rows. Triangles with their base on the even row lie between
+  /// columns. Triangles with their base on the odd row straddle a column. At a vertical side only
+  /// half of such a triangle counts, with a particle at its right angle.
   void share_strip(Index lower_row) {
     const Index even = lower_row % 2 == 0 ? lower_row : lower_row + 1;
     const Index odd = lower_row % 2 == 0 ? lower_row + 1 : lower_row;

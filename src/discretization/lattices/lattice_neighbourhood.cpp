@@ -32,7 +32,7 @@ InteriorNeighbourhood interior_neighbourhood(const Lattice& lattice, double hori
 }
 
 double horizon_of_level(Pattern pattern, int level) {
-  // Squared radii, in spacings.
+  // Squared radii [spacings^2].
   constexpr std::array<double, 9> rectangular = {0, 1, 2, 4, 5, 8, 9, 10, 13};
   constexpr std::array<double, 9> hexagonal = {0, 1, 3, 4, 7, 9, 12, 13, 16};
   if (pattern != Pattern::rectangular && pattern != Pattern::hexagonal) {

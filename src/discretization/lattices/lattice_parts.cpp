@@ -7,16 +7,17 @@
 namespace perilink {
 namespace {
 
-/// Steps that divide the extent evenly and come nearest to the wanted distance; on demand an even
-/// number of them.
+/// Returns the step nearest to the wanted one that divides the extent evenly, on request into an
+/// even number of steps.
 double even_step(const Box& bounds, int axis, double wanted, bool even_number = false) {
   const double extent = bounds.upper[axis] - bounds.lower[axis];
   if (even_number) return extent / (2.0 * std::max(1.0, std::round(0.5 * extent / wanted)));
   return extent / std::max(1.0, std::round(extent / wanted));
 }
 
-/// Rows of calibrated hexagonal lattices: an even number. Where materials of unlike stiffness meet
-/// there is one below every face, too, if rows of about the wanted height can be so.
+/// Returns the row height of calibrated hexagonal lattices, whose number of rows is even. Where
+/// materials of different stiffness meet, the number of rows below each face is even too, if rows
+/// of about the wanted height allow it.
 double height_of_paired_rows(const LatticeInput& input, const Box& bounds, double wanted) {
   constexpr double most_stretched = 0.05, same_plane = 1e-6;
   const double extent = bounds.upper[1] - bounds.lower[1], pairs = 0.5 * extent / wanted;
@@ -51,9 +52,9 @@ Lattice conforming_lattice(const LatticeInput& input, const Box& bounds, double 
   lattice.pattern = input.pattern;
   lattice.surface = input.surface;
   lattice.dim = dimension_of(input.pattern);
-  // Calibrated bonds need a particle with an equal-sided neighbourhood at the corners of the body:
-  // of a face-centred lattice one at all, of a hexagonal one none on the right angle of half a
-  // triangle.
+  // Calibrated bonds need particles with equal-sided neighbourhoods at the corners of the body. A
+  // face-centred lattice then has a particle at every corner. A hexagonal lattice has no particle
+  // at the right angle of half a triangle.
   const bool even_number = input.surface == Surface::calibrated;
   if (input.pattern == Pattern::face_centred) {
     const double half_cube = spacing / std::numbers::sqrt2;
@@ -61,7 +62,7 @@ Lattice conforming_lattice(const LatticeInput& input, const Box& bounds, double 
       lattice.step[axis] = even_step(bounds, axis, half_cube, even_number);
     }
     lattice.spacing = std::numbers::sqrt2 * lattice.step[0];
-    // Every other point of the grid of half cubes carries a particle.
+    // Every second point of the grid of half cubes carries a particle.
     lattice.cell_volume = 2.0 * lattice.step[0] * lattice.step[1] * lattice.step[2];
     return lattice;
   }

@@ -16,8 +16,8 @@ using Step = std::array<int, 3>;
 using RowBasis = std::array<Vector3, 3>;
 using RowKey = std::pair<int, int>;  ///< second and third lattice coordinate
 
-/// Rows end with empty slots, up to a multiple of this: what is left of a loop in vectors would run
-/// one particle at a time.
+/// Rows are padded with empty slots to a multiple of this number. Otherwise vectorised loops would
+/// process the remainder one particle at a time.
 constexpr int lanes = 8;
 
 Vector3 turned(const Vector3& v, double angle) {
@@ -37,7 +37,7 @@ Vector3 combine(const RowBasis& basis, const Step& step) {
   return combine(basis, std::array<double, 3>{1.0 * step[0], 1.0 * step[1], 1.0 * step[2]});
 }
 
-/// Rows of the reciprocal lattice: coordinates of a vector in the basis.
+/// Returns rows of the reciprocal lattice, which give the coordinates of a vector in the basis.
 RowBasis inverse(const RowBasis& m) {
   const auto cross = [](const Vector3& a, const Vector3& b) {
     return Vector3{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
@@ -82,11 +82,11 @@ class RowBuilder {
 
  private:
   struct Row {
-    int first = 0, last = -1;   ///< particles and the padding after them
+    int first = 0, last = -1;   ///< particles and padding
     int lower = 0, upper = -1;  ///< slots
     Index begin = 0;            ///< slot of `lower`
     Index number = no_index;    ///< among the rows with particles
-    std::vector<int> columns;   ///< columns of its particles, ascending
+    std::vector<int> columns;   ///< columns of the row's particles, ascending
     bool empty() const { return columns.empty(); }
     Index slot(int column) const { return begin + (column - lower); }
     void cover(int from, int to) {
@@ -108,7 +108,7 @@ class RowBuilder {
     return true;
   }
 
-  /// Lattice coordinates of the box's corners bound those of its points.
+  /// Returns bounds of the lattice coordinates in the box, taken at its corners.
   std::array<std::array<int, 2>, 3> coordinate_range() const {
     const RowBasis rows = inverse(pattern_.basis);
     std::array<std::array<int, 2>, 3> range{};
@@ -143,7 +143,7 @@ class RowBuilder {
     }
   }
 
-  /// Key of the row that a step leads to; the table is sorted by layer, then row.
+  /// Returns the key of the row that a step leads to; the table is sorted by layer, then row.
   static RowKey moved(const RowKey& key, const Step& step, int sign) {
     return {key.first + sign * step[2], key.second + sign * step[1]};
   }
@@ -242,7 +242,7 @@ LatticeRows hexagonal_rows(const LatticeCut& cut) {
 
 LatticeRows face_centred_rows(const LatticeCut& cut) {
   const double half = 1.0 / sqrt2;
-  // Vectors along face diagonals; sums like a - b + c are the edges of the cube.
+  // Vectors along face diagonals; sums such as a - b + c are edges of the cube.
   const Pattern3 pattern{3,
                          {{{half, half, 0.0}, {0.0, half, half}, {half, 0.0, half}}},
                          {{1, 0, 0},

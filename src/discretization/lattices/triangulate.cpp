@@ -18,8 +18,8 @@ void append(Simplices& cells, std::initializer_list<Index> vertices, Index mater
   cells.material.push_back(material);
 }
 
-/// A path from the lower to the upper corner of a box along the axes, in each order of them, passes
-/// the corners of one simplex; odd orders run the wrong way round.
+/// Splits a cube into six tetrahedra. Each path along the axes from the lower to the upper corner
+/// gives the corners of one. Paths in odd orders of the axes have negative orientation.
 void split_cube(const PointGrid& grid, const Point& corner, Index material, Simplices& cells) {
   constexpr std::array<std::array<int, 3>, 6> orders = {
       {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
@@ -67,8 +67,8 @@ Simplices split_grid(const LatticeInput& input, const Body& body, const Box& bou
   return cells;
 }
 
-/// Where a vertical side of the body begins at a row, the particle that the side has there halves
-/// the base of a whole triangle of the next strip: that triangle is split too.
+/// Where a vertical side of the body begins at a row, its particle halves the base of a whole
+/// triangle in the next strip. This triangle is split too.
 Simplices split_hexagons(const LatticeInput& input, const Body& body, const Outline& outline) {
   Simplices whole;
   fill_conforming_hexagonal(input, body.lattice, outline, whole);

@@ -14,7 +14,7 @@
 
 namespace perilink {
 
-/// A triangle or tetrahedron by its corners.
+/// Corners of a triangle or tetrahedron, with its box and size.
 struct CellCorners {
   int count = 0;
   std::array<Vector3, 4> at{};
@@ -34,15 +34,16 @@ struct CellCorners {
     }
   }
 
-  /// Normal of the side opposite to corner k, as long as twice its size.
+  /// Returns the normal of the side opposite to corner k; its length is twice the side's area, in
+  /// the plane the side's length.
   Vector3 normal_of_side(int k) const {
     const Vector3& a = at[(k + 1) % count];
     const Vector3 u = minus(at[(k + 2) % count], a);
     return count == 3 ? Vector3{-u[1], u[0], 0.0} : cross(u, minus(at[(k + 3) % count], a));
   }
 
-  /// Heights below this part of the longest edge are round-off of the coordinates, and so are areas
-  /// and volumes over its powers: the regular triangle has 0.4, round-off leaves 1e-16.
+  /// Least height over the longest edge. Smaller heights are round-off of the coordinates, and so
+  /// are areas and volumes over its powers. A regular triangle has 0.4, round-off gives 1e-16.
   static constexpr double flattest = 1e-10;
 
   [[noreturn]] void refuse_flat() const {

@@ -12,7 +12,7 @@
 namespace perilink {
 namespace {
 
-constexpr double most_steps = 2000;  ///< most cells of the grid along an axis
+constexpr double most_steps = 2000;  ///< largest number of grid cells along an axis
 
 CellCorners corners_of(const Mesh& mesh, Index cell) {
   const std::size_t width = static_cast<std::size_t>(mesh.dim) + 1;
@@ -23,7 +23,7 @@ CellCorners corners_of(const Mesh& mesh, Index cell) {
 
 CellSearch::CellSearch(const Mesh& mesh, std::span<const Index> cells, double tolerance)
     : dim_(mesh.dim), tolerance_(tolerance) {
-  if (cells.empty()) throw std::invalid_argument("there is no cell to look for points in");
+  if (cells.empty()) throw std::invalid_argument("there is no cell to search");
   std::vector<Box> boxes;
   for (const Index cell : cells) {
     add_sides(mesh, cell);
@@ -103,7 +103,7 @@ Index CellSearch::bucket(const std::array<int, 3>& steps) const {
   return static_cast<Index>((steps[2] * counts_[1] + steps[1]) * counts_[0] + steps[0]);
 }
 
-/// Cells that touch the bucket around a point in the box.
+/// Returns cells that touch the bucket around a point in the box.
 std::span<const Index> CellSearch::near(std::span<const double> point) const {
   std::array<int, 3> steps{};
   for (int a = 0; a < dim_; ++a) steps[a] = step(a, point[a]);

@@ -10,18 +10,18 @@
 
 namespace perilink {
 
-/// Tells whether points lie in cells of a mesh. A grid of about as many boxes as cells leads from a
-/// point to the few cells near it.
+/// Finds the cells of a mesh that contain a point. A grid with about as many boxes as cells gives
+/// the few cells near a point.
 class CellSearch {
  public:
-  /// \param cells      numbers of the cells that count, at least one
+  /// \param cells      numbers of the cells to search, at least one
   /// \param tolerance  points this close to the sides of a cell are inside [length]
-  /// \throws std::invalid_argument where there is no cell, or one without area or volume
+  /// \throws std::invalid_argument without cells, or for a cell without area or volume
   CellSearch(const Mesh& mesh, std::span<const Index> cells, double tolerance);
 
   bool contains(const Vector3& point) const;
 
-  /// Calls visit(place) for every cell around the point, by its place among `cells`.
+  /// Calls visit(place) for every cell that contains the point; `place` is an index into `cells`.
   template <class Visit>
   void for_each_around(std::span<const double> point, Visit visit) const {
     if (!box_.contains(point.first(static_cast<std::size_t>(dim_)), 0.0)) return;
@@ -29,17 +29,17 @@ class CellSearch {
       if (is_inside(cell, point, -tolerance_)) visit(cell);
     }
   }
-  /// Whether the point is farther than the tolerance from all sides of the cell.
+  /// Returns whether the point is farther than the tolerance from all sides of the cell.
   bool is_within(Index place, std::span<const double> point) const {
     return is_inside(place, point, tolerance_);
   }
-  /// Barycentric coordinate: how far the point is from the side opposite to a corner, over how far
-  /// the corner is [-].
+  /// Returns the barycentric coordinate [-]: the point's distance from the side opposite to a
+  /// corner over the corner's distance from it.
   double height(Index place, int corner, std::span<const double> point) const {
     return distance(place, corner, point) / heights_[index_of_side(place, corner)];
   }
 
-  /// Around all cells, with the tolerance.
+  /// Returns the box around all cells, enlarged by the tolerance.
   const Box& box() const { return box_; }
 
  private:
@@ -58,9 +58,9 @@ class CellSearch {
   double tolerance_ = 0.0;
   Box box_;
   std::vector<double> sides_;  ///< unit normal inwards and offset, shape (cells, dim + 1, dim + 1)
-  std::vector<double> heights_;  ///< how far corners are above their sides, shape (cells, dim + 1)
+  std::vector<double> heights_;  ///< heights of corners above their sides, shape (cells, dim + 1)
   std::array<int, 3> counts_{1, 1, 1};  ///< boxes of the grid along each axis
-  Csr buckets_;                         ///< cells that touch each of them
+  Csr buckets_;                         ///< cells that touch each box
 };
 
 }  // namespace perilink

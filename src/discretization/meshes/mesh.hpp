@@ -9,28 +9,28 @@
 
 namespace perilink {
 
-/// A physical group: elements of one dimension under one name.
+/// Physical group: named elements of one dimension.
 struct MeshGroup {
   std::string name;
-  int dim = 2;                  ///< 0: its elements are points, 1 lines, 2 triangles, 3 tetrahedra
-  std::vector<Index> elements;  ///< numbers of its cells, facets or lines; points have none
-  std::vector<Index> points;    ///< corners of its elements, ascending, each once
+  int dim = 2;                  ///< 0: points, 1: lines, 2: triangles, 3: tetrahedra
+  std::vector<Index> elements;  ///< numbers of the group's cells, facets or lines; points have none
+  std::vector<Index> points;    ///< corners of the elements, ascending, each once
 };
 
-/// Linear triangles (2D) or tetrahedra (3D) as a mesh generator leaves them: nothing is known of
-/// their orientation, and points may be left over that no cell uses.
+/// Linear triangles (2D) or tetrahedra (3D) as written by a mesh generator. Cells may have any
+/// orientation, and some points may belong to no cell.
 struct Mesh {
   int dim = 2;
   std::vector<double> positions;  ///< [length], shape (points, dim)
   std::vector<Index> cells;       ///< corners, shape (cells, dim + 1)
   std::vector<Index> facets;      ///< edges or triangles of the groups, shape (facets, dim)
-  std::vector<Index> lines;       ///< ends of those of the groups in space, shape (lines, 2)
+  std::vector<Index> lines;       ///< ends of the groups' lines in space, shape (lines, 2)
   std::vector<MeshGroup> groups;
   std::vector<std::int64_t> cell_tags;  ///< numbers of the cells in their file; empty: 1, 2, 3, ...
 
   Index num_points() const { return static_cast<Index>(positions.size()) / dim; }
   Index num_cells() const { return static_cast<Index>(cells.size()) / (dim + 1); }
-  /// Number of a cell in its file.
+  /// Returns the number of a cell in its file.
   std::int64_t tag_of(Index cell) const {
     return cell_tags.empty() ? std::int64_t{cell} + 1 : cell_tags[cell];
   }

@@ -19,7 +19,7 @@
 namespace perilink {
 namespace {
 
-/// Particle of every point of the mesh; no_index where no cell with a material needs it.
+/// Returns the particle of every point of the mesh; no_index if no cell with a material uses it.
 std::vector<Index> number_particles(const Mesh& mesh, std::span<const Index> material) {
   std::vector<Index> particle(static_cast<std::size_t>(mesh.num_points()), no_index);
   const int width = mesh.dim + 1;
@@ -48,8 +48,9 @@ void add_particles(const Mesh& mesh, std::span<const Index> particle, Particles&
   }
 }
 
-/// Adds the cells, turned round where they run the wrong way, and shares their volume and material
-/// among their particles. Returns the number in the body of every cell of the mesh.
+/// Adds the cells with positive orientation and divides their volume and material among their
+/// particles.
+/// \return number in the body of every cell of the mesh
 std::vector<Index> add_cells(const Mesh& mesh, std::span<const Index> material, double thickness,
                              std::span<const Index> particle, Body& body) {
   const int dim = mesh.dim;
@@ -80,7 +81,8 @@ std::vector<Index> add_cells(const Mesh& mesh, std::span<const Index> material, 
   return number;
 }
 
-/// Facet on the surface of every face, no_index for the others; facets stand in the order of faces.
+/// Returns the surface facet of every face, no_index for inner faces; facets have the order of
+/// faces.
 std::vector<Index> number_surface_facets(const CellFaces& faces, const Simplices& cells) {
   std::vector<Index> number(static_cast<std::size_t>(faces.size()), no_index);
   Index count = 0;
@@ -95,7 +97,7 @@ std::vector<Index> number_surface_facets(const CellFaces& faces, const Simplices
   return number;
 }
 
-/// Means over the cells that have bonds.
+/// Returns a lattice with mean values over the cells that have bonds.
 Lattice lattice_of(const Body& body, double thickness) {
   const Simplices cells = cells_of(body, false);
   const Bonds edges = edges_of(cells, body.particles);
@@ -111,12 +113,12 @@ Lattice lattice_of(const Body& body, double thickness) {
   return lattice;
 }
 
-/// What connects the numbers of the mesh with those of the body.
+/// Numbers in the body of the mesh's points, cells and faces.
 struct Numbering {
   std::vector<Index> particle;       ///< per point
   std::vector<Index> cell;           ///< per cell
   std::vector<Index> surface_facet;  ///< per face
-  bool whole = true;                 ///< every cell has a material
+  bool whole = true;                 ///< whether every cell has a material
 };
 
 [[noreturn]] void refuse_loose_facet(const Mesh& mesh, const MeshGroup& group, Index element) {
@@ -147,9 +149,8 @@ void refuse_overlap(const Mesh& mesh, const CellFaces& faces, const Numbering& n
       joined({centre.data(), static_cast<std::size_t>(mesh.dim)})));
 }
 
-/// Facets of the surface that a group of facets names. Those between cells are not on the surface,
-/// and those of cells that were left out are not in the body. Lines that are no side may be curves
-/// for bars.
+/// Adds the surface facets of a group of facets. Facets between cells are not on the surface, and
+/// facets of omitted cells are not in the body. Lines that are no sides can be curves for bars.
 void add_facets_of_facets(const Mesh& mesh, const MeshGroup& group, const CellFaces& faces,
                           const Numbering& numbering, Group& result) {
   std::vector<Index> corners(static_cast<std::size_t>(mesh.dim));
@@ -170,7 +171,7 @@ void add_facets_of_facets(const Mesh& mesh, const MeshGroup& group, const CellFa
   }
 }
 
-/// Points of a group of points or lines, and the ends of its lines.
+/// Adds the points of a group of points or lines, and the ends of its lines.
 void add_lines(const Mesh& mesh, const MeshGroup& group, const Numbering& numbering,
                Group& result) {
   const std::vector<Index>& lines = mesh.dim == 2 ? mesh.facets : mesh.lines;

@@ -9,29 +9,29 @@
 
 namespace perilink {
 
-/// Material of every cell of a mesh: of the last region that holds the cell (its group's cells, or
-/// the cells whose centre lies in the box); no_index where none does.
+/// Returns the material of every cell of a mesh, from the last region that contains the cell, or
+/// no_index. A region contains its group's cells, or the cells with their centre in its shape.
 /// \param material  per region
 std::vector<Index> materials_of_cells(const Mesh& mesh, std::span<const Region> regions,
                                       std::span<const Index> material);
 
-/// The cells of a body that are ordinary finite elements, or all others.
+/// Returns a body's tied finite elements, or all its other cells.
 Simplices cells_of(const Body& body, bool tied);
 
-/// Body with a particle at every vertex of the cells that have a material.
-/// - Volume: integral of the vertex's linear shape function, a third of the triangles around it
-///   times the thickness, a quarter of the tetrahedra.
-/// - Material: where several meet the highest number.
-/// - Facets: of the surface, and of faces between materials with the lower material inside.
-/// - Groups: every named one; its particles, and the facets of the surface among its elements or,
-///   of a group of cells, among its cells' sides.
+/// Makes a body with a particle at every vertex of the cells that have a material.
+/// - Volume: integral of the vertex's linear shape function: a third of its triangles times the
+///   thickness, or a quarter of its tetrahedra.
+/// - Material: at vertices of several materials the highest number.
+/// - Facets: of the surface, and of material interfaces with the lower material inside.
+/// - Groups: every named one with its particles and surface facets. A group of cells has the facets
+///   among its cells' sides.
 /// - Lattice: irregular, spacing = mean length of the edges, cell volume = mean volume of a
 ///   particle.
-/// \param material   per cell; cells with no_index are left out
+/// \param material   per cell; cells with no_index are omitted
 /// \param thickness  two-dimensional bodies only [length]
-/// \param glued      per cell, nonzero: an ordinary finite element, see Body::glued; empty: none
-/// \throws std::invalid_argument where nothing is left, a cell has no volume, cells overlap, parts
-///         touch without being joined, or a group's facet is no side of a cell
+/// \param tied       per cell, nonzero for a tied finite element (Body::tied); empty: none
+/// \throws std::invalid_argument if no cell has a material, a cell has no volume, cells overlap,
+///     parts touch without being joined, or a group's facet is not a side of a cell
 Body make_mesh_body(const Mesh& mesh, std::span<const Index> material, double thickness,
                     std::span<const std::uint8_t> tied = {});
 

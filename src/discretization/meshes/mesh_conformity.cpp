@@ -19,11 +19,11 @@
 namespace perilink {
 namespace {
 
-/// A vertex this close to a facet lies on it, in sizes of the facet. Meshes are written with 16
-/// digits; the distance between a curve and its chord is far larger.
+/// A vertex this close to a facet lies on it [facet sizes]. Mesh files have 16 digits, and a curve
+/// is much farther from its chord.
 constexpr double touching = 1e-7;
 
-/// Whether a point lies on the facet, its border included.
+/// Returns whether a point lies on the facet or its border.
 bool lies_on(const FacetGeometry& facet, const Vector3& x) {
   return norm(minus(x, nearest_point(facet, x))) <= touching * facet.size;
 }
@@ -33,7 +33,7 @@ bool lies_on(const FacetGeometry& facet, const Vector3& x) {
 void refuse_unjoined_parts(const Particles& particles, const Facets& facets) {
   const int dim = particles.dim;
   std::vector<Index> vertices;
-  std::map<int, std::vector<Index>> facets_by_size;  // within a factor of two of each other
+  std::map<int, std::vector<Index>> facets_by_size;  // sizes within a factor of two
   for (Index f = 0; f < facets.size(); ++f) {
     if (!facets.on_surface(f)) continue;
     const std::span<const Index> ends = facets.corners.row(f);
@@ -74,12 +74,12 @@ void refuse_unjoined_parts(const Particles& particles, const Facets& facets) {
 
 namespace {
 
-/// Side of a cell with corners that are written twice.
+/// Side of a cell with duplicate corners.
 struct TwinSide {
-  std::array<Index, 3> corners{no_index, no_index, no_index};  ///< the cell lies on their left
+  std::array<Index, 3> corners{no_index, no_index, no_index};  ///< the cell lies to their left
 };
 
-/// The first of the points at the place of each point.
+/// Returns the first point at the position of each point.
 std::vector<Index> first_at_place(const Mesh& mesh) {
   const auto at = [&](Index i) { return point_of(mesh.positions, mesh.dim, i); };
   std::vector<Index> order(static_cast<std::size_t>(mesh.num_points()));
@@ -92,7 +92,7 @@ std::vector<Index> first_at_place(const Mesh& mesh) {
   return first;
 }
 
-/// Sides of cells with a corner that is written twice, by the places of their corners.
+/// Returns sides of cells with a duplicate corner, by the first points at their corners.
 std::map<std::array<Index, 3>, std::vector<TwinSide>> twin_sides(
     const Mesh& mesh, const std::vector<Index>& place, const std::vector<std::uint8_t>& has_twin) {
   std::map<std::array<Index, 3>, std::vector<TwinSide>> sides;
@@ -122,7 +122,7 @@ std::map<std::array<Index, 3>, std::vector<TwinSide>> twin_sides(
   return sides;
 }
 
-/// Pairs of sides at one place, of cells that hang together elsewhere.
+/// Returns pairs of coincident sides of cells that are connected elsewhere.
 std::vector<std::array<TwinSide, 2>> find_slits(const Mesh& mesh, const std::vector<Index>& place,
                                                 const std::vector<std::uint8_t>& has_twin) {
   const std::size_t width = mesh.dim + 1;
@@ -136,7 +136,7 @@ std::vector<std::array<TwinSide, 2>> find_slits(const Mesh& mesh, const std::vec
     std::array<std::array<Index, 3>, 2> own{sides[0].corners, sides[1].corners};
     if (parts.find(own[0][0]) != parts.find(own[1][0])) continue;
     for (auto& corners : own) std::ranges::sort(corners);
-    if (own[0] != own[1]) slits.push_back({sides[0], sides[1]});  // else inside the body
+    if (own[0] != own[1]) slits.push_back({sides[0], sides[1]});  // equal: inside the body
   }
   return slits;
 }
@@ -157,7 +157,7 @@ Index weld_slits(Mesh& mesh) {
   JoinedParts flanks(mesh.num_points());
   const std::vector<std::array<TwinSide, 2>> slits = find_slits(mesh, place, has_twin);
   if (slits.empty()) return 0;
-  // Tips belong to both faces, all other corners of a slit to one.
+  // Tips belong to both faces, all other corners of a slit to one face.
   const auto for_each_twin = [&](const TwinSide& side, auto visit) {
     for (std::size_t k = 0; k < dim; ++k) {
       if (has_twin[side.corners[k]] != 0) visit(side.corners[k]);

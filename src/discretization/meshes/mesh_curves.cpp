@@ -16,24 +16,24 @@
 namespace perilink {
 namespace {
 
-/// Sine of the angle below which a corner is round-off of coordinates, which files keep to 16
-/// digits.
+/// Sine of the smallest angle of a corner. Smaller angles are round-off of coordinates, which files
+/// store with 16 digits.
 constexpr double straight = 1e-7;
 
-/// Points this close, over the extent of all of them, are one.
+/// Distance at which points coincide, over the extent of all points.
 constexpr double same_place = 1e-9;
 
-/// Where more than two lines meet one goes on in another that turns by less than about 45 degrees.
+/// Least cosine of the turn of a curve where more than two lines meet, about 45 degrees.
 constexpr double most_turn_cosine = 0.7;
 
 constexpr std::size_t most_meeting = 100;
 
-/// End of a line: twice its number, and one at its second point.
+/// End of a line: twice the line's number, plus one at its second point.
 using LineEnd = std::size_t;
 
 constexpr LineEnd no_end = static_cast<LineEnd>(-1);
 
-/// The first of the points at the place of each.
+/// Returns the first point at the position of each point.
 std::vector<Index> first_there(std::span<const double> points) {
   double extent = 0.0;
   for (std::size_t k = 0; k < points.size(); ++k) {
@@ -48,7 +48,7 @@ std::vector<Index> first_there(std::span<const double> points) {
   return first;
 }
 
-/// Lines and how they go on.
+/// Lines and their continuation in other lines.
 class LineChains {
  public:
   LineChains(std::span<const double> points, std::span<const Index> lines) : points_(points) {
@@ -69,7 +69,7 @@ class LineChains {
     for (const auto& [point, ends] : meeting) join(ends);
   }
 
-  /// Open curves first: a closed one has no end to begin at.
+  /// Follows open curves first, because a closed curve has no end.
   std::vector<std::vector<Vector3>> follow_all() {
     std::vector<std::vector<Vector3>> curves;
     std::vector<bool> used(ends_.size() / 2, false);
@@ -89,13 +89,13 @@ class LineChains {
     return fmt::format("({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[2]);
   }
 
-  /// Cosine of the angle by which a way turns that comes along one line and leaves along another.
+  /// Returns the cosine of the turn from one line into another.
   double turn(LineEnd in, LineEnd out) const {
     const Vector3 a = minus(place(in), place(in ^ 1)), b = minus(place(out ^ 1), place(out));
     return dot(a, b) / (norm(a) * norm(b));
   }
 
-  /// Joins the ends that meet in a point by pairs, the straightest first.
+  /// Joins the ends that meet in a point in pairs, the straightest pair first.
   void join(const std::vector<LineEnd>& ends) {
     if (ends.size() > most_meeting) {
       throw std::invalid_argument(fmt::format("has {} lines that meet at ", ends.size()) +
@@ -125,7 +125,7 @@ class LineChains {
 
   std::vector<Vector3> follow(LineEnd begin, std::vector<bool>& used) const {
     std::vector<Vector3> curve = {place(begin)};
-    double along = 0.0;  // length of the lines that run this way, less that of others
+    double along = 0.0;  // length of the lines in this direction minus length of the others
     for (LineEnd end = begin; end != no_end && !used[end / 2]; end = next_[end ^ 1]) {
       used[end / 2] = true;
       const Vector3 point = place(end ^ 1);
@@ -146,8 +146,8 @@ class LineChains {
   }
 
   std::span<const double> points_;
-  std::vector<Index> ends_;    ///< point per end of a line
-  std::vector<LineEnd> next_;  ///< end of another line that each end goes on in
+  std::vector<Index> ends_;    ///< point of each end of a line
+  std::vector<LineEnd> next_;  ///< end of the line that continues each end
 };
 
 }  // namespace

@@ -7,14 +7,16 @@
 
 namespace perilink {
 
-/// The curves that lines join up to, by their corners [length]: points in a straight line are left
-/// out, and a closed curve ends where it begins. Where two lines meet the curve goes on; where more
-/// do, as bars that cross, those that are straightest go on in each other, then two that are left.
-/// A curve runs the way that most of its lines run, and begins there; curves stand in the order of
-/// their first lines, open ones before closed ones. Points at the same place are one point.
+/// Returns curves that the lines form, by their corners [length].
+/// - Points on a straight line are omitted; a closed curve ends at its first point.
+/// - Where two lines meet, the curve continues. Where more meet, as at crossing bars, the
+///   straightest pairs continue, then the last two left.
+/// - A curve has the direction of most of its lines' length.
+/// - Curves have the order of their first lines, open before closed ones.
+/// - Points at one position are one point.
 /// \param points  shape (points, 3) [length]
-/// \param lines   ends, shape (lines, 2); those without a length are left out
-/// \throws std::invalid_argument where two lines have the same ends, or very many meet in a point
+/// \param lines   ends, shape (lines, 2); lines without length are ignored
+/// \throws std::invalid_argument if two lines have equal ends, or more than 100 meet in a point
 std::vector<std::vector<Vector3>> curves_of(std::span<const double> points,
                                             std::span<const Index> lines);
 

@@ -11,11 +11,11 @@
 namespace perilink {
 namespace {
 
-/// Cells may reach into each other by this part of the smaller one's longest edge. Meshes are
-/// written with 16 digits, those of single precision with 7.
+/// Allowed penetration of two cells over the smaller cell's longest edge. Meshes are written with
+/// 16 digits, in single precision with 7.
 constexpr double contact = 1e-6;
 
-/// Axes across two edges that are parallel to this sine have no direction.
+/// Edges with a smaller sine of their angle count as parallel and give no axis.
 constexpr double parallel = 1e-9;
 
 using Cell = CellCorners;
@@ -24,13 +24,14 @@ Cell cell_at(const Simplices& cells, std::span<const double> positions, Index nu
   return {positions, cells.dim, cells.cell(number)};
 }
 
-/// Whether the shadows of two cells on an axis overlap by no more than the tolerance.
+/// Returns whether the projections of two cells on an axis overlap by at most the tolerance.
 bool separates(const Vector3& axis, double length, const Cell& a, const Cell& b, double tolerance) {
   double lower[2] = {INFINITY, INFINITY}, upper[2] = {-INFINITY, -INFINITY};
   for (int side = 0; side < 2; ++side) {
     const Cell& cell = side == 0 ? a : b;
     for (int k = 0; k < cell.count; ++k) {
-      // From a corner: round-off then belongs to the size of the cells, not to where they are.
+      // Relative to a corner, so that round-off scales with the size of the cells, not their
+      // position.
       const double x = dot(axis, minus(cell.at[k], a.at[0]));
       lower[side] = std::min(lower[side], x);
       upper[side] = std::max(upper[side], x);
@@ -65,8 +66,8 @@ bool separated_across_edges(const Cell& a, const Cell& b, double tolerance) {
   return false;
 }
 
-/// Two convex bodies are apart exactly where an axis normal to a side of one, or in space to an
-/// edge of each, separates them (Gottschalk, Lin & Manocha 1996).
+/// Tests the axes normal to a side of one body or, in space, to an edge of each. Two convex bodies
+/// overlap if none of these axes separates them (Gottschalk, Lin & Manocha 1996).
 bool overlap(const Cell& a, const Cell& b) {
   const double tolerance = contact * std::min(a.size, b.size);
   if (separated_by_side(a, a, b, tolerance) || separated_by_side(b, a, b, tolerance)) return false;
@@ -80,7 +81,8 @@ bool touch(const Box& a, const Box& b) {
   return true;
 }
 
-/// Boxes around halves of halves of the cells. A grid would suffer where cells differ in size.
+/// Tree of bounding boxes by bisection of the cells. A grid would be slow for cells of different
+/// sizes.
 class CellTree {
  public:
   explicit CellTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {

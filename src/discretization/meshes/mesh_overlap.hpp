@@ -11,22 +11,22 @@
 
 namespace perilink {
 
-/// Looks for cells that share area or volume by more than round-off: parts meshed apart that lie in
-/// one another, a part that winds round into itself, cells written twice with other corners. Parts
-/// that touch, and cracks between corners written twice, are no overlap.
+/// Finds two cells that share area or volume beyond round-off. Causes are parts meshed separately
+/// that penetrate each other, a part that overlaps itself, and cells written twice with other
+/// corners. Touching parts and cracks between duplicate corners are no overlap.
 ///
-/// Where the cells lie properly on both sides of all faces, any overlap reaches to a face of the
-/// surface from inside: the number of cells over a point changes only there. So the cells at the
-/// surface are compared with all others, and those within are not.
+/// Only cells at the surface are compared with all others. Where cells lie on both sides of every
+/// inner face, the number of cells over a point changes only at the surface. Every overlap
+/// therefore reaches a surface face from inside.
 /// \param cells      positively oriented
 /// \param positions  shape (particles, dim) [length]
 /// \param faces      sides of the cells
-/// \return the first two cells that overlap, ascending
+/// \return first two cells that overlap, ascending; empty if there are none
 std::optional<std::array<Index, 2>> find_overlap(const Simplices& cells,
                                                  std::span<const double> positions,
                                                  const CellFaces& faces);
 
-/// The same of a mesh, whichever way round its cells run.
+/// Returns the first two cells of a mesh that overlap; cells may have any orientation.
 std::optional<std::array<Index, 2>> find_overlap(const Mesh& mesh);
 
 }  // namespace perilink

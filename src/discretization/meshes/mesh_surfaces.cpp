@@ -9,10 +9,10 @@
 namespace perilink {
 namespace {
 
-/// Where neighbours meet: a point, or the edge between two points.
+/// Shared border of neighbouring sides: a point, or the edge between two points.
 using Rim = std::array<Index, 2>;
 
-/// A side at a rim: whether it begins there, or runs from the smaller to the larger point.
+/// Side at a rim; `first`: it begins there, or runs from the smaller to the larger point.
 struct Flank {
   std::size_t side;
   bool first;

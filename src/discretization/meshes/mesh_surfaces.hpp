@@ -6,8 +6,8 @@
 
 namespace perilink {
 
-/// Turns lines of the plane, or triangles in space, so that neighbours go on in the same way, each
-/// connected piece as its first one does. Where more than two meet none goes on.
+/// Gives lines in the plane, or triangles in space, a consistent orientation within each connected
+/// piece, given by its first side. Pieces end where more than two sides meet.
 /// \param sides  corners, shape (sides, dim)
 void turn_alike(std::vector<Index>& sides, int dim);
 

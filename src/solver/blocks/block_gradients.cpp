@@ -16,7 +16,7 @@ namespace {
 
 constexpr int width = block_width;
 
-/// Small matrices between the vectors of two blocks.
+/// Small matrix of products between the vectors of two blocks.
 using Square = std::array<BlockRow, width>;
 
 Square times(const Square& a, const Square& b) {
@@ -41,13 +41,13 @@ Row<Number>& at(Number* numbers) {
   return *reinterpret_cast<Row<Number>*>(numbers);
 }
 
-/// sum += a'b of some rows; parts of the sum have the digits of the numbers, the sum of the parts
-/// has more.
+/// Computes sum += a'b over some rows. Partial sums have the precision of the numbers, the sum of
+/// the parts is in double precision.
 template <class Number>
 void add_gram(std::span<const Number> a, std::span<const Number> b, std::size_t begin,
               std::size_t end, Square& sum) {
   constexpr std::size_t part = 256;
-  // Sums stay in registers, of which there are 16, and 32 of the longest ones.
+  // Sums stay in registers: there are 16, or 32 of the longest ones.
   constexpr int registers = register_bytes == 64 ? 16 : 8;
   constexpr int together = registers / static_cast<int>(Row<Number>::count);
   for (std::size_t past = begin; begin < end; begin = past) {
@@ -65,7 +65,7 @@ void add_gram(std::span<const Number> a, std::span<const Number> b, std::size_t 
   }
 }
 
-/// Sums of the parts of vectors.
+/// Sums over the parts of vectors.
 struct PartSums {
   std::array<Square, most_parts> parts{};
 
@@ -80,10 +80,10 @@ struct PartSums {
   }
 };
 
-/// Numbers of a block from which on threads pay.
+/// Least numbers of a block for which threads save time.
 constexpr std::size_t many_numbers = 16 * 12'000;
 
-/// Calls work(part, begin, end) for parts of the numbers of a block.
+/// Calls work(part, begin, end) for the parts of a block.
 template <class Work>
 void for_each_part(std::size_t numbers, Work work) {
   const std::size_t parts = numbers < many_numbers ? 1 : most_parts, rows = numbers / width;
@@ -93,7 +93,7 @@ void for_each_part(std::size_t numbers, Work work) {
   }
 }
 
-/// Rows of a small matrix, ready to be added to those of blocks.
+/// Rows of a small matrix, by which rows of blocks are multiplied.
 template <class Number>
 class Shares {
  public:
@@ -104,7 +104,7 @@ class Shares {
       rows_[c] = at(row.data());
     }
   }
-  /// Row of a block times the matrix.
+  /// Returns the row of a block times the matrix.
   Row<Number> operator()(const Number* row) const {
     Row<Number> sum = row[0] * rows_[0];
     for (int c = 1; c < width; ++c) sum += row[c] * rows_[c];
@@ -115,10 +115,11 @@ class Shares {
   Row<Number> rows_[width];
 };
 
-/// Inverse of p'A p between directions p that differ, zero for others and where there are none.
-/// \param same   what is left of a direction of length one, square, where it counts as one that is
-///               made of others
-/// \param sides  p'r: what is left to do along each direction
+/// Returns the inverse of p'A p for linearly independent directions p; zeros for the other
+/// directions.
+/// \param same   least squared remainder of a direction of unit length, below which it depends
+///     linearly on others
+/// \param sides  p'r, whose columns are right sides of the steps
 Square inverse_of(const Square& matrix, const Square& sides, double same) {
   constexpr double negative = -1e-3;
   const auto require = [](bool positive) {
@@ -136,7 +137,7 @@ Square inverse_of(const Square& matrix, const Square& sides, double same) {
     }
   }
   std::array<bool, width> taken{};
-  for (int step = 0; step < width; ++step) {  // the direction that differs most from those taken
+  for (int step = 0; step < width; ++step) {  // next: the direction most independent of those taken
     int next = -1;
     for (int c = 0; c < width; ++c) {
       require(taken[c] || left[c][c] >= negative);
@@ -164,7 +165,7 @@ Square inverse_of(const Square& matrix, const Square& sides, double same) {
   return left;
 }
 
-/// The largest error of all, each as it counts.
+/// Returns the largest error over the square root of its size.
 double largest(const BlockRow& sizes, auto error_of) {
   double result = 0.0;
   for (int c = 0; c < width; ++c) {
@@ -173,12 +174,12 @@ double largest(const BlockRow& sizes, auto error_of) {
   return result;
 }
 
-/// Root of r'z, near the error, as it counts.
+/// Returns the largest square root of r'z over its size, an estimate of the error.
 double left_by(const Square& rz, const BlockRow& sizes) {
   return largest(sizes, [&](int c) { return std::sqrt(std::max(rz[c][c], 0.0)); });
 }
 
-/// A step along the directions: solution += p steps, right -= q steps. \return p'right then
+/// Takes a step along the directions: solution += p steps, right -= q steps. \return new p'right
 template <class Number>
 Square take_step(std::span<const Number> p, std::span<const Number> q, const Square& steps,
                  std::span<Number> solution, std::span<Number> right) {
@@ -198,7 +199,7 @@ Square take_step(std::span<const Number> p, std::span<const Number> q, const Squ
   return sides.sum();
 }
 
-/// p <- z - p shares
+/// Computes p <- z - p shares.
 template <class Number>
 void renew(std::span<Number> p, std::span<const Number> z, const Square& shares) {
   const Shares<Number> share(shares);
@@ -217,14 +218,14 @@ Square transposed(const Square& matrix) {
   return result;
 }
 
-/// a -= b
+/// Computes a -= b.
 void subtract(Square& a, const Square& b) {
   for (int i = 0; i < width; ++i) {
     for (int j = 0; j < width; ++j) a[i][j] -= b[i][j];
   }
 }
 
-/// What conjugate gradients ask of residuals r, z behind the preconditioner and products q.
+/// Products of residuals r, preconditioned residuals z, directions p and their products q.
 struct Products {
   Square pr, rz, qz;
 };
@@ -241,7 +242,7 @@ void find_products(const BlockMap<Number>& precondition, std::span<const Number>
   products.qz = qz.sum();
 }
 
-/// q = A p. \return p'A p
+/// Computes q = A p. \return p'A p
 template <class Number>
 Square find_energies(const BlockMap<Number>& product, std::span<const Number> p,
                      std::span<Number> q) {
@@ -252,7 +253,7 @@ Square find_energies(const BlockMap<Number>& product, std::span<const Number> p,
   return sums.sum();
 }
 
-/// What a step adds to the energy of every solution.
+/// Records the energy that a step adds to every solution.
 void add_gains(const Square& sides, const Square& steps, std::array<EnergyGains, width>& gains) {
   for (int c = 0; c < width; ++c) {
     double gained = 0.0;
@@ -261,7 +262,8 @@ void add_gains(const Square& sides, const Square& steps, std::array<EnergyGains,
   }
 }
 
-/// A residual so small, counted as an error, is none even where the body is soft.
+/// Least estimated error over the allowed one; smaller residuals count as zero, also in soft
+/// bodies.
 constexpr double gone = 1e-3;
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Combinations of many columns by BLAS. Not with the kernels of blocks: matrices of Eigen are laid
-// out otherwise in files for this processor alone.
+// Combines many columns by BLAS. This file is separate from the block kernels, because Eigen's
+// matrices have another layout in files compiled for this processor only.
 
 #include <Eigen/Core>
 #include <algorithm>

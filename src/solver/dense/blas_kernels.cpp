@@ -19,7 +19,7 @@ void use_fitting_kernels() {
   using CoreName = const char* (*)();
   using Call = void (*)();
   auto* name = reinterpret_cast<CoreName>(dlsym(RTLD_DEFAULT, "openblas_get_corename"));
-  // It chooses anew where it has forgotten what it chose as it was loaded.
+  // It chooses again after its first choice is discarded.
   auto* forget = reinterpret_cast<Call>(dlsym(RTLD_DEFAULT, "gotoblas_dynamic_quit"));
   auto* choose = reinterpret_cast<Call>(dlsym(RTLD_DEFAULT, "gotoblas_dynamic_init"));
   if (name == nullptr || forget == nullptr || choose == nullptr) return;

@@ -4,18 +4,20 @@
 
 namespace perilink {
 
-/// Kernels of OpenBLAS for a processor that it does not know: it then takes those of 2004, which
-/// factorise 2.5 times slower. Empty: those that it has taken are good.
-/// \param taken  name of those that it has taken
+/// Returns the name of better OpenBLAS kernels for a processor that OpenBLAS does not recognise;
+/// empty if its choice is good. On unknown processors it uses kernels of 2004, which factorise 2.5
+/// times slower.
+/// \param taken  name of the chosen kernels
 const char* fitting_kernels(std::string_view taken, bool has_avx2, bool has_avx512);
 
-/// Has OpenBLAS take these kernels, unless OPENBLAS_CORETYPE names some. Nobody may be in it.
+/// Makes OpenBLAS use the better kernels, unless OPENBLAS_CORETYPE is set. No thread may be in
+/// OpenBLAS.
 void use_fitting_kernels();
 
-/// Threads that may be in OpenBLAS at once: beyond them it runs out of buffers and destroys the
-/// heap.
+/// Returns the largest number of threads that may be in OpenBLAS at once. More threads exhaust its
+/// buffers and corrupt the heap.
 int most_blas_threads();
-/// The limit that a description of OpenBLAS names; without one, none that matters.
+/// Returns the limit in a description of OpenBLAS; the largest int without one.
 int most_blas_threads(std::string_view config);
 
 }  // namespace perilink

@@ -30,16 +30,15 @@ namespace {
 
 using Eigen::MatrixXd;
 
-/// Added to the diagonal relative to its mean, so that matrices that resist some vectors not at all
-/// have a factor.
+/// Addition to the diagonal over its mean, so that singular matrices have a factor.
 constexpr double shift = 1e-6;
-/// Vectors twice as stiff as a limit of 0.003 are left with 3e-8 of what the softest ones have.
+/// Leaves 3e-8 of the softest vectors' size to vectors twice as stiff as a limit of 0.003.
 constexpr int inverse_iterations = 2;
-/// Where more than this part of the vectors is below the limit there may be others.
+/// If a larger part of the vectors is below the limit, there may be more such vectors.
 constexpr double full = 0.9;
 
-/// OpenBLAS splits sums by its number of threads, which would make results depend on it: one
-/// thread. Other BLAS libraries lack the function; the reference BLAS has one thread anyway.
+/// Sets OpenBLAS to one thread, because it splits sums by its number of threads and results would
+/// depend on it. Other BLAS libraries lack the function; the reference BLAS has one thread.
 void use_one_blas_thread() {
   using SetThreads = void (*)(int);
   if (auto* set = reinterpret_cast<SetThreads>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))) {
@@ -47,8 +46,9 @@ void use_one_blas_thread() {
   }
 }
 
-/// OpenBLAS takes a buffer for each thread that is in it when it is first used, and where there is
-/// no room it asks for ever: taken here once, they are kept. \return for how many threads
+/// Makes OpenBLAS allocate its buffers once; it keeps them. OpenBLAS allocates one for each thread
+/// at first use and retries forever if memory is full.
+/// \return number of threads with a buffer
 int take_blas_buffers(int threads) {
   static int taken = 0;
   using Take = void* (*)(int);
@@ -59,7 +59,7 @@ int take_blas_buffers(int threads) {
   constexpr std::size_t size = std::size_t{128} << 20;
   std::vector<void*> buffers;
   for (int k = 0; k < threads; ++k) {
-    // Those that were taken before come first.
+    // Buffers allocated before come first.
     if (k >= taken) {
       void* room = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
       if (room == MAP_FAILED) break;
@@ -73,7 +73,7 @@ int take_blas_buffers(int threads) {
   return taken;
 }
 
-/// Numbers from -1 to 1, the same ones on every machine.
+/// Returns random numbers from -1 to 1, equal on every machine.
 MatrixXd numbers_at_random(int rows, int columns) {
   std::mt19937 random(1);
   return MatrixXd::NullaryExpr(rows, columns,
@@ -84,7 +84,7 @@ void check(int info) {
   if (info != 0) throw SolverError("eigenvectors of a dense matrix were not found");
 }
 
-/// Replaces the columns by orthonormal ones of the same span.
+/// Replaces the columns by orthonormal columns with the same span.
 void orthonormalize(MatrixXd& columns) {
   const int m = static_cast<int>(columns.rows()), n = static_cast<int>(columns.cols());
   const int work_size = 64 * n;
@@ -96,7 +96,7 @@ void orthonormalize(MatrixXd& columns) {
   check(info);
 }
 
-/// a b, or a' b.
+/// Returns a b or a' b.
 MatrixXd product(const MatrixXd& a, bool transposed, const MatrixXd& b) {
   const int m = static_cast<int>(transposed ? a.cols() : a.rows());
   const int n = static_cast<int>(b.cols()), k = static_cast<int>(b.rows());
@@ -108,7 +108,7 @@ MatrixXd product(const MatrixXd& a, bool transposed, const MatrixXd& b) {
   return result;
 }
 
-/// columns = (L L')^-1 columns.
+/// Computes columns = (L L')^-1 columns.
 void solve(const MatrixXd& lower, MatrixXd& columns) {
   const int n = static_cast<int>(lower.rows()), count = static_cast<int>(columns.cols());
   const double one = 1.0;

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// Routines of BLAS and LAPACK, by their Fortran names: matrices are stored column after column.
-/// prepare_blas() comes first.
+/// Routines of BLAS and LAPACK by their Fortran names. Matrices are stored by columns.
+/// prepare_blas() must be called first.
 
 extern "C" {
 void dgemm_(const char* trans_a, const char* trans_b, const int* m, const int* n, const int* k,

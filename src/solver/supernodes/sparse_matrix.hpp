@@ -9,15 +9,15 @@
 
 namespace perilink {
 
-/// Symmetric matrix; only the lower triangle is stored.
+/// Symmetric matrix, stored as its lower triangle.
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, Index>;
 
-/// Adds the numbers of a column of the lower triangle of a matrix to zeros: that of row r to
-/// values[place[r]]. May be called by several threads at once.
+/// Adds a column of the matrix's lower triangle to `values`, which hold zeros: the number of row r
+/// to values[place[r]]. Several threads may call it at once.
 using AddColumn =
     std::function<void(Index column, std::span<const Index> place, std::span<double> values)>;
 
-/// The columns of a matrix that is stored.
+/// Returns a function that adds columns of a stored matrix.
 inline AddColumn columns_of(const SparseMatrix& lower) {
   return [&lower](Index column, std::span<const Index> place, std::span<double> values) {
     for (SparseMatrix::InnerIterator entry(lower, column); entry; ++entry) {

@@ -19,19 +19,18 @@
 namespace perilink {
 namespace {
 
-/// Rows of a supernode that are worked on together, and columns: enough for BLAS to be fast, few
-/// enough for threads to share.
+/// Rows and columns processed together: enough for fast BLAS, few enough to occupy all threads.
 constexpr Index tile_rows = 512, panel_columns = 256;
-/// Operations below which starting threads costs more than it saves.
+/// Operations below which starting threads takes longer than it saves.
 constexpr double least_shared = 1e7;
 
-/// Rows [first, last) of a supernode pull at the columns of a later one, and all from `first` on at
-/// its rows.
+/// Contribution of a source supernode to a later one: rows [first, last) to its columns, all rows
+/// from `first` on to its rows.
 struct Pull {
   Index source, first, last;
 };
 
-/// c = beta c + alpha a b', c of shape (m, n).
+/// Computes c = beta c + alpha a b', c of shape (m, n).
 void multiply(int m, int n, int k, double alpha, const double* a, int lda, const double* b, int ldb,
               double beta, double* c, int ldc) {
   dgemm_("N", "T", &m, &n, &k, &alpha, a, &lda, b, &ldb, &beta, c, &ldc);
@@ -41,7 +40,7 @@ void multiply(int m, int n, int k, float alpha, const float* a, int lda, const f
   sgemm_("N", "T", &m, &n, &k, &alpha, a, &lda, b, &ldb, &beta, c, &ldc);
 }
 
-/// Lower triangle of c -= a a', a of shape (n, k), all with the same leading dimension.
+/// Computes the lower triangle of c -= a a', a of shape (n, k), with one leading dimension.
 void subtract_square(int n, int k, const double* a, double* c, int rows) {
   const double minus_one = -1.0, one = 1.0;
   dsyrk_("L", "N", &n, &k, &minus_one, a, &rows, &one, c, &rows);
@@ -51,7 +50,7 @@ void subtract_square(int n, int k, const float* a, float* c, int rows) {
   ssyrk_("L", "N", &n, &k, &minus_one, a, &rows, &one, c, &rows);
 }
 
-/// Factorises a block of the diagonal. \return its first column that fails, from 1; 0: none
+/// Factorises a diagonal block. \return its first failing column, from 1; 0: success
 int factorize_dense(int n, double* a, int rows) {
   int info = 0;
   dpotrf_("L", &n, a, &rows, &info);
@@ -63,7 +62,7 @@ int factorize_dense(int n, float* a, int rows) {
   return info;
 }
 
-/// b = b a^-T, a the factor of a block of the diagonal and b of shape (m, n) below it.
+/// Computes b = b a^-T; a is the factor of a diagonal block, b of shape (m, n) lies below it.
 void divide(int m, int n, const double* a, double* b, int rows) {
   const double one = 1.0;
   dtrsm_("R", "L", "T", "N", &m, &n, &one, a, &rows, b, &rows);
@@ -82,11 +81,12 @@ class Factorization {
 
  private:
   using Node = Supernode<Number>;
-  /// What a thread needs for itself.
+  /// Memory of one thread.
   struct Workspace {
-    std::vector<Index> place;  ///< per row of the matrix: its own number in the supernode at hand
+    std::vector<Index> place;           ///< per row of the matrix: number in the current supernode
     std::unique_ptr<Number[]> product;  ///< shape (tile_rows, widest supernode)
-    std::vector<double> column;         ///< in double precision where the factor is not
+    std::vector<double> column;         ///< a column in double precision if the factor is in single
+                                        ///< precision
   };
   Node supernode(Index s) const { return supernode_of(factor_, values_[s], s); }
   void find_pulls();
@@ -135,7 +135,7 @@ Factorization<Number>::Factorization(const AddColumn& add, const cholmod_factor&
   }
 }
 
-/// Pulls in the order of their sources.
+/// Finds the contributions to every supernode, in the order of their sources.
 template <class Number>
 void Factorization<Number>::find_pulls() {
   const auto for_each_target = [&](Index s, auto visit) {
@@ -160,7 +160,7 @@ void Factorization<Number>::find_pulls() {
   }
 }
 
-/// What its columns and those that pull at them take.
+/// Returns operations for a supernode's columns and the contributions to them.
 template <class Number>
 double Factorization<Number>::operations(Index s) const {
   const Node node = supernode(s);
@@ -198,7 +198,7 @@ Index Factorization<Number>::run() {
     }
     failed = std::min(failed, column);
   }
-  // Where something has failed, what comes before it is there, and may fail yet.
+  // After a failure only supernodes before the failed column are complete; they may fail too.
   for (auto s = cut_.top.rbegin(); s != cut_.top.rend(); ++s) {
     if (supernode(*s).first >= failed) break;
     failed = std::min(failed, compute(*s, 0, operations(*s) < least_shared ? 1 : threads_));
@@ -206,9 +206,9 @@ Index Factorization<Number>::run() {
   return failed;
 }
 
-/// \param thread   that calls
-/// \param threads  that share the work, from the first one on
-/// \return the column at which the matrix is not positive definite; n where it is
+/// \param thread   number of the calling thread
+/// \param threads  threads that share the work, from the first one
+/// \return column at which the matrix is not positive definite; n if it is
 template <class Number>
 Index Factorization<Number>::compute(Index s, int thread, int threads) {
   const Node node = supernode(s);
@@ -228,7 +228,7 @@ Index Factorization<Number>::compute(Index s, int thread, int threads) {
   return factorize_columns(node, threads);
 }
 
-/// The numbers of the matrix, zeros between them.
+/// Stores a column of the matrix, with zeros between its numbers.
 template <class Number>
 void Factorization<Number>::place_matrix(const Node& node, Index column,
                                          std::span<const Index> place,
@@ -246,8 +246,8 @@ void Factorization<Number>::place_matrix(const Node& node, Index column,
   }
 }
 
-/// Takes what a source pulls with from rows [begin, end) of a supernode. What is above the diagonal
-/// is never read.
+/// Subtracts a source's contribution from rows [begin, end) of a supernode. Numbers above the
+/// diagonal are never read.
 template <class Number>
 void Factorization<Number>::pull(const Node& node, const Pull& pull, Index begin, Index end,
                                  const std::vector<Index>& place, Number* product) const {
@@ -281,7 +281,7 @@ void Factorization<Number>::pull(const Node& node, const Pull& pull, Index begin
   }
 }
 
-/// The supernode as a dense matrix, panel after panel.
+/// Factorises the supernode as a dense matrix, one panel after another.
 template <class Number>
 Index Factorization<Number>::factorize_columns(const Node& node, int threads) const {
   for (Index begin = 0; begin < node.columns; begin += panel_columns) {

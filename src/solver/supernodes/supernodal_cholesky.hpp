@@ -8,16 +8,15 @@
 
 namespace perilink {
 
-/// The numbers of a supernodal factor L L' whose pattern CHOLMOD has analysed: left-looking,
-/// supernode by supernode (Ng & Peyton 1993). Threads share the independent subtrees of the
-/// elimination tree, and above these the rows of large supernodes. Which pieces there are depends
-/// on the pattern alone, and each is computed by one thread: any number of threads gives the same
-/// bytes.
-/// \param add     the matrix, which need not be stored
-/// \param values  where those of each supernode go, in double or single precision, shape (count,
-///                columns) each
-/// \throws SolverError  where there is no memory
-/// \return the first column at which the matrix is not positive definite; n where it is
+/// Computes a supernodal factor L L' on the pattern that CHOLMOD has analysed: left-looking, one
+/// supernode after another (Ng & Peyton 1993). Threads share the independent subtrees of the
+/// elimination tree and, above these, the rows of large supernodes. The division depends only on
+/// the pattern, and each piece is computed by one thread. Any number of threads therefore gives
+/// identical bytes.
+/// \param add     columns of the matrix, which need not be stored
+/// \param values  output per supernode in double or single precision, shape (count, columns) each
+/// \throws SolverError if memory is too small
+/// \return first column at which the matrix is not positive definite; n if it is
 template <class Number>
 Index factorize_supernodes(const AddColumn& add, const cholmod_factor& factor,
                            std::span<Number* const> values, int threads);

@@ -7,8 +7,8 @@
 namespace perilink::supernodal {
 namespace {
 
-/// Columns worked on together: each pass over `local` serves this many columns, and this many
-/// streams of L are what the prefetchers of current processors follow.
+/// Columns processed together: one pass over `local` serves all of them. Prefetchers of current
+/// processors follow this number of streams.
 constexpr Index width = 8;
 
 template <class Number>
@@ -16,7 +16,7 @@ Number* column(Number* block, Index rows, Index j) {
   return block + static_cast<std::size_t>(j) * rows;
 }
 
-/// local[r] -= sum of p_k l_k[r], r from `from`, for `width` columns at c.
+/// Computes local[r] -= sum of p_k l_k[r] for r >= from and `width` columns at c.
 template <class Number>
 void eliminate_panel(const Number* c, Index rows, Index from, const double* p, double* local) {
   const Number *c0 = c, *c1 = c0 + rows, *c2 = c1 + rows, *c3 = c2 + rows;
@@ -30,7 +30,7 @@ void eliminate_panel(const Number* c, Index rows, Index from, const double* p, d
   }
 }
 
-/// sums[k] = sum over rows from `from` of l_k[r] local[r], for `width` columns at c.
+/// Computes sums[k] = sum over r >= from of l_k[r] local[r] for `width` columns at c.
 template <class Number>
 void dot_panel(const Number* c, Index rows, Index from, const double* local, double* sums) {
   const Number *c0 = c, *c1 = c0 + rows, *c2 = c1 + rows, *c3 = c2 + rows;
@@ -46,7 +46,7 @@ void dot_panel(const Number* c, Index rows, Index from, const double* local, dou
   sums[4] = s4, sums[5] = s5, sums[6] = s6, sums[7] = s7;
 }
 
-/// dot_panel, and for each column, last one first: l += beta w; w += p l (the old l).
+/// Adds to dot_panel() for each column, the last one first: l += beta w; w += p l (the old l).
 void dot_and_change_panel(double* c, Index rows, Index from, const double* p, const double* b,
                           const double* local, double* w, double* sums) {
   double *c0 = c, *c1 = c0 + rows, *c2 = c1 + rows, *c3 = c2 + rows;
@@ -76,15 +76,15 @@ void dot_and_change_panel(double* c, Index rows, Index from, const double* p, co
   sums[4] = s4, sums[5] = s5, sums[6] = s6, sums[7] = s7;
 }
 
-/// Columns that a change by several vectors takes at once: each vector is read once for so many.
+/// Columns that several vectors change at once, so that each vector is read once for all of them.
 constexpr Index change_width = 4;
 
-/// What a column of a panel takes from each vector, and gives to it.
+/// Coefficients of a panel's column for each vector.
 struct ChangeFactors {
   double p[most_together], beta[most_together];
 };
 
-/// For each vector, columns one after the other: w -= p l; l += beta w. Rows from `from`.
+/// For each vector and one column after another: w -= p l; l += beta w. Rows from `from`.
 void change_panel(double* c, Index rows, Index from, const ChangeFactors* factors, Index count,
                   double* w) {
   constexpr Index in_register = lanes_of<double>(8);
@@ -117,7 +117,7 @@ void change_panel(double* c, Index rows, Index from, const ChangeFactors* factor
   }
 }
 
-/// One vector changes column j, in rows up to `end`. \return false where d does not stay positive
+/// Changes column j by one vector, in rows up to `end`. \return false if d does not stay positive
 bool change_column(double* l, Index j, Index end, double* w, double& sigma, double& p,
                    double& beta) {
   p = w[j];
