@@ -134,7 +134,7 @@ template <class Visit>
 void CalibrationEquations::for_each_share(Visit visit) const {
   const double scale = dim_ == 2 ? share_scale_in_plane : share_scale_in_space;
   for (Index f = 0; f < facets_.size(); ++f) {
-    if (facets_.is_glued(f)) continue;
+    if (facets_.is_tied(f)) continue;
     const Index begin = facets_.corners.offsets[f];
     const bool edge = facets_.corners.offsets[f + 1] - begin == 2;
     const double part = edge ? 1.0 : 0.5;  // corners of triangles take part in two transfers

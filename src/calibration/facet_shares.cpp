@@ -117,7 +117,7 @@ class Part {
   Eigen::MatrixXd gradient(const RigidMotions& motions, Index f) const {
     Eigen::MatrixXd work = works(motions, f);
     work.colwise() -= work.rowwise().mean().eval();
-    if (facets_.is_glued(f)) work.setZero();
+    if (facets_.is_tied(f)) work.setZero();
     return work;
   }
 

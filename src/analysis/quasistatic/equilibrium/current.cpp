@@ -141,7 +141,7 @@ void Equilibrium::judge_columns(std::span<const double> missing,
                                 std::span<const double> correction) {
   const double error = std::inner_product(missing.begin(), missing.end(), correction.begin(), 0.0);
   // Written so that an energy that is not a number is too large.
-  if (!(error <= most_drift * most_drift * 2.0 * internal_.energy)) subdomains_->forget();
+  if (!(error <= most_drift * most_drift * 2.0 * internal_.energy)) subdomains_->clear();
 }
 
 /// Removes errors of columns from the displacements.

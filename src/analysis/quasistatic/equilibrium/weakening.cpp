@@ -167,7 +167,7 @@ void Equilibrium::commit(const Removal& removal, Index element, double secant) {
     if (constant_) move_constant(removal);
     factor_->downdate(removal.vectors(), removal.load_changes(), removal.pivots(), solution_);
   }
-  if (subdomains_ != nullptr && secant == 0.0) subdomains_->let_go(removal.vectors());
+  if (subdomains_ != nullptr && secant == 0.0) subdomains_->evict(removal.vectors());
   scatter_current();
   if (constant_) scatter_constant();
   stale_ = partial_;

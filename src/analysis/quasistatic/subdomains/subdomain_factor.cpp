@@ -12,39 +12,8 @@
 namespace perilink {
 namespace {
 
-constexpr std::size_t fewest_blocks = 64 / block_width;
-
-/// Iterations of a block over the first block's, above which the subdomains are made anew.
-constexpr double slower = 1.3;
-
 /// Pivots below which the cache is cleared.
 constexpr double small_pivot = 0.1;
-
-/// Error of columns over the error of solutions. An event moves the body little, and every check
-/// removes the error that is left.
-constexpr double coarser = 100.0;
-
-/// Memory of the cache, except for the fewest blocks [bytes].
-constexpr double most_bytes = 4e9;
-
-/// Age of evicted columns, above the number of calls in a run.
-constexpr int let_go_after = 1 << 30;
-
-std::size_t blocks_of(std::size_t columns) { return (columns + block_width - 1) / block_width; }
-
-/// Returns s if x = s held, else 0.
-double share_of(const SparseVector& x, const SparseVector& held) {
-  constexpr double same = 1e-14;
-  if (x.rows != held.rows) return 0.0;
-  const auto largest =
-      std::ranges::max_element(held.values, {}, [](double value) { return std::abs(value); });
-  const double at = x.values[static_cast<std::size_t>(largest - held.values.begin())];
-  const double share = at / *largest;
-  for (int k = 0; k < x.size(); ++k) {
-    if (!(std::abs(x.values[k] - share * held.values[k]) <= same * std::abs(at))) return 0.0;
-  }
-  return share;
-}
 
 }  // namespace
 
@@ -63,7 +32,7 @@ void SubdomainFactor::begin(const Unknowns& unknowns, Secants secants,
   expected_.clear();
   place_of_.assign(static_cast<std::size_t>(unknowns.count), no_index);
   window_.clear();
-  forget();
+  clear();
   make_solver();
 }
 
@@ -88,229 +57,6 @@ void SubdomainFactor::solve(std::span<const double> rhs, std::span<double> solut
 
 void SubdomainFactor::correct(std::vector<double>& residual, double energy) {
   energy > 0.0 ? solver_->correct(residual, residual, energy) : solver_->solve(residual, residual);
-}
-
-/// Returns the vector as a combination of cached vectors, if it is one.
-auto SubdomainFactor::parts_of(const SparseVector& x) const -> std::optional<std::vector<Part>> {
-  std::vector<Part> parts;
-  for (int k = 0; k < x.size(); ++k) {
-    const Index place = place_of_[x.rows[k]];
-    if (place == no_index) break;
-    parts.push_back({place, x.values[k] / window_[place].values[0]});
-  }
-  if (parts.size() == x.rows.size()) return parts;
-  for (std::size_t place = 0; place < window_.size(); ++place) {
-    const double share = share_of(x, window_[place]);
-    if (share != 0.0) return std::vector<Part>{{static_cast<Index>(place), share}};
-  }
-  return span_.parts_of(x);
-}
-
-void SubdomainFactor::forget() {
-  std::ranges::fill(place_of_, no_index);
-  span_.clear();
-  window_.clear();
-  used_.clear();
-  blocks_.clear();
-  shares_.resize(0, 0);
-  compliance_.resize(0, 0);
-}
-
-void SubdomainFactor::let_go(std::span<const SparseVector> x) {
-  for (std::size_t place = 0; place < window_.size(); ++place) {
-    const auto is_here = [&](const SparseVector& gone) {
-      return share_of(gone, window_[place]) != 0.0;
-    };
-    if (std::ranges::any_of(x, is_here)) used_[place] = now_ - let_go_after;
-  }
-}
-
-/// Frees half of the blocks. The columns used last are stored with their present values.
-void SubdomainFactor::keep_latest() {
-  const std::size_t kept = std::min(blocks_.size() / 2 * block_width, window_.size());
-  std::vector<Eigen::Index> places(window_.size());
-  std::iota(places.begin(), places.end(), 0);
-  std::stable_sort(places.begin(), places.end(),
-                   [&](Eigen::Index a, Eigen::Index b) { return used_[a] > used_[b]; });
-  places.resize(kept);
-  const std::size_t columns = blocks_of(kept) * block_width;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> shares =
-      Eigen::MatrixXd::Zero(shares_.rows(), static_cast<Eigen::Index>(columns));
-  shares.leftCols(static_cast<Eigen::Index>(kept)) = shares_(Eigen::all, places);
-  recombine(blocks_, {shares.data(), static_cast<std::size_t>(shares.size())});
-  compliance_ = Eigen::MatrixXd(compliance_(places, places));
-  shares_ = Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(columns),
-                                      static_cast<Eigen::Index>(kept));
-  const std::vector<SparseVector> window = std::move(window_);
-  const std::vector<int> used = std::move(used_);
-  window_.clear();
-  used_.clear();
-  span_.clear();
-  std::ranges::fill(place_of_, no_index);
-  for (const Eigen::Index place : places) put_in_window(window[place], used[place]);
-}
-
-std::size_t columns_of_window(std::size_t components, const SubdomainSolverOptions& options) {
-  const double bytes = 8.0 * static_cast<double>(components) * block_width;
-  const auto wanted = static_cast<std::size_t>(options.window);
-  const auto room = static_cast<std::size_t>(most_bytes / bytes);
-  return block_width * std::max(fewest_blocks, std::min(room, blocks_of(wanted)));
-}
-
-void SubdomainFactor::put_in_window(const SparseVector& x, int used) {
-  const auto place = static_cast<Index>(window_.size());
-  if (x.size() == 1) place_of_[x.rows[0]] = place;
-  span_.add(x, place);
-  window_.push_back(x);
-  used_.push_back(used);
-}
-
-std::vector<SparseVector> SubdomainFactor::missing_of(std::span<const SparseVector> x) const {
-  std::vector<SparseVector> missing;
-  std::ranges::copy_if(x, std::back_inserter(missing),
-                       [&](const SparseVector& column) { return !holds(column); });
-  return missing;
-}
-
-/// Loads missing and expected vectors into the cache.
-void SubdomainFactor::hold(std::span<const SparseVector> x, Correction* correction) {
-  const std::vector<SparseVector> missing = missing_of(x);
-  if (missing.empty()) return;
-  ++now_;
-  for (const SparseVector& column : x) {
-    for (const Index unknown : column.rows) {
-      if (place_of_[unknown] != no_index) used_[place_of_[unknown]] = now_;
-    }
-  }
-  const std::size_t reserved = correction != nullptr ? 1 : 0;
-  std::vector<SparseVector> chosen = choose(missing, reserved);
-  if ((blocks_.size() + blocks_of(chosen.size())) * block_width >
-      columns_of_window(unknowns_->number.size(), options_)) {
-    keep_latest();
-    chosen = choose(missing_of(x), reserved);  // some may have been evicted
-  }
-  const std::span<const SparseVector> all(chosen);
-  for (std::size_t begin = 0; begin < all.size(); begin += block_width) {
-    const std::size_t count = std::min<std::size_t>(block_width, all.size() - begin);
-    take_in(all.subspan(begin, count), count < block_width ? correction : nullptr);
-  }
-}
-
-bool SubdomainFactor::hold_and_correct(std::span<const SparseVector> x,
-                                       std::vector<double>& residual, double energy) {
-  Correction correction{residual, energy};
-  hold(x, &correction);
-  return correction.is_done;
-}
-
-/// Returns missing and, where blocks have room, expected vectors. For elements that carry moments
-/// it returns unknowns, as combinations of their vectors are requested.
-/// \param reserved  columns of the last block to leave free if possible
-std::vector<SparseVector> SubdomainFactor::choose(const std::vector<SparseVector>& missing,
-                                                  std::size_t reserved) const {
-  std::vector<SparseVector> chosen;
-  VectorSpan span = span_;
-  const auto list = [&](const SparseVector& x) {
-    const auto is_same = [&](const SparseVector& other) { return share_of(x, other) != 0.0; };
-    if (holds(x) || std::ranges::any_of(chosen, is_same) || span.parts_of(x)) return;
-    span.add(x, static_cast<Index>(window_.size() + chosen.size()));
-    chosen.push_back(x);
-  };
-  const auto list_what_it_needs = [&](const SparseVector& x) {
-    if (!network_.carries_moments()) return list(x);
-    for (const Index unknown : x.rows) list({{unknown}, {1.0}});
-  };
-  std::ranges::for_each(missing, list_what_it_needs);
-  const std::size_t room =
-      std::max(chosen.size(), blocks_of(chosen.size()) * block_width - reserved);
-  for (const SparseVector& x : expected_) {
-    if (chosen.size() < room) list_what_it_needs(x);
-  }
-  if (chosen.size() > room) chosen.resize(room);
-  return chosen;
-}
-
-/// Solves for columns and appends them to the cache.
-void SubdomainFactor::take_in(std::span<const SparseVector> x, Correction* correction) {
-  const auto before = static_cast<Eigen::Index>(window_.size());
-  const auto size = before + static_cast<Eigen::Index>(x.size());
-  const double enough = coarser * options_.tolerance;
-  double size_of_last = 0.0;
-  if (correction != nullptr && correction->energy > 0.0) {
-    const double wanted = options_.tolerance * SubdomainSolver::finer;
-    size_of_last = correction->energy * (wanted / enough) * (wanted / enough);
-  }
-  fill_right_sides(x, correction);
-  blocks_.emplace_back(right_.size());
-  const int iterations =
-      solver_->solve_block(right_, blocks_.back(), enough, size_of_last).iterations;
-  if (first_iterations_ == 0) first_iterations_ = iterations;
-  if (iterations > slower * first_iterations_) make_solver();
-  columns_solved_ += static_cast<Index>(x.size());
-  for (std::size_t k = 0; correction != nullptr && k < slot_of_.size(); ++k) {
-    correction->residual[k] =
-        std::exchange(blocks_.back()[slot_of_[k] * block_width + block_width - 1], 0.0);
-    correction->is_done = true;
-  }
-  for (const SparseVector& column : x) put_in_window(column, now_);
-
-  // Positions in the cache skip unused columns of a block, which stay zero.
-  const auto first_column = static_cast<Eigen::Index>((blocks_.size() - 1) * block_width);
-  Eigen::MatrixXd shares = Eigen::MatrixXd::Zero(first_column + block_width, size);
-  shares.topLeftCorner(shares_.rows(), before) = shares_;
-  shares.block(first_column, before, size - before, size - before).setIdentity();
-  shares_ = std::move(shares);
-  compliance_.conservativeResize(size, size);
-  compliance_.rightCols(size - before) =
-      on_columns(window_, blocks_.size() - 1).leftCols(size - before);
-  mirror_compliance(before);
-}
-
-/// Returns x'y for vectors x and the columns y of a block.
-Eigen::MatrixXd SubdomainFactor::on_columns(std::span<const SparseVector> x,
-                                            std::size_t block) const {
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(x.size()), block_width);
-  for (Eigen::Index w = 0; w < result.rows(); ++w) {
-    for (int m = 0; m < x[w].size(); ++m) {
-      const double* row = blocks_[block].data() + slot_of_[x[w].rows[m]] * block_width;
-      for (Eigen::Index c = 0; c < block_width; ++c) result(w, c) += x[w].values[m] * row[c];
-    }
-  }
-  return result;
-}
-
-/// Completes the compliance of the columns from `before` on by symmetry.
-void SubdomainFactor::mirror_compliance(Eigen::Index before) {
-  const Eigen::Index count = compliance_.cols() - before;
-  compliance_.bottomLeftCorner(count, before) =
-      compliance_.topRightCorner(before, count).transpose();
-  const Eigen::MatrixXd own = compliance_.bottomRightCorner(count, count);
-  compliance_.bottomRightCorner(count, count) = 0.5 * (own + own.transpose());
-}
-
-void SubdomainFactor::fill_right_sides(std::span<const SparseVector> x,
-                                       const Correction* correction) {
-  right_.assign(unknowns_->number.size() * block_width, 0.0);
-  for (std::size_t c = 0; c < x.size(); ++c) {
-    for (int k = 0; k < x[c].size(); ++k) {
-      right_[slot_of_[x[c].rows[k]] * block_width + c] = x[c].values[k];
-    }
-  }
-  for (std::size_t k = 0; correction != nullptr && k < slot_of_.size(); ++k) {
-    right_[slot_of_[k] * block_width + block_width - 1] = correction->residual[k];
-  }
-}
-
-/// Returns the weights of cached vectors in a vector.
-Eigen::VectorXd SubdomainFactor::in_window(const SparseVector& x) {
-  Eigen::VectorXd d = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(window_.size()));
-  ++now_;
-  const std::vector<Part> parts = parts_of(x).value();
-  for (const auto& [place, share] : parts) {
-    d[place] += share;
-    used_[place] = now_;
-  }
-  return d;
 }
 
 /// Returns the blocks times weights, per unknown.
@@ -375,12 +121,12 @@ void SubdomainFactor::downdate(std::span<const SparseVector> x,
   }
   for (std::size_t a = 0; a < x.size(); ++a) change(in_window(x[a]), pivots[a], 1.0);
   // Errors of columns grow in proportion to the motions.
-  if (std::ranges::any_of(pivots, [](double pivot) { return pivot < small_pivot; })) forget();
+  if (std::ranges::any_of(pivots, [](double pivot) { return pivot < small_pivot; })) clear();
 }
 
 void SubdomainFactor::follow(std::vector<double>& residual, double energy) {
   constexpr double many_more = 1.5;
-  if (!window_.empty()) forget();
+  if (!window_.empty()) clear();
   const int before = solver_->iterations();
   correct(residual, energy);
   const int iterations = solver_->iterations() - before;

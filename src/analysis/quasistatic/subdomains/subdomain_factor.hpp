@@ -49,9 +49,9 @@ class SubdomainFactor final : public Factor {
   /// subdomains are made anew if the number of iterations has grown much.
   void follow(std::vector<double>& residual, double energy);
   /// Marks vectors of failed elements: they are evicted first when the cache is full.
-  void let_go(std::span<const SparseVector> x);
+  void evict(std::span<const SparseVector> x);
   /// Clears the cache, for example after too many changes. Columns are then solved for on request.
-  void forget();
+  void clear();
 
   void factorize(const SparseMatrix& matrix, std::span<const Index> groups) override;
   void refactorize(const SparseMatrix& matrix) override;

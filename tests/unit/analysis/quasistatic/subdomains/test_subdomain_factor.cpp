@@ -192,7 +192,7 @@ TEST(SubdomainFactor, HoldsWhatOthersMakeUp) {
   EXPECT_NEAR((1.0 - subdomains.pivot(sum)) / (1.0 - by_itself.pivot(sum)), 1.0, closeness);
   EXPECT_EQ(subdomains.columns_solved(), 2);
   // Nor does one that would be made up of what is solved for beside it.
-  by_itself.forget();
+  by_itself.clear();
   by_itself.hold(std::vector{first, second, sum});
   EXPECT_EQ(by_itself.columns_solved(), 1 + 2);
   EXPECT_TRUE(by_itself.holds(sum));
@@ -217,7 +217,7 @@ TEST(SubdomainFactor, ColumnsThatNobodyAsksForGoFirst) {
     held.push_back(x);
     if (held.size() % block_width != 0) continue;
     subdomains.hold(std::span(held).last(block_width));
-    subdomains.let_go(std::span(held).last(block_width - waiting));
+    subdomains.evict(std::span(held).last(block_width - waiting));
   }
   ASSERT_EQ(held.size(), 5u * block_width);
   // The fifth block found the window full: half of it stayed.
