@@ -6,16 +6,15 @@
 #include "calibration/bond_equations.hpp"
 #include "calibration/calibration_input.hpp"
 
-/// \file How far a body is from balance, and how far its bonds are from their start: what
-/// CalibrationReport tells.
+/// \file Forces out of balance and changes of the bonds for the CalibrationReport.
 
 namespace perilink {
 
-/// Forces and moments out of balance above this are told to the user, and have no solution with the
-/// floors of all bonds. Round-off leaves up to 1e-8 along boundaries of some hundred spacings.
+/// Forces and moments out of balance above this are reported to the user, and are infeasible with
+/// the floors of all bonds. Round-off leaves up to 1e-8 along boundaries of some hundred spacings.
 inline constexpr double met_balance = 1e-7;
 
-/// What forces and moments out of balance are measured by, from the stiffnesses at the start.
+/// Scales of forces and moments out of balance, from the stiffnesses at the start.
 struct ParticleScales {
   std::vector<double> modulus;  ///< 1/2 sum k xi^2 of each particle [force length]
   std::vector<double> length;   ///< mean xi of each particle [length]

@@ -8,14 +8,15 @@
 
 #include "base/error.hpp"
 #include "calibration/balance_measure.hpp"
-#include "calibration/balance_search.hpp"
-#include "calibration/calibration_cost.hpp"
+#include "calibration/bond_sample.hpp"
+#include "calibration/calibration_solver.hpp"
 #include "calibration/facet_shares.hpp"
+#include "calibration/local_environments.hpp"
 
 namespace perilink {
 namespace {
 
-/// Numbers of those that are marked.
+/// Numbers of the marked entries.
 std::vector<Index> marked(const std::vector<std::uint8_t>& marks) {
   std::vector<Index> numbers;
   for (std::size_t k = 0; k < marks.size(); ++k) {
@@ -24,7 +25,7 @@ std::vector<Index> marked(const std::vector<std::uint8_t>& marks) {
   return numbers;
 }
 
-/// Forces of the whole body, and weights of its free bonds, into the report.
+/// Writes the forces of the whole body and the weights of its free bonds to the report.
 /// \param start  stiffnesses before the calibration
 void measure_all(const CalibrationInput& input, const Facets& facets, const BondStiffness& start,
                  const BondStiffness& found, double least_weight, CalibrationReport& report) {
@@ -37,13 +38,13 @@ void measure_all(const CalibrationInput& input, const Facets& facets, const Bond
   report_weights(marked(input.free), found.axial, start.axial, least_weight, report);
 }
 
-/// Bonds that lie alike are made alike: a problem whose size hardly depends on that of the body.
-/// \param drops_first  whether what must vanish was worth dropping
-/// \return what was reached in the whole body, none where it has no exact solution
+/// Solves the symmetry-reduced problem, whose size hardly depends on the size of the body.
+/// \param presolves  whether dropping variables that are fixed at zero reduced the forces
+/// \return report of the whole body; none where no exact solution was found
 std::optional<CalibrationReport> calibrate_alike(const CalibrationInput& input,
                                                  const CalibrationOptions& options,
                                                  const Facets& facets, const BondOrbits& orbits,
-                                                 BondStiffness& stiffness, bool& drops_first) {
+                                                 BondStiffness& stiffness, bool& presolves) {
   const OrbitSample sample =
       sample_orbits(orbits, input.particles.size(), input.bonds, input.free, stiffness);
   CalibrationReport report;
@@ -51,9 +52,9 @@ std::optional<CalibrationReport> calibrate_alike(const CalibrationInput& input,
   try {
     const CalibrationInput part{input.particles, sample.bonds, input.materials, sample.free,
                                 input.box};
-    BalanceSearch search(part, options, facets, sample.stiffness, &sample.orbits, true);
-    report = search.run(alike_budget(input, orbits, !stiffness.bending.empty()));
-    drops_first = search.drops_first();
+    CalibrationSolver search(part, options, facets, sample.stiffness, &sample.orbits, true);
+    report = search.run();
+    presolves = search.presolves();
     sampled = search.result().stiffness;
   } catch (const SolverError&) {  // no factor: rows that depend on others, or no memory
     return std::nullopt;
@@ -67,10 +68,10 @@ std::optional<CalibrationReport> calibrate_alike(const CalibrationInput& input,
   return report;
 }
 
-/// Every bond by itself.
+/// Solves the unreduced problem.
 CalibrationReport calibrate_singly(const CalibrationInput& input, const CalibrationOptions& options,
-                                   Facets& facets, BondStiffness& stiffness, bool drops_first) {
-  BalanceSearch search(input, options, facets, stiffness, nullptr, drops_first);
+                                   Facets& facets, BondStiffness& stiffness, bool presolves) {
+  CalibrationSolver search(input, options, facets, stiffness, nullptr, presolves);
   const CalibrationReport report = search.run();
   CalibrationEquations::State found = search.result();
   stiffness = std::move(found.stiffness);
@@ -78,15 +79,26 @@ CalibrationReport calibrate_singly(const CalibrationInput& input, const Calibrat
   return report;
 }
 
-/// Free bonds and all others at their ends: the equations ask for nothing else.
+/// Bonds beside the free ones stay out of the equations where half of all bonds can: a copy of more
+/// would take more memory than it saves.
+bool leaves_out_half(const CalibrationInput& input) {
+  const std::vector<std::uint8_t> ends = mark_ends(input.bonds, input.free, input.particles.size());
+  Index met = 0;
+  for (Index b = 0; b < input.bonds.size(); ++b) {
+    met += ends[input.bonds.first[b]] || ends[input.bonds.second[b]];
+  }
+  return met > 0 && met <= input.bonds.size() / 2;
+}
+
+/// Solves for the free bonds. The equations need the other bonds at their ends and no others.
 CalibrationReport calibrate_free(const CalibrationInput& input, const CalibrationOptions& options,
-                                 Facets& facets, BondStiffness& stiffness, bool drops_first) {
+                                 Facets& facets, BondStiffness& stiffness, bool presolves) {
   BondSample sample = sample_bonds(mark_ends(input.bonds, input.free, input.particles.size()),
                                    input.bonds, input.free, stiffness);
   CalibrationInput part{input.particles, sample.bonds, input.materials, std::move(sample.free)};
   part.give_up = input.give_up;
   BondStiffness found = std::move(sample.stiffness);
-  const CalibrationReport report = calibrate_singly(part, options, facets, found, drops_first);
+  const CalibrationReport report = calibrate_singly(part, options, facets, found, presolves);
   sample.put_back(found, stiffness);
   return report;
 }
@@ -100,15 +112,16 @@ CalibrationReport calibrate_bonds(const CalibrationInput& input, const Calibrati
   balance_shares(facets, input.particles.positions,
                  connected_parts(input.bonds, input.particles.size()), lambda);
   if (stiffness.inflection.empty()) stiffness.inflection.assign(stiffness.bending.size(), 0.5);
-  bool drops_first = true;
-  if (const auto orbits = alike_bonds(input, facets, stiffness)) {
-    if (auto report = calibrate_alike(input, options, facets, *orbits, stiffness, drops_first)) {
+  bool presolves = true;
+  if (const auto orbits = equivalent_bonds(input, facets, stiffness)) {
+    if (auto report = calibrate_alike(input, options, facets, *orbits, stiffness, presolves)) {
       return *report;
     }
   }
   if (input.only_alike) return {};
-  return meets_few(input) ? calibrate_free(input, options, facets, stiffness, drops_first)
-                          : calibrate_singly(input, options, facets, stiffness, drops_first);
+  return !input.all_free() && leaves_out_half(input)
+             ? calibrate_free(input, options, facets, stiffness, presolves)
+             : calibrate_singly(input, options, facets, stiffness, presolves);
 }
 
 }  // namespace perilink

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "calibration/least_change/equations/variable_parts.hpp"
+#include "calibration/bounded_least_squares/equations/variable_parts.hpp"
 #include "calibration/surface_columns.hpp"
 #include "discretization/point_boxes.hpp"
 
@@ -16,7 +16,8 @@ constexpr double most_weight = 100.0;
 constexpr Index points_in_a_row = 8;
 constexpr double round_off = 1e-12;
 
-/// Energies of dilatation are soft equations: squares weigh 1 / ridge against those of the changes.
+/// Energies of dilatation are soft equations: their squares weigh 1 / ridge against the squares of
+/// the changes.
 /// In space the forces beside them are a little soft too: at edges and corners positive weights
 /// often cannot do both.
 constexpr double dilatation_ridge = 0.003;
@@ -25,19 +26,19 @@ constexpr double forces_ridge_in_space = 1e-4;
 /// A change of a share by this costs as much as doubling the stiffness of a bond. Little, so that
 /// shares move only where stiffnesses cannot do it (by 0.3 at corners whose edges differ
 /// threefold): where they move freely the displacements of coarse plates with a hole are up to
-/// twice as far off. In space less makes the search slow.
+/// twice as far off. In space a smaller scale makes the solution slow.
 constexpr double share_scale_in_plane = 0.01, share_scale_in_space = 0.1;
 /// Every corner keeps this much of its facets.
 constexpr double least_share = 0.05;
 
-/// Least couples over those at the start at the two ends of a bond that hangs from the surface; of
-/// other bonds zero. At corners and edges all bonds lie on one side of the axes, and only couples
-/// that are all exactly zero would be in balance if none could change its sign: the search would
-/// have no room. The bending stiffness, their sum, stays positive, with the inflection within one
-/// length of the bond.
+/// Least couples over their start at the two ends of a bond with one end on the surface; zero for
+/// other bonds. At corners and edges all bonds lie on one side of the axes. Without a change of
+/// sign only couples that are all exactly zero would be in balance, and the interior would be
+/// empty. The bending stiffness, their sum, stays positive, with the inflection within one length
+/// of the bond.
 constexpr double least_couple_at_surface = -0.2, least_couple_below = 0.4;
 
-/// Couples that have fallen to zero can come back by steps of this part of what they were.
+/// Couples that have fallen to zero can grow by steps of this part of their start.
 constexpr double least_couple_scale = 0.1;
 
 }  // namespace
@@ -259,11 +260,11 @@ std::vector<double> CalibrationEquations::out_of_balance() const {
                                input_.particles.size());
 }
 
-/// Right sides of forces and moments; that of the dilatation is left to the caller.
+/// Sets the right sides of forces and moments. The caller sets the right side of the dilatation.
 void CalibrationEquations::set_right_sides(PointEquations& equations) const {
   const std::size_t rows = static_cast<std::size_t>(equations.rows);
   const std::size_t known = static_cast<std::size_t>(forces_.count());
-  // What the bonds that stay leave to be done: the rest, and what the variables carry now.
+  // Forces out of balance, and the present forces of the variables.
   const std::vector<double> rest = out_of_balance();
   for (const Index i : particle_of_) {
     for (std::size_t r = 0; r < rows; ++r) {

@@ -8,29 +8,29 @@
 #include "calibration/balance_measure.hpp"
 #include "calibration/bond_equations.hpp"
 #include "calibration/bond_orbits.hpp"
+#include "calibration/bounded_least_squares/equations/point_equations.hpp"
 #include "calibration/calibration_input.hpp"
-#include "calibration/least_change/equations/point_equations.hpp"
 #include "discretization/facets.hpp"
 
 namespace perilink {
 
-/// What a calibration may change, how far it has come, and the equations for the next step.
-/// Variables are the axial stiffness of the free bonds, for micropolar ones the couples at their
-/// two ends, and, where all bonds are free, the shares that corners have in their facets.
+/// State of a calibration, its variables, and the equations of the next step. Variables are the
+/// axial stiffness of the free bonds, for micropolar ones the couples at their two ends, and, where
+/// all bonds are free, the shares that corners have in their facets.
 class CalibrationEquations {
  public:
   /// \param least_weight  floor of the axial stiffness, relative to the start
   /// \param stiffness     start of the calibration
-  /// \param orbits        bonds that change alike; only their representatives are asked for
-  ///                      balance. None: all particles are
+  /// \param orbits        symmetry-equivalent bonds, which change by the same weight; only the
+  ///                      representatives have equations. None: all particles have
   CalibrationEquations(const CalibrationInput& input, double least_weight, const Facets& facets,
                        const BondStiffness& stiffness, const BondOrbits* orbits = nullptr);
 
-  /// Forces and moments in balance at every particle, in every uniform strain, exactly (moments
-  /// until soften_moments()).
+  /// Exact equations of forces and moments at every particle in every uniform strain (moments until
+  /// soften_moments()).
   PointEquations balance() const { return make_equations(forces_); }
-  /// The same with the energies of dilatation of particles inside and of columns under the
-  /// surface, softly.
+  /// Equations of forces and moments with soft equations for the energies of dilatation of
+  /// particles inside and of columns under the surface.
   PointEquations settling() const;
   /// From now on moments are soft equations beside the exact forces.
   void soften_moments() { moments_ridge_ = soft_ridge; }
@@ -39,24 +39,23 @@ class CalibrationEquations {
 
   /// Forces and moments out of balance, into the report (balance_measure.hpp).
   void report_balance(CalibrationReport& report) const;
-  /// The same for the weights of the free bonds.
+  /// Weights of the free bonds, into the report.
   void report_weights(CalibrationReport& report) const;
 
   /// Takes the floor from the bonds of particles that are out of balance by more than the limit.
   /// \return whether there was a floor to take
   bool allow_zero(double limit);
-  /// Takes bonds that have fallen to zero out of the equations: no finite multiplier makes a weight
-  /// exactly zero, it only brings it nearer.
-  void drop_vanishing();
-  /// The same for bonds that no search has to find: those of an equation whose right side is zero
-  /// and to which no bond can contribute with the other sign. At the corner of a cube these are all
-  /// that point inside from its faces. From the start only. \return whether there were any
-  bool drop_what_must_vanish();
+  /// Drops bonds that have fallen to zero: no finite multiplier makes a weight exactly zero.
+  void drop_zero_weights();
+  /// Presolve from the start: drops the bonds of an equation whose right side is zero and to which
+  /// no bond can contribute with the other sign. At the corner of a cube these are all bonds that
+  /// point inside from its faces. \return whether there were any
+  bool drop_fixed_at_zero();
   Index num_points() const { return static_cast<Index>(particle_of_.size()); }
   Index num_free() const { return static_cast<Index>(free_bonds_.size()); }
   Index num_dropped() const { return num_free() - static_cast<Index>(kept_.size()); }
   /// Whether a particle has lost more than half of its bonds.
-  bool hollow() const;
+  bool underconstrained() const;
 
   /// Stiffnesses and shares: a state to come back to.
   struct State {

@@ -6,7 +6,7 @@
 
 #include <Eigen/Dense>
 
-#include "calibration/least_change/killing_fields.hpp"
+#include "calibration/bounded_least_squares/killing_fields.hpp"
 #include "discretization/facet_geometry.hpp"
 
 namespace perilink {
@@ -113,7 +113,7 @@ class Part {
     return result;
   }
 
-  /// That of the work with the corners' shares, which change without changing their sum.
+  /// Gradient of the work by the corners' shares, whose sum is constant.
   Eigen::MatrixXd gradient(const RigidMotions& motions, Index f) const {
     Eigen::MatrixXd work = works(motions, f);
     work.colwise() -= work.rowwise().mean().eval();

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "calibration/least_change/least_change.hpp"
+#include "calibration/bounded_least_squares/bounded_least_squares.hpp"
 
 namespace perilink {
 namespace {
@@ -85,9 +85,9 @@ void make_isotropic(int dim, std::span<const Vector3> offsets, double volume,
   equations.right.resize(row.size());
   rows.right(volume, constants, equations.right.data());
   equations.scale.assign(row.size(), 1.0 / modulus);
-  LeastChangeOptions options;
+  LeastSquaresOptions options;
   options.tolerance = 1e-14;
-  const LeastChange change = least_change(equations, options);
+  const LeastSquaresResult change = bounded_least_squares(equations, options);
   if (change.residual > 1e-12) {
     throw std::invalid_argument(
         "the neighbours within the horizon are too few, or too one-sided, for an isotropic solid");

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <random>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "calibration/least_change/equations/variable_parts.hpp"
+#include "calibration/bounded_least_squares/equations/variable_parts.hpp"
 
 namespace perilink::test {
 
@@ -28,6 +29,35 @@ inline Eigen::VectorXd apply_system(const PointEquations& equations,
     for_each_entry([&](Index k, double value) { result[k] += active[v] * stretch * value; });
   }
   return result;
+}
+
+/// Variables between points in space at random, every sixth at a bound. The last five act at one end
+/// only in the rows that are not odd.
+/// \param grouped        the last row holds for groups of points
+/// \param active_weight  of the variables, appended
+inline PointEquations random_equations(Index points, int rows, int odd, bool grouped,
+                                       std::vector<double>& active_weight) {
+  std::mt19937 random(5);  // fixed: the same equations in every run
+  const auto number = [&] { return static_cast<double>(random()) / 4294967296.0 - 0.5; };
+  PointEquations equations;
+  equations.dim = 3;
+  equations.rows = rows;
+  equations.odd = odd;
+  equations.right.assign(static_cast<std::size_t>(points * rows), 0.0);
+  for (std::size_t k = 0; k < equations.right.size(); ++k) {
+    equations.scale.push_back(1.0 + number());
+  }
+  for (Index k = 0; k < 3 * points; ++k) equations.positions.push_back(number());
+  for (Index p = 0; grouped && p < points; ++p) equations.group.push_back(p % 3 == 0 ? p : p / 2);
+  const Index variables = 12 * points;
+  for (Index v = 0; v < variables; ++v) {
+    equations.first.push_back(v % points);
+    equations.second.push_back((v + 1 + v % 5) % points);
+    active_weight.push_back(v % 6 == 0 ? 0.0 : 0.5 + number());
+    for (int r = 0; r < rows; ++r) equations.coefficients.push_back(number());
+  }
+  equations.one_ended = variables - 5;
+  return equations;
 }
 
 /// Returns equations of one point with two weights.

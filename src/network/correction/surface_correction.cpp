@@ -7,7 +7,7 @@
 
 #include "base/timer.hpp"
 #include "calibration/calibration.hpp"
-#include "calibration/calibration_cost.hpp"
+#include "calibration/expected_calibration.hpp"
 #include "network/bond_strength.hpp"
 #include "network/correction/layered_body.hpp"
 #include "network/correction/tied_strength.hpp"
@@ -251,8 +251,7 @@ void Correction::calibrate(bool give_up) {
   // What single bonds lose or gain from here on is no measure of their strength.
   if (!input_.elastic) network_.bending_ratio = own_bending_ratios(network_);
   if (input_.estimates_cost) {
-    const BondStiffness start{network_.stiffness, network_.bending, {}};
-    network_.calibration = expected_calibration(calibration, network_.facets, start);
+    network_.calibration = expected_calibration(calibration, micropolar());
   } else if (!input_.draft) {
     balance(calibration);
     network_.calibration->seconds = timer.seconds();

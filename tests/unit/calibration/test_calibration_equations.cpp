@@ -8,7 +8,7 @@
 #include <random>
 #include <utility>
 
-#include "calibration/least_change/equations/variable_parts.hpp"
+#include "calibration/bounded_least_squares/equations/variable_parts.hpp"
 #include "discretization/lattices/lattice.hpp"
 #include "discretization/lattices/make_body.hpp"
 #include "support/calibration_problem.hpp"
@@ -174,12 +174,12 @@ TEST(CalibrationEquations, DropWhatMayVanishAndTakeItBack) {
   std::vector<double> weights(static_cast<std::size_t>(present.num_variables()), 1.0);
   weights[3] = 0.0;
   equations.apply(weights);
-  equations.drop_vanishing();
+  equations.drop_zero_weights();
   EXPECT_EQ(equations.balance().num_variables(), present.num_variables() - 3);
   equations.start_over();
   EXPECT_EQ(equations.save().stiffness.axial[3], 0.0);
   EXPECT_EQ(equations.save().stiffness.bending[3], 0.0);
-  EXPECT_FALSE(equations.hollow());
+  EXPECT_FALSE(equations.underconstrained());
   equations.take_all_back();
   EXPECT_EQ(equations.balance().num_variables(), present.num_variables());
   EXPECT_EQ(equations.save().stiffness.axial, square.stiffness.axial);

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "base/types.hpp"
+#include "calibration/bounded_least_squares/subdomain_modes.hpp"
+#include "solver/factor.hpp"
+
+namespace perilink {
+
+/// A symmetric matrix of the modes of subdomains, by its blocks.
+struct SubdomainMatrix {
+  std::vector<Index> first;                    ///< where each subdomain begins, and the end of all
+  std::vector<std::pair<Index, Index>> pairs;  ///< subdomains (a, b), a <= b, ascending
+  std::vector<Eigen::MatrixXd> blocks;         ///< per pair, shape (modes of b, modes of a)
+
+  Index num_subdomains() const { return static_cast<Index>(first.size()) - 1; }
+  Index size(Index box) const { return first[box + 1] - first[box]; }
+  /// \param a, b  subdomains in any order
+  bool has(Index a, Index b) const;
+  Eigen::MatrixXd& block(Index a, Index b);
+  const Eigen::MatrixXd& block(Index a, Index b) const;
+};
+
+/// Solves the coarse system P' S P of the modes of all subdomains. A factor solves it where there
+/// are few subdomains. A factor of many would take longer than the rest of an iteration: they are
+/// gathered in aggregates, whose near-null-space modes P2 have a factor beside the blocks D of the
+/// single subdomains, D^-1 + P2 (P2' A P2)^-1 P2'.
+class CoarseSystem {
+ public:
+  /// The aggregate of a subdomain.
+  static Index large_box(Index box) { return box / boxes_of_large; }
+  static bool is_nested(Index num_subdomains) { return num_subdomains > most_in_factor; }
+
+  /// \param matrix  of all variables
+  /// \param inside  of the variables inside aggregates; read by the first nested factorisation
+  void factorize(const SubdomainMatrix& matrix, const SubdomainMatrix& inside);
+  bool has_fields() const { return !fields_.empty(); }
+
+  /// \param values  right side and solution, shape (modes)
+  void solve(std::span<double> values) const;
+
+ private:
+  static constexpr Index boxes_of_large = 8, most_in_factor = 128;
+
+  void find_fields(const SubdomainMatrix& matrix, const SubdomainMatrix& inside);
+  static SubdomainModes near_null_modes(Index large, const SubdomainMatrix& matrix,
+                                        const SubdomainMatrix& inside);
+  SubdomainMatrix of_large_boxes(const SubdomainMatrix& matrix) const;
+  void factorize_directly(const SubdomainMatrix& matrix);
+
+  std::vector<Index> first_;
+  /// Inverse of the lower factor of each subdomain's own block, transposed, where the system is
+  /// nested: its square is definite in single precision, too.
+  std::vector<SubdomainModes> roots_;
+  std::vector<SubdomainModes> fields_;  // per aggregate
+  std::vector<Index> first_large_;
+  std::vector<std::pair<Index, Index>> pairs_;  // those of the factor
+  std::unique_ptr<Factor> factor_;
+};
+
+}  // namespace perilink

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "calibration/bounded_least_squares/equations/point_equations.hpp"
+#include "calibration/bounded_least_squares/equations/point_matrix.hpp"
+#include "solver/factor.hpp"
+
+namespace perilink {
+
+/// Factor of the whole system A D A' + diagonal of bounded_least_squares(), for bodies and
+/// boundaries in the plane and for few variables.
+class EquationsFactor {
+ public:
+  /// The pattern, which does not depend on the weights.
+  explicit EquationsFactor(const PointEquations& equations);
+
+  /// Factorises for the same equations, again where their weights have changed.
+  /// \param active    per variable: its part in the system, from 0 to 1
+  /// \param diagonal  added to that of the system, shape (points, rows)
+  void factorize(const PointEquations& equations, const std::vector<double>& active,
+                 const std::vector<double>& diagonal);
+
+  /// result = S^-1 residual, both of shape (points, rows).
+  void solve(const std::vector<double>& residual, std::vector<double>& result) const;
+
+ private:
+  void fill(const PointEquations& equations, const std::vector<double>& active,
+            const std::vector<double>& diagonal, double floor);
+
+  int rows_;
+  PointMatrix matrix_;
+  std::unique_ptr<Factor> factor_;
+};
+
+}  // namespace perilink

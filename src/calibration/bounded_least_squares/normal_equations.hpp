@@ -1,0 +1,401 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "base/error.hpp"
+#include "calibration/bounded_least_squares/direction_search.hpp"
+#include "calibration/bounded_least_squares/equations/point_equations.hpp"
+#include "calibration/bounded_least_squares/equations/variable_parts.hpp"
+#include "calibration/bounded_least_squares/kept_preconditioner.hpp"
+#include "calibration/bounded_least_squares/packed_product.hpp"
+#include "calibration/bounded_least_squares/system_product.hpp"
+
+namespace perilink {
+
+/// The matrices A, A' and S = A D A' + ridge of bounded_least_squares() and conjugate gradients for
+/// S. A holds scaled equations by weights; the active-set weights D of the variables are between 0
+/// (at a bound) and 1.
+template <int Rows, int Odd, bool Grouped>
+class NormalEquations {
+ public:
+  using Vector = std::vector<double>;  // shape (points, Rows)
+
+  NormalEquations(const PointEquations& equations, const LeastSquaresOptions& options,
+                  KeptPreconditioner& kept)
+      : active_weight(static_cast<std::size_t>(equations.num_variables()), 1.0),
+        equations_(equations),
+        options_(options),
+        size_(equations.right.size()),
+        num_paired_(
+            static_cast<std::size_t>(std::min(equations.num_variables(), equations.one_ended))),
+        scaled_(size_),
+        kept_(kept),
+        by_factor_(options.preconditioner == Preconditioner::factor ||
+                   (options.preconditioner == Preconditioner::blocks_then_factor && kept.factor)),
+        // The first steps of an interior point have other fields: blocks serve better.
+        with_boxes_(options.preconditioner == Preconditioner::blocks_then_boxes && kept.boxes &&
+                    options.method == Method::newton) {
+    if (std::isfinite(options.penalty)) compliance.assign(size_, 0.0);
+    if (options.preconditioner == Preconditioner::blocks_then_boxes &&
+        PackedProduct::serves(equations)) {
+      packed_.emplace(equations);
+    }
+  }
+
+  void apply_transpose(const Vector& y, std::vector<double>& result);
+  void apply(const std::vector<double>& w, Vector& result) const;
+  double penalty() const { return options_.penalty; }
+  bool has_penalty(std::size_t k) const {
+    return std::isfinite(penalty()) && equations_.ridge_of(k % Rows) == 0.0;
+  }
+  /// Relaxation of equation k: the part of its multiplier y beyond the penalty.
+  double relaxation(std::size_t k, double y) const {
+    if (!has_penalty(k) || std::abs(y) <= penalty()) return 0.0;
+    return y > 0.0 ? y - penalty() : y + penalty();
+  }
+  /// Residual of the weights, less ridge times y and the relaxations.
+  void measure(const std::vector<double>& weights, const Vector& y, Vector& residual) const;
+  /// Makes the preconditioner for the present active-set weights. The factor of earlier ones stays
+  /// while it takes less time than a new one.
+  void prepare();
+  /// Makes the preconditioner, but keeps the factor of earlier active-set weights until it needs
+  /// too many iterations.
+  /// \param settled  the weights between their bounds are those of the last step
+  /// \param last     the step is to meet the equations
+  void prepare_if_stale(bool settled, bool last);
+  /// S direction = residual, the residual reduced by the factor. \return iterations
+  int solve(const Vector& residual, double reduction, Vector& direction);
+
+  std::vector<double> active_weight;
+  /// Compliance of exact equations, relaxation per unit of the multiplier, shape (points, Rows);
+  /// empty where no equation has a penalty.
+  Vector compliance;
+  /// Proximal regularisation, relative to equations of order one: infeasible residuals decay by
+  /// this factor over the smallest squared singular value in each step. 0: the least.
+  double regularisation = 0.0;
+
+ private:
+  using Block = Eigen::Matrix<double, Rows, Rows>;
+  static constexpr int own = Grouped ? Rows - 1 : Rows;  // rows that hold at each point
+
+  /// Least weights of the method of multipliers. Long waves along a boundary have singular values
+  /// that fall with the square of their length: a factor of the equations allows a smaller one.
+  static constexpr double least_regularisation = 1e-10;
+  static constexpr double factor_regularisation = 1e-18;
+  /// Residuals along long waves of unstructured particle sets take further steps: the last steps
+  /// have a smaller shift.
+  static constexpr double settled_regularisation = 1e-13;
+  /// Iterations that take about as long as a factor, and those of a solution that make it stale.
+  static constexpr int worth_of_factor = 15, stale_iterations = 40;
+  /// Iterations of a solution after which the coarse space is made, or gets other modes. Near-null
+  /// modes take the time of about 500 iterations of blocks alone, and serve several solutions; with
+  /// the modes of an earlier problem only the coarse system is made.
+  static constexpr int patience = 200, patience_with_fields = 100, stale_fields = 200;
+  /// The coarse system takes the time of about forty iterations.
+  static constexpr int stale_coarse = 80;
+  /// Blocks take the time of so many iterations.
+  static constexpr int cheap_iterations = 10;
+  /// From so many on threads share them, and forces are summed up in so many parts.
+  static constexpr std::size_t points_for_threads = 8000, parts_of_sums = 8;
+
+  template <class Values>
+  auto& last_row(Values& values, Index point) const {
+    return values[static_cast<std::size_t>(equations_.group[point]) * Rows + own];
+  }
+  bool threads_share() const { return packed_ && size_ / Rows > points_for_threads; }
+  void add_forces(const std::vector<double>& w, std::size_t begin, std::size_t end,
+                  Vector& result) const;
+  void find_direction(DirectionSearch& search);
+  bool iterate(DirectionSearch& search, int most);
+  void apply_system(const Vector& shift, const Vector& y, Vector& result);
+  void precondition(const Vector& residual, Vector& result) const;
+  /// Whether blocks work alone so far, although they may get help.
+  bool alone() const {
+    return !by_factor_ && !with_boxes_ && !boxes_failed_ &&
+           options_.preconditioner != Preconditioner::blocks;
+  }
+  void build_blocks();
+  template <class Make>
+  void use_boxes(Make make);
+  void renew_coarse();
+  void build_factor();
+  Vector diagonal() const;
+
+  const PointEquations& equations_;
+  const LeastSquaresOptions& options_;
+  std::size_t size_;
+  std::size_t num_paired_;  // variables that act at both ends in all rows
+  Vector scaled_;
+  std::vector<Block> inverse_blocks_;
+  KeptPreconditioner& kept_;
+  bool by_factor_;
+  bool with_boxes_;
+  bool boxes_failed_ = false;            // blocks go on alone
+  std::optional<PackedProduct> packed_;  // for the steps of conjugate gradients
+  bool last_ = false;                    // whether the step is to meet the equations
+  bool own_factor_ = false;              // made for these equations, not for the last problem
+  int last_iterations_ = 0;
+  std::vector<double>
+      coarse_of_;  // active-set weights of the coarse system; empty: of another problem
+  Vector compliance_of_factor_;
+};
+
+/// result_v = a_v . (s y at the first end -+ s y at the second).
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::apply_transpose(const Vector& y,
+                                                          std::vector<double>& result) {
+  for (std::size_t k = 0; k < size_; ++k) scaled_[k] = y[k] * equations_.scale[k];
+  const auto ends = [&](std::size_t v) {
+    return std::pair(scaled_.data() + static_cast<std::size_t>(equations_.first[v]) * Rows,
+                     scaled_.data() + static_cast<std::size_t>(equations_.second[v]) * Rows);
+  };
+#pragma omp parallel for schedule(static) if (threads_share())
+  for (std::size_t v = 0; v < num_paired_; ++v) {
+    const double* a = equations_.coefficients.data() + v * Rows;
+    const auto [p, q] = ends(v);
+    double sum = 0.0;
+    for (int r = 0; r < Odd; ++r) sum += a[r] * (p[r] - q[r]);
+    for (int r = Odd; r < own; ++r) sum += a[r] * (p[r] + q[r]);
+    if constexpr (Grouped)
+      sum += a[own] *
+             (last_row(scaled_, equations_.first[v]) + last_row(scaled_, equations_.second[v]));
+    result[v] = sum;
+  }
+  for (std::size_t v = num_paired_; v < result.size(); ++v) {
+    const double* a = equations_.coefficients.data() + v * Rows;
+    const auto [p, q] = ends(v);
+    double sum = 0.0;
+    for (int r = 0; r < Odd; ++r) sum += a[r] * (p[r] - q[r]);
+    for (int r = Odd; r < own; ++r) sum += a[r] * p[r];
+    result[v] = sum;
+  }
+}
+
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::apply(const std::vector<double>& w,
+                                                Vector& result) const {
+  std::vector<Vector> sums(threads_share() ? parts_of_sums : 1);
+  const std::size_t parts = sums.size();
+#pragma omp parallel for schedule(static) if (parts > 1)
+  for (std::size_t part = 0; part < parts; ++part) {
+    sums[part].assign(size_, 0.0);
+    add_forces(w, part * w.size() / parts, (part + 1) * w.size() / parts, sums[part]);
+  }
+  result = std::move(sums.front());
+  for (std::size_t part = 1; part < parts; ++part) {
+    for (std::size_t k = 0; k < size_; ++k) result[k] += sums[part][k];
+  }
+  for (std::size_t k = 0; k < size_; ++k) result[k] *= equations_.scale[k];
+}
+
+/// Adds the forces of the variables from one number to another, times their weights.
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::add_forces(const std::vector<double>& w,
+                                                     std::size_t begin, std::size_t end,
+                                                     Vector& result) const {
+  for (std::size_t v = begin; v < end; ++v) {
+    const double* a = equations_.coefficients.data() + v * Rows;
+    double* p = result.data() + static_cast<std::size_t>(equations_.first[v]) * Rows;
+    double* q = result.data() + static_cast<std::size_t>(equations_.second[v]) * Rows;
+    const double weight = w[v];
+    for (int r = 0; r < Odd; ++r) {
+      const double term = a[r] * weight;
+      p[r] += term;
+      q[r] -= term;
+    }
+    for (int r = Odd; r < own; ++r) p[r] += a[r] * weight;
+    if (v >= num_paired_) continue;
+    for (int r = Odd; r < own; ++r) q[r] += a[r] * weight;
+    if constexpr (Grouped) {
+      last_row(result, equations_.first[v]) += a[own] * weight;
+      last_row(result, equations_.second[v]) += a[own] * weight;
+    }
+  }
+}
+
+/// result = (A D A' + shift) y.
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::apply_system(const Vector& shift, const Vector& y,
+                                                       Vector& result) {
+  for (std::size_t k = 0; k < size_; ++k) scaled_[k] = y[k] * equations_.scale[k];
+  result.assign(size_, 0.0);
+  add_system_product<Rows, Odd, Grouped>(equations_, active_weight, scaled_, result);
+  for (std::size_t k = 0; k < size_; ++k) {
+    result[k] = result[k] * equations_.scale[k] + shift[k] * y[k];
+  }
+}
+
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::measure(const std::vector<double>& weights,
+                                                  const Vector& y, Vector& residual) const {
+  apply(weights, residual);
+  for (std::size_t k = 0; k < size_; ++k) {
+    residual[k] = equations_.right[k] * equations_.scale[k] - residual[k] -
+                  equations_.ridge_of(k % Rows) * y[k] - relaxation(k, y[k]);
+  }
+}
+
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::build_blocks() {
+  const std::vector<double> added = diagonal();
+  std::vector<double> blocks;
+  if (packed_) {
+    packed_->set(active_weight);
+    blocks = packed_->blocks();
+    finish_blocks(Rows, added, blocks);
+  } else {
+    blocks = point_blocks(equations_, active_weight, added);
+  }
+  invert_blocks(Rows, blocks);
+  inverse_blocks_.resize(size_ / Rows);
+  for (std::size_t p = 0; p < inverse_blocks_.size(); ++p) {
+    inverse_blocks_[p] = Eigen::Map<const Block>(blocks.data() + p * Rows * Rows);
+  }
+  // The coarse system serves other weights too; the blocks are cheap.
+  if (with_boxes_ && last_iterations_ > (kept_.boxes->is_nested() ? 2 : 1) * stale_coarse) {
+    renew_coarse();
+  }
+}
+
+/// Modes or the coarse factor may have too few digits where equations are infeasible: blocks go on
+/// alone.
+template <int Rows, int Odd, bool Grouped>
+template <class Make>
+void NormalEquations<Rows, Odd, Grouped>::use_boxes(Make make) {
+  try {
+    make();
+    with_boxes_ = true;
+    coarse_of_ = active_weight;
+  } catch (const SolverError&) {
+    kept_.boxes.reset();
+    with_boxes_ = false;
+    boxes_failed_ = true;
+  }
+}
+
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::renew_coarse() {
+  use_boxes([&] { kept_.boxes->refactorize(equations_, active_weight, diagonal()); });
+}
+
+/// Diagonal of the system beside A D A', shape (points, Rows).
+template <int Rows, int Odd, bool Grouped>
+auto NormalEquations<Rows, Odd, Grouped>::diagonal() const -> Vector {
+  Vector result(size_);
+  for (std::size_t k = 0; k < size_; ++k) {
+    result[k] = equations_.ridge_of(k % Rows) +
+                std::max(regularisation, by_factor_                    ? factor_regularisation
+                                         : last_ && equations_.killing ? settled_regularisation
+                                                                       : least_regularisation) +
+                (compliance.empty() ? 0.0 : compliance[k]);
+  }
+  return result;
+}
+
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::build_factor() {
+  if (!own_factor_) kept_.factor = std::make_unique<EquationsFactor>(equations_);
+  own_factor_ = true;
+  kept_.factor->factorize(equations_, active_weight, diagonal());
+  compliance_of_factor_ = compliance;
+  last_iterations_ = 0;
+}
+
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::prepare() {
+  if (!by_factor_) {
+    build_blocks();
+  } else if (!kept_.factor || last_iterations_ > worth_of_factor) {
+    build_factor();
+  }
+}
+
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::prepare_if_stale(bool settled, bool last) {
+  last_ = last;
+  if (!by_factor_) {
+    if (!settled) build_blocks();
+  } else if (!kept_.factor || last_iterations_ > stale_iterations ||
+             compliance_of_factor_ != compliance) {
+    build_factor();
+  }
+}
+
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::precondition(const Vector& residual,
+                                                       Vector& result) const {
+  using Column = Eigen::Matrix<double, Rows, 1>;
+  if (by_factor_) return kept_.factor->solve(residual, result);
+#pragma omp parallel for schedule(static) if (threads_share())
+  for (std::size_t p = 0; p < inverse_blocks_.size(); ++p) {
+    Eigen::Map<Column>(result.data() + p * Rows).noalias() =
+        inverse_blocks_[p] * Eigen::Map<const Column>(residual.data() + p * Rows);
+  }
+  if (with_boxes_) kept_.boxes->add_correction(residual.data(), result.data());
+}
+
+template <int Rows, int Odd, bool Grouped>
+int NormalEquations<Rows, Odd, Grouped>::solve(const Vector& residual, double reduction,
+                                               Vector& direction) {
+  DirectionSearch search{residual, reduction * norm(residual), residual, Vector(size_, 0.0)};
+  search.rounded = packed_.has_value();
+  search.keeps_directions = options_.keeps_directions && !search.rounded;
+  find_direction(search);
+  direction = std::move(search.direction);
+  return search.iterations;
+}
+
+/// Iterates with the present preconditioner, and with a stronger one whenever that takes long.
+template <int Rows, int Odd, bool Grouped>
+void NormalEquations<Rows, Odd, Grouped>::find_direction(DirectionSearch& search) {
+  const int times = kept_.boxes && kept_.boxes->is_nested() ? 2 : 1;
+  if (with_boxes_ && coarse_of_ != active_weight) {
+    if (iterate(search, times * stale_coarse)) return;
+    renew_coarse();
+  }
+  const int most_alone = kept_.boxes ? patience_with_fields : patience;
+  const int most = with_boxes_ ? times * stale_fields : alone() ? most_alone : options_.iterations;
+  if (iterate(search, most) || (!alone() && !with_boxes_)) return;
+  if (options_.preconditioner == Preconditioner::blocks_then_factor) {
+    by_factor_ = true;
+    build_factor();
+  } else {
+    if (!with_boxes_ && kept_.boxes) {
+      renew_coarse();
+      if (iterate(search, times * stale_coarse)) return;
+    }
+    const CoarseModes fields =
+        equations_.killing && !kept_.boxes ? CoarseModes::killing : CoarseModes::soft;
+    use_boxes([&] {
+      kept_.boxes = std::make_unique<CoarseSpace>(equations_, active_weight, diagonal(), fields);
+    });
+  }
+  iterate(search, options_.iterations);
+}
+
+/// Iterates at most so often. \return whether the target is reached
+template <int Rows, int Odd, bool Grouped>
+bool NormalEquations<Rows, Odd, Grouped>::iterate(DirectionSearch& search, int most) {
+  const Vector shift = diagonal();
+  const int before = search.iterations;
+  search.cheap_iterations = !by_factor_ && !with_boxes_ ? cheap_iterations : 0;
+  const bool reached = descend(
+      search, most, [&](const Vector& y, Vector& result) { apply_system(shift, y, result); },
+      [&](const Vector& y, Vector& result) {
+        if (!search.rounded) return apply_system(shift, y, result);
+        packed_->apply(y, result);
+        for (std::size_t k = 0; k < size_; ++k) result[k] += shift[k] * y[k];
+      },
+      [&](const Vector& residual, Vector& result) { precondition(residual, result); });
+  last_iterations_ = search.iterations - before;
+  return reached;
+}
+
+}  // namespace perilink

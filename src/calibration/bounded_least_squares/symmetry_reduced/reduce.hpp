@@ -1,0 +1,13 @@
+#pragma once
+
+#include "calibration/bounded_least_squares/equations/point_equations.hpp"
+#include "calibration/bounded_least_squares/symmetry_reduced/reduced_equations.hpp"
+
+namespace perilink {
+
+/// The equations with a column for each unknown, without rows that follow from others.
+/// \param equations  without groups
+/// \param kept       empty at first
+ReducedEquations reduce(const PointEquations& equations, IndependentRows& kept);
+
+}  // namespace perilink

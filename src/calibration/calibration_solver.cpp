@@ -1,0 +1,299 @@
+#include "calibration/calibration_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "calibration/balance_measure.hpp"
+
+namespace perilink {
+namespace {
+
+/// With a factor every step leaves a hundredth of the residual at most. A coarse solution that
+/// leaves a tenth is infeasible.
+constexpr double infeasible_by_factor = 0.1;
+/// A step with a factor that leaves so many times the least residual has diverged.
+constexpr double diverged_by_factor = 1000.0;
+
+/// Energies are fitted again where more than this part of the bonds was dropped.
+constexpr double few_dropped = 0.01;
+
+/// Solutions from the last weights in space, at most.
+constexpr int most_refinements = 3;
+
+/// Bonds without floors may fall to zero where that reduces the forces out of balance to this part.
+constexpr double worth_dropping = 0.1;
+/// The solution without floors ends where this part will be left, five times as much. Its tolerance
+/// is a mean over all particles, but fine enough for a single one of them.
+constexpr double far_from_worth = 0.5, near_to_worth = 0.3;
+
+/// Few digits of the energies of dilatation are enough: the exact forces change them by more
+/// afterwards.
+constexpr double settling_tolerance = 0.01;
+
+/// Iterations of conjugate gradients in one solution. Feasible equations need up to 4000 in solids
+/// with edges; nearly infeasible ones would go on for minutes.
+constexpr int most_iterations = 8000;
+
+/// Exact penalty on residuals of forces and moments. Multipliers of feasible equations are up to
+/// 1e3.
+constexpr double penalty = 1e5, no_penalty = std::numeric_limits<double>::infinity();
+
+/// For unstructured particle sets in space, whose equations are often infeasible. Multipliers of
+/// feasible ones are about 1 to 1e3.
+constexpr double regularisation = 1e-8;
+
+/// With fewer variables per equation (horizons of two spacings) a third of all modes of subdomains
+/// are near the null space, and a factor of all equations is made as fast.
+constexpr Index least_freedom = 3;
+
+/// Forces that a coarse solution leaves: smaller ones are no infeasibility.
+constexpr double coarsely_met = 1e-4;
+
+}  // namespace
+
+/// One solution, which becomes the present state.
+LeastSquaresResult CalibrationSolver::solve_least_squares(PointEquations equations,
+                                                          LeastSquaresOptions options) {
+  ++searches_;
+  if (on_search_) on_search_(searches_, unbalanced());
+  LeastSquaresResult change = bounded_least_squares(std::move(equations), options, kept_);
+  equations_.apply(change.weights);
+  report_.iterations += change.iterations;
+  return change;
+}
+
+/// Fits the energies of dilatation and the forces. In the plane a step of Newton's method is cheap,
+/// but it can diverge. The preconditioner of the exact forces is kept.
+void CalibrationSolver::fit_energies() {
+  const CalibrationEquations::State start = equations_.save();
+  LeastSquaresOptions options;
+  options.tolerance = settling_tolerance;
+  options.preconditioner = Preconditioner::blocks_then_boxes;
+  options.penalty = penalised_ ? penalty : no_penalty;
+  options.keeps_directions = !in_space_;
+  KeptPreconditioner of_forces = std::exchange(kept_, {});
+  for (const Method method : {Method::newton, Method::interior_point}) {
+    if (in_space_ && method == Method::newton) continue;
+    equations_.restore(start);
+    options.method = method;
+    kept_.reset();  // coefficients are those of the stiffnesses now
+    if (solve_least_squares(equations_.settling(), options).converged) break;
+  }
+  kept_ = std::move(of_forces);
+}
+
+/// One solution of the exact equations.
+void CalibrationSolver::balance_by(Method method, double charge, double tolerance) {
+  LeastSquaresOptions options;
+  options.tolerance = tolerance;
+  options.iterations = most_iterations;
+  options.method = method;
+  options.penalty = charge;
+  options.infeasible_above = infeasible_above_;
+  if (in_space_ && irregular_) options.regularisation = regularisation;
+  PointEquations equations = equations_.balance();
+  const bool tight =
+      equations.num_variables() / least_freedom < static_cast<Index>(equations.right.size());
+  options.preconditioner = !in_space_             ? Preconditioner::factor
+                           : tight && !irregular_ ? Preconditioner::blocks_then_factor
+                                                  : Preconditioner::blocks_then_boxes;
+  if (reduced_) options.diverged = diverged_by_factor;
+  if (reduced_ && tolerance > tolerance_) options.infeasible_ratio = infeasible_by_factor;
+  options.start = std::exchange(start_, {});
+  multipliers_ = solve_least_squares(std::move(equations), options).multipliers;
+  equations_.report_balance(report_);
+}
+
+/// Solves for exact forces and moments by one of the two methods, and by the other where it is due:
+///
+/// | body | first | second, where forces are left |
+/// |---|---|---|
+/// | in the plane, or with moments | Newton's method | interior point |
+/// | symmetry-reduced | Newton's method | interior point, where that diverged |
+/// | unstructured in space, without multipliers to start from | interior point | none |
+/// | other solids | Newton's method | none: corners without moments are infeasible |
+///
+/// The nearer end is kept, and the settled stiffnesses where both are farther from balance.
+/// \return whether forces are nearer to balance now
+bool CalibrationSolver::balance(double tolerance) {
+  equations_.report_balance(report_);
+  const double before = left(), largest_before = unbalanced();
+  const CalibrationEquations::State settled = equations_.save();
+  const bool cold = irregular_ && in_space_ && start_.empty();
+  const Method first = cold ? Method::interior_point : Method::newton;
+  balance_by(first, penalised_ ? penalty : no_penalty, tolerance);
+  const bool solvable = moments_ || !in_space_;
+  // The tolerance is that of the mean.
+  const bool unsolved = solvable && unbalanced() > std::max(met_balance, 100.0 * tolerance);
+  const bool diverged = reduced_ && unbalanced() > largest_before;
+  if (first == Method::newton && (unsolved || diverged)) {
+    const CalibrationEquations::State ascended = equations_.save();
+    const double reached = left();
+    equations_.restore(settled);
+    kept_.reset();
+    balance_by(Method::interior_point, penalised_ ? penalty : no_penalty, tolerance);
+    kept_.reset();
+    if (left() > reached) {
+      equations_.restore(ascended);
+      equations_.report_balance(report_);
+    }
+  }
+  if (unbalanced() <= met_balance || left() <= before) return true;
+  equations_.restore(settled);
+  equations_.report_balance(report_);
+  return false;
+}
+
+void CalibrationSolver::settle() {
+  equations_.start_over();
+  if (energies_) fit_energies();
+  settled_ = equations_.save();
+}
+
+/// Presolve of lattices: variables that an equation fixes at zero are dropped. Unstructured
+/// particle sets have infeasible equations elsewhere more often, and would take half as long again.
+bool CalibrationSolver::fix_zero_variables() {
+  if (!presolves_) return false;
+  const double given = unbalanced();
+  while (equations_.drop_fixed_at_zero()) {
+    settled_ = equations_.without_dropped(std::move(settled_));
+    equations_.restore(settled_);
+  }
+  if (equations_.num_dropped() == 0) return false;
+  balance(first_tolerance());
+  if (unbalanced() <= coarsely_met && !equations_.underconstrained()) return true;
+  equations_.take_all_back();
+  kept_.reset();
+  presolves_ = unbalanced() <= worth_dropping * given;
+  settle();
+  return false;
+}
+
+/// All bonds with their floors.
+bool CalibrationSolver::keep_floors() { return balance(first_tolerance()); }
+
+/// Bonds of unbalanced particles may fall to zero, and those that do are dropped. The floors come
+/// back where this does not reduce the largest force out of balance to a tenth.
+/// \return whether there was a floor to take
+bool CalibrationSolver::remove_floors() {
+  if (penalised_ || !equations_.allow_zero(in_space_ ? coarsely_met : met_balance)) return false;
+  const double floored = unbalanced();
+  const CalibrationEquations::State with_floors = equations_.save();
+  equations_.restore(settled_);
+  infeasible_above_ = far_from_worth * floored;
+  const double root = std::sqrt(static_cast<double>(equations_.num_points()));
+  balance(std::min(first_tolerance(), near_to_worth * worth_dropping * floored / root));
+  infeasible_above_ = std::numeric_limits<double>::infinity();
+  if (unbalanced() <= worth_dropping * floored) {
+    balance_without_dropped();
+    if (unbalanced() <= worth_dropping * floored && !equations_.underconstrained()) return true;
+  }
+  equations_.take_all_back();
+  equations_.restore(with_floors);
+  equations_.report_balance(report_);
+  return true;
+}
+
+/// The bonds that fell to zero carried nothing, and few of them hardly change the energies of a
+/// body: its state and the multipliers serve on.
+void CalibrationSolver::balance_without_dropped() {
+  const double reached = unbalanced();
+  equations_.drop_zero_weights();
+  const bool few = equations_.num_dropped() <= few_dropped * equations_.num_free();
+  if (reduced_ || (irregular_ && few)) start_ = std::move(multipliers_);
+  if (few) {
+    settled_ = equations_.without_dropped(std::move(settled_));
+    equations_.restore(settled_);
+  } else {
+    settle();
+  }
+  balance(tolerance_);
+  if (irregular_ && few && unbalanced() > reached) {  // Newton's method diverged
+    equations_.restore(settled_);
+    balance(tolerance_);
+  }
+}
+
+/// Where few digits are missing: from the multipliers of the last solution.
+bool CalibrationSolver::go_on_from_multipliers() {
+  const double reached = unbalanced();
+  const bool few = reached > exact_balance && reached <= coarsely_met;
+  if (!in_space_ || moments_ || !few || multipliers_.empty()) return false;
+  const CalibrationEquations::State coarse = equations_.save();
+  start_ = std::move(multipliers_);
+  equations_.restore(settled_);
+  balance(tolerance_);
+  if (unbalanced() <= reached) return true;
+  equations_.restore(coarse);
+  equations_.report_balance(report_);
+  return false;
+}
+
+/// From the last weights, as long as each solution halves the largest force out of balance.
+bool CalibrationSolver::go_on_from_weights() {
+  const double before = unbalanced();
+  if (!in_space_ || before <= exact_balance || refinements_++ == most_refinements) return false;
+  return balance(tolerance_) && unbalanced() <= 0.5 * before;
+}
+
+bool CalibrationSolver::make_attempts() {
+  struct Attempt {
+    bool (CalibrationSolver::*run)();
+    Step accepted, rejected;  // which step comes next
+  };
+  constexpr Attempt table[] = {
+      {&CalibrationSolver::fix_zero_variables, Step::remove_floors, Step::keep_floors},
+      {&CalibrationSolver::keep_floors, Step::remove_floors, Step::failed},
+      {&CalibrationSolver::remove_floors, Step::done, Step::from_multipliers},
+      {&CalibrationSolver::go_on_from_multipliers, Step::from_weights, Step::from_weights},
+      {&CalibrationSolver::go_on_from_weights, Step::from_weights, Step::done},
+  };
+  settle();
+  refinements_ = 0;
+  Step step = Step::fix_zeros;
+  while (step != Step::done && step != Step::failed) {
+    const Attempt& attempt = table[static_cast<std::size_t>(step)];
+    step = (this->*attempt.run)() ? attempt.accepted : attempt.rejected;
+  }
+  return step == Step::done;
+}
+
+/// Makes attempts, and takes their result back where it is farther from balance by the measure.
+template <class Measure, class Run>
+void CalibrationSolver::keep_if_nearer(Measure measure, Run run) {
+  const CalibrationEquations::State best = equations_.save();
+  const double reached = measure();
+  run();
+  if (measure() <= reached) return;
+  equations_.take_all_back();
+  equations_.restore(best);
+  equations_.report_balance(report_);
+}
+
+CalibrationReport CalibrationSolver::run() {
+  equations_.report_balance(report_);
+  report_.residual_before = report_.residual_after;
+  const double start = unbalanced();
+  if (!make_attempts() && energies_) {
+    energies_ = false;
+    keep_if_nearer([&] { return left(); }, [&] { make_attempts(); });
+  }
+  if (moments_ && !reduced_ && unbalanced() > met_balance) {
+    const auto with_soft_moments = [&] {
+      equations_.take_all_back();
+      equations_.soften_moments();
+      soft_moments_ = true;
+      make_attempts();
+    };
+    keep_if_nearer([&] { return report_.residual_after; }, with_soft_moments);
+  }
+  if (!(unbalanced() <= start)) {  // too few neighbours all over
+    equations_.take_all_back();
+    equations_.report_balance(report_);
+  }
+  equations_.report_weights(report_);
+  return report_;
+}
+
+}  // namespace perilink
