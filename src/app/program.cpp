@@ -53,7 +53,7 @@ bool steers_terminal(std::string_view word) {
 
 void add_trust_option(CLI::App& command, bool& trust_geometry) {
   command.add_flag("--trust-geometry", trust_geometry,
-                   "Give gmsh scripts (.geo) that may run commands and write files, too");
+                   "Run gmsh scripts (.geo) with any command, also programs and writing files");
 }
 
 /// What all commands that compute have in common.

@@ -219,8 +219,8 @@ TEST_F(Program, CheckTellsSizesAndMakesNothing) {
   EXPECT_EQ(end.exit_status, 0) << end.err;
   for (const char* part :
        {"[body]", "particles          336", "bonds              2345", "unknowns           669",
-        "memory", "set-up", "each broken bond", "; 1000 of them ", "spacing            ",
-        " spacings\n", "to 30 broken bonds", "load               upper cap: (0, 100)"}) {
+        "memory", "for each broken bond", " for 30 of them; to read the factor twice\n",
+        "spacing            ", " spacings\n", "load               upper cap: (0, 100)"}) {
     EXPECT_THAT(end.out, HasSubstr(part));
   }
   EXPECT_EQ(names(), std::set<std::string>{"small.toml"});
@@ -234,7 +234,6 @@ TEST_F(Program, CheckLeavesTheCalibrationToTheRun) {
   EXPECT_EQ(check.exit_status, 0) << check.err;
   EXPECT_THAT(check.out,
               testing::ContainsRegex("calibration        of [1-9][0-9]* bonds, by the run"));
-  EXPECT_THAT(check.out, testing::ContainsRegex("set-up .*, of it calibration [0-9.e-]+ s"));
   EXPECT_THAT(check.out, testing::Not(HasSubstr("out of balance")));
   ASSERT_EQ(run({"run", "block.toml", "--out", "r"}).exit_status, 0);
   EXPECT_THAT(read_text(work() / "r/log.txt"),
@@ -255,10 +254,9 @@ TEST_F(Program, CheckOfAnElasticCaseSpeaksOfNoBreaks) {
       tension_strip_case + std::string("[[gauges]]\nname = \"g\"\nat = [1.1, 0.4]\naxis = \"x\""));
   const ProcessEnd end = run({"check", "strip.toml"});
   EXPECT_EQ(end.exit_status, 0) << end.err;
-  EXPECT_THAT(end.out, testing::ContainsRegex("run                about [0-9.e-]+ s\n"));
   EXPECT_THAT(end.out, HasSubstr("gauge              g: at (1.1, 0.4)\n"));
   EXPECT_THAT(end.out, HasSubstr("(1.1, 0.4), linearly between the particles at (1, 0.5), "));
-  EXPECT_THAT(end.out, testing::Not(HasSubstr("each broken bond")));
+  EXPECT_THAT(end.out, testing::Not(HasSubstr("broken bond")));
 }
 
 TEST_F(Program, CheckOfAnExplicitCaseTellsItsSteps) {
@@ -267,7 +265,7 @@ TEST_F(Program, CheckOfAnExplicitCaseTellsItsSteps) {
   EXPECT_EQ(end.exit_status, 0) << end.err;
   for (const char* part :
        {"model = \"lattice\"", "critical time step 0.00", "time step          0.00",
-        "steps              ", "about 100 rows", "bonds              ", "run ",
+        "steps              ", "about 100 rows", "bonds              ", " s on one core, by ",
         // Rows are sqrt(3)/2 of a spacing apart: eleven of them fit above the first.
         "particles lie in   x 0 to 2, y 0 to 0.952628\n"}) {
     EXPECT_THAT(end.out, HasSubstr(part));

@@ -2,15 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <numbers>
-
-#include "analysis/dynamics/fundamental_period.hpp"
 #include "app/process/ranks.hpp"
 #include "app/run/bond_run.hpp"
 #include "app/run/run_notes.hpp"
 #include "app/run/run_warnings.hpp"
-#include "network/builder/free_bodies.hpp"
 
 namespace perilink {
 
@@ -23,14 +18,6 @@ RelaxationOptions relaxation_options(const CaseFile& input, int threads) {
   options.threads = threads;
   options.ranks = ranks();
   return options;
-}
-
-double expected_iterations(const Model& model, const RelaxationOptions& options) {
-  const Inertia inertia = fictitious_inertia(model.network, options.strain);
-  const auto free = free_motions(model.network, model.unknowns);
-  const double period = fundamental_period(model.network, model.unknowns, inertia, free);
-  const double step = options.safety * inertia.critical_time_step();
-  return -std::log(options.tolerance) * period / (2.0 * std::numbers::pi * step);
 }
 
 namespace {

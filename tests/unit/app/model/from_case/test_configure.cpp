@@ -244,8 +244,6 @@ TEST(Configure, TooManyParticlesAreRefusedBeforeAnyIsMade) {
 
 TEST(Configure, HorizonsBelowTheSpacingAreRefused) {
   CaseFile input = strip_case();
-  input.body.horizon = 9.9;
-  expect_refused(input, "body.horizon", "smaller than the spacing 10");
   input.body.horizon.reset();
   input.body.horizon_level = 0;
   expect_refused(input, "body.horizon_level", "no particle would have a neighbour");
@@ -261,15 +259,6 @@ TEST(Configure, OutlinesThatMissTheLatticeAreRefused) {
   input.body.spacing.reset();
   input.body.columns = 7;
   expect_refused(input, "body.columns", "misses the lattice");
-}
-
-TEST(Configure, MaterialsWithoutParticlesAreRefused) {
-  CaseFile input = strip_case();
-  input.materials.push_back(input.materials[0]);
-  input.materials[1].name = "speck";
-  input.materials[1].regions = {"middle"};
-  input.regions[3].box = {{11.0, 31.0, 0.0}, {19.0, 39.0, 0.0}};
-  expect_refused(input, "materials[2]", "no particle is made of \"speck\"");
 }
 
 TEST(Configure, BodiesThatCannotBreakAreRefusedInADamageAnalysis) {
@@ -309,6 +298,20 @@ TEST(Configure, WhatCalibrationDoesNotChangeIsRefusedBeforeIt) {
   refuses(measured, "gauges[1].at", "nearest particle");
   build_model(prism_case(), [&](int, double) { ++searches; });
   EXPECT_GT(searches, 0);
+}
+
+/// Results that do not depend on the calibration are equal in a draft and in the model.
+TEST(DraftModel, HasTheSizesOfTheModel) {
+  const Model draft = draft_model(test::strip_case());
+  const Model model = build_model(test::strip_case());
+  EXPECT_EQ(draft.network.bonds.size(), model.network.bonds.size());
+  EXPECT_EQ(draft.unknowns.count, model.unknowns.count);
+  EXPECT_EQ(draft.network.critical_stretch, model.network.critical_stretch);
+  ASSERT_TRUE(draft.network.calibration.has_value());
+  EXPECT_EQ(draft.network.calibration->free_bonds, model.network.calibration->free_bonds);
+  EXPECT_GE(draft.network.calibration->bytes, 100.0 * draft.network.num_elements());
+  EXPECT_EQ(draft.network.calibration->iterations, 0);
+  EXPECT_NE(draft.network.stiffness, model.network.stiffness);
 }
 
 }  // namespace
