@@ -15,10 +15,6 @@ namespace perilink {
 std::vector<std::vector<Index>> split_into_boxes(std::span<const double> positions, int dim,
                                                  Index most);
 
-/// The same in a given number of boxes.
-std::vector<std::vector<Index>> split_into_parts(std::span<const double> positions, int dim,
-                                                 Index parts);
-
 /// Parts of a box that are not joined become boxes of their own.
 /// \return those of the first box first
 std::vector<std::vector<Index>> split_unjoined(const std::vector<std::vector<Index>>& boxes,

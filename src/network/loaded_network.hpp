@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "network/embedded_motion.hpp"
-#include "network/lattice_pattern.hpp"
 #include "network/network.hpp"
 #include "network/unknowns.hpp"
 
@@ -40,9 +39,6 @@ struct LoadedNetwork {
   std::vector<LoadCase> sets = {};
   /// Where finite elements carry particles; `unknowns` is the motion that they begin with.
   std::optional<EmbeddedBody> embedded = {};
-  /// Where processes make the bonds of their parts by themselves: what they make them from. The
-  /// network then has particles alone.
-  std::optional<LatticePattern> pattern = {};
 };
 
 }  // namespace perilink

@@ -97,9 +97,6 @@ struct Network {
   /// In whose sums the extension of a bond counts, see BondEnd, per element; empty: in those of
   /// both its ends. Nearest neighbours need not be mutual.
   std::vector<std::uint8_t> state_of;
-  /// Whether particles turn although there are no bonds: processes make bonds that carry moments of
-  /// their parts by themselves.
-  bool all_turn = false;
   double torsion = 1.0;  ///< torsional over bending modulus of micropolar bonds in 3D [-]
   /// Laws of the elements, and the number of each element's; empty: all have the first one.
   std::vector<BondLaw> laws = {BondLaw::brittle()};
@@ -152,7 +149,7 @@ struct Network {
     return inflection.empty() ? 0.5 : inflection[element];
   }
   bool is_hinged(Index element) const { return !hinged.empty() && hinged[element] != 0; }
-  bool carries_moments() const { return all_turn || !bending.empty(); }
+  bool carries_moments() const { return !bending.empty(); }
   bool is_beam() const { return !half_height.empty(); }
   /// Whether bonds stand for whole sections of a shell or a beam: particles have no stress, and
   /// cracks no opening.

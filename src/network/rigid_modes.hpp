@@ -21,9 +21,7 @@ struct Fragment {
 
 /// Parts of the network that elements connect, but for those that are broken or have no stiffness,
 /// in the order of their first particles. Their free modes are not counted.
-/// \param in_one_piece  it is known that all particles hold together
-std::vector<Fragment> connected_parts(const Network& network, Secants secants,
-                                      bool in_one_piece = false);
+std::vector<Fragment> connected_parts(const Network& network, Secants secants);
 
 /// Components that are held or that elastic supports resist, shape (particles, width).
 std::vector<std::uint8_t> held_or_sprung(const Network& network, std::vector<std::uint8_t> held);
@@ -31,9 +29,7 @@ std::vector<std::uint8_t> held_or_sprung(const Network& network, std::vector<std
 /// Connected parts of the network (elements of zero stiffness do not connect) with the number of
 /// rigid-body modes that `held` (shape (particles, width)) leaves free in each. Rotations of
 /// particles that no bond turns hold nothing.
-/// \param in_one_piece  it is known that all particles hold together
-std::vector<Fragment> find_fragments(const Network& network, const std::vector<std::uint8_t>& held,
-                                     bool in_one_piece = false);
+std::vector<Fragment> find_fragments(const Network& network, const std::vector<std::uint8_t>& held);
 
 /// Number of rigid-body modes of some particles that `held` and bonds to what stands still leave
 /// free.

@@ -103,8 +103,8 @@ void follow_particles(const Network& network, std::span<double> motion);
 /// the anchors.
 void load_particles(const Network& network, std::span<double> forces);
 
-/// Particles that a bond with bending stiffness ends at, or all (Network::all_turn); others have
-/// no rotations, which must not be unknown. Empty where no bond carries a moment.
+/// Whether a bond with bending stiffness turns each particle. Other particles have no rotations,
+/// which must not be unknown. Empty where no bond carries a moment.
 std::vector<std::uint8_t> rotating_particles(const Network& network);
 
 /// Marks the rotations of all particles that nothing turns as held, shape (particles, width). In

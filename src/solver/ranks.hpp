@@ -11,12 +11,11 @@
 #include "base/memory.hpp"
 #include "base/parcel.hpp"
 #include "base/types.hpp"
-#include "solver/conjugate_gradients.hpp"
 
 namespace perilink {
 
 /// What the first rank asks the others for, the first word of every order.
-enum class Service : int { end, solve, move_bonds, relax_bonds, move_rows, show_fields };
+enum class Service : int { end, solve, move_bonds };
 
 /// Particles that other ranks own and this one needs to know the motion of.
 struct Ghosts {
@@ -47,14 +46,6 @@ class Ranks {
   virtual std::vector<std::byte> receive(int from) = 0;
   /// One message each way, with ranks that do the same.
   virtual void exchange(std::span<Exchange> with) = 0;
-
-  /// Collective: perilink::conjugate_gradients() of a system whose unknowns the ranks share out;
-  /// vectors are the own parts, and so are those that both maps are given.
-  virtual GradientsReport conjugate_gradients(const LinearMap& product,
-                                              const LinearMap& precondition,
-                                              std::span<const double> right,
-                                              std::span<double> solution, double enough,
-                                              double scale, int most_iterations) = 0;
 
   /// Ends all ranks at once: others may be waiting for this one.
   [[noreturn]] virtual void abandon(const std::string& reason) = 0;

@@ -79,7 +79,7 @@ inline std::string driven(const std::string& text) {
 }
 
 struct RankCase {
-  std::string name, text, many = "broken_bonds";  ///< what summary.json has more than 20 of
+  std::string name, text;
 };
 
 class RankFolder : public testing::Test {

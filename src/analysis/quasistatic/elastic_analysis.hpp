@@ -22,7 +22,8 @@ struct ElasticOptions {
 /// Whether conjugate gradients solve a problem: where they are chosen, or take less time than a
 /// factor of the stiffness and nothing carries particles (docs/theory/large_bodies.md).
 /// Ranks share the work of conjugate gradients alone, and take them wherever they can.
-bool is_for_subdomains(const LoadedNetwork& problem, LinearSolver solver, bool has_ranks = false);
+bool is_for_subdomains(const LoadedNetwork& problem, LinearSolver solver,
+                       const Ranks* ranks = nullptr);
 
 /// Wall seconds of the phases of an elastic analysis.
 struct ElasticSeconds {
@@ -44,7 +45,6 @@ struct ElasticResult {
   int iterations = 0;                  ///< conjugate gradients
   double error = 0.0;                  ///< they leave, over the solution, in the norm of energy
   ElasticSeconds seconds;
-  std::shared_ptr<const Team> team = {};  ///< whose ranks have made the body; null: none have
 };
 
 /// One assembly, one factorisation, one solve; or conjugate gradients. Where bonds across a

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -23,17 +22,6 @@ class SubdomainMotions {
  public:
   /// \param most  particles of a box, at most
   SubdomainMotions(const Network& network, Secants secants, const Unknowns& unknowns, Index most);
-
-  /// Brings what is known of particles that other processes own up to date: numbers of shape
-  /// (particles, width).
-  using Exchange = std::function<void(std::span<double> known, int width)>;
-  /// Boxes of the first particles of a body, which this process owns and cracks have split; other
-  /// boxes are known by their numbers and centres.
-  /// \param first_box  boxes of the processes before
-  /// \param unknowns   those of all particles
-  SubdomainMotions(const Particles& particles, const Unknowns& unknowns,
-                   std::vector<std::vector<Index>> own, Index first_subdomain, Index num_subdomains,
-                   const Exchange& exchange);
 
   Index num_subdomains() const { return static_cast<Index>(subdomains_.size()); }
   /// Motions of a box: three in the plane, six in space.

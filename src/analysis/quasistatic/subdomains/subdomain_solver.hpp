@@ -47,11 +47,6 @@ class SubdomainSolver {
                   const SubdomainSolverOptions& options,
                   const std::vector<double>* ground = nullptr);
 
-  /// For a box of a lattice whose parts the ranks of the options make.
-  /// \param places    particles and springs, no bonds; kept by reference, as unknowns
-  SubdomainSolver(const LatticePattern& pattern, const Network& places, const Unknowns& unknowns,
-                  const SubdomainSolverOptions& options);
-
   /// Both of size n; they may be the same memory. What is solved later may correct what was solved
   /// before: the error counts by the largest energy so far.
   /// \throws SolverError where the iterations do not get there
@@ -84,13 +79,9 @@ class SubdomainSolver {
 
   int iterations() const { return iterations_; }  ///< in all solves
   double error() const { return error_; }         ///< the last solve left, as the tolerance counts
-  Index num_subdomains() const {
-    return motions_ ? motions_->num_subdomains() : team_->num_subdomains();
-  }
+  Index num_subdomains() const { return motions_.num_subdomains(); }
   int num_ranks() const { return team_ ? options_.ranks->count() : 1; }
-  FactorStatistics coarse() const { return factor_ ? factor_->statistics() : team_->coarse(); }
-  /// The ranks that share the work; null: there are none.
-  const std::shared_ptr<Team>& team() const { return team_; }
+  FactorStatistics coarse() const { return factor_->statistics(); }
 
  private:
   static constexpr int most_iterations = 20000;
@@ -125,11 +116,11 @@ class SubdomainSolver {
   const Unknowns& unknowns_;
   Secants secants_;
   SubdomainSolverOptions options_;
-  std::optional<SubdomainMotions> motions_;  ///< none where ranks have made the body
-  std::vector<double> blocks_;               // inverse, shape (particles, width, width)
+  SubdomainMotions motions_;
+  std::vector<double> blocks_;  // inverse, shape (particles, width, width)
   const std::vector<double>* ground_ = nullptr;
   std::unique_ptr<Factor> factor_;
-  std::shared_ptr<Team> team_;  ///< null: this process works alone
+  std::unique_ptr<Team> team_;  ///< null: this process works alone
   std::optional<SubdomainOrder> order_;
   std::unique_ptr<PackedBonds> packed_;  ///< null: products are those of the network
   std::unique_ptr<SingleBody> single_;   ///< null: blocks are left to double precision
