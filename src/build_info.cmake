@@ -26,11 +26,11 @@ else()
   set(PERILINK_BLAS_PATH "unknown")
 endif()
 
-# Optional backends. PETSc is linked to perilink-mpi alone: it would double the start-up time.
-set(PERILINK_PETSC "no")
+# Optional backends. MPI is linked to perilink-mpi alone: it would double the start-up time.
+set(PERILINK_MPI_SUMMARY "no")
 set(PERILINK_GMSH_SUMMARY "no")
 if(PERILINK_HAS_MPI)
-  set(PERILINK_PETSC "yes, ${PETSC_VERSION} in perilink-mpi")
+  set(PERILINK_MPI_SUMMARY "yes, ${MPI_CXX_VERSION} in perilink-mpi")
 endif()
 if(PERILINK_HAS_GMSH)
   perilink_header_version(gmsh_version ${GMSH_INCLUDE_DIR}/gmshc.h

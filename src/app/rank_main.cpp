@@ -8,7 +8,7 @@
 #include "app/process/ranks.hpp"
 #include "app/process/serve.hpp"
 #include "app/program.hpp"
-#include "solver/ranks/petsc_ranks.hpp"
+#include "solver/ranks/mpi_ranks.hpp"
 
 namespace perilink {
 namespace {
@@ -35,7 +35,7 @@ void require_one_command(Ranks& ranks, int argc, char** argv) {
 /// take their parts of the body.
 int main(int argc, char** argv) {
   using namespace perilink;
-  const std::unique_ptr<Ranks> ranks = start_petsc_ranks();
+  const std::unique_ptr<Ranks> ranks = start_mpi_ranks();
   require_one_command(*ranks, argc, argv);
   if (!ranks->leads()) {
     // The first alone stops a run in good order, with all others at its side.

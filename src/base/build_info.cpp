@@ -39,7 +39,7 @@ std::string build_summary() {
       {"BLAS", kernels},
       {"METIS", build_config::metis},
       {"Eigen", build_config::eigen},
-      {"PETSc", build_config::petsc},
+      {"MPI", build_config::mpi},
       {"gmsh", build_config::gmsh},
   };
   std::string text = "perilink " + program_version() + "\n";

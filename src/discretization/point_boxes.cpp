@@ -41,15 +41,10 @@ void bisect(std::span<Index> points, std::span<const double> positions, int dim,
 std::vector<std::vector<Index>> split_into_boxes(std::span<const double> positions, int dim,
                                                  Index most) {
   const Index count = static_cast<Index>(positions.size()) / dim;
-  return split_into_parts(positions, dim, (count + most - 1) / most);
-}
-
-std::vector<std::vector<Index>> split_into_parts(std::span<const double> positions, int dim,
-                                                 Index parts) {
-  std::vector<Index> points(positions.size() / static_cast<std::size_t>(dim));
+  std::vector<Index> points(static_cast<std::size_t>(count));
   std::iota(points.begin(), points.end(), 0);
   std::vector<std::vector<Index>> boxes;
-  bisect(points, positions, dim, parts, boxes);
+  bisect(points, positions, dim, (count + most - 1) / most, boxes);
   return boxes;
 }
 

@@ -15,13 +15,8 @@ namespace perilink {
 std::vector<std::vector<Index>> split_into_boxes(std::span<const double> positions, int dim,
                                                  Index most);
 
-/// Sorts points into `parts` boxes of about equal numbers of points, by bisection of the longest
-/// axis.
-std::vector<std::vector<Index>> split_into_parts(std::span<const double> positions, int dim,
-                                                 Index parts);
-
-/// Splits each box into its connected parts.
-/// \return boxes in the order of the given ones
+/// Parts of a box that are not joined become boxes of their own.
+/// \return those of the first box first
 std::vector<std::vector<Index>> split_unjoined(const std::vector<std::vector<Index>>& boxes,
                                                JoinedParts& parts);
 

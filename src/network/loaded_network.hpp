@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "network/embedded_motion.hpp"
-#include "network/lattice_pattern.hpp"
 #include "network/network.hpp"
 #include "network/unknowns.hpp"
 
@@ -42,9 +41,6 @@ struct LoadedNetwork {
   std::vector<LoadCase> sets = {};
   /// Host elements, if any; `unknowns` is then the motion with the initially active hosts.
   std::optional<EmbeddedBody> embedded = {};
-  /// Template for distributed mesh generation, if processes build their own bonds. The network then
-  /// has only particles.
-  std::optional<LatticePattern> pattern = {};
 };
 
 }  // namespace perilink

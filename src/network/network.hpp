@@ -99,9 +99,6 @@ struct Network {
   /// Ends whose sums include the extension of a bond, see BondEnd, per element; empty: both ends.
   /// Nearest neighbours need not be mutual.
   std::vector<std::uint8_t> state_of;
-  /// Particles rotate although the network has no bonds: in distributed mesh generation each
-  /// process makes bonds that carry moments.
-  bool all_turn = false;
   double torsion = 1.0;  ///< torsional over bending modulus of micropolar bonds in 3D [-]
   /// Laws of the elements, and the number of each element's law; empty: all have the first law.
   std::vector<BondLaw> laws = {BondLaw::brittle()};
@@ -154,7 +151,7 @@ struct Network {
     return inflection.empty() ? 0.5 : inflection[element];
   }
   bool is_hinged(Index element) const { return !hinged.empty() && hinged[element] != 0; }
-  bool carries_moments() const { return all_turn || !bending.empty(); }
+  bool carries_moments() const { return !bending.empty(); }
   bool is_beam() const { return !half_height.empty(); }
   /// Returns whether bonds represent whole sections of a shell or a beam. Particles then have no
   /// stress, and cracks have no opening.

@@ -147,10 +147,9 @@ std::vector<std::uint8_t> unbreakable_particles(const Network& network) {
 
 }  // namespace
 
-std::vector<Fragment> connected_parts(const Network& network, Secants secants, bool in_one_piece) {
+std::vector<Fragment> connected_parts(const Network& network, Secants secants) {
   const Index num_particles = network.particles.size();
   JoinedParts parts(num_particles);
-  for (Index i = 1; in_one_piece && i < num_particles; ++i) parts.join(0, i);
   for (Index e = 0; e < network.num_elements(); ++e) {
     if (!(network.stiffness[e] > 0.0) || secants[e] == 0.0) continue;
     parts.join(network.bonds.first[e], network.bonds.second[e]);
@@ -184,9 +183,9 @@ std::vector<std::uint8_t> held_or_sprung(const Network& network, std::vector<std
   return held;
 }
 
-std::vector<Fragment> find_fragments(const Network& network, const std::vector<std::uint8_t>& held,
-                                     bool in_one_piece) {
-  std::vector<Fragment> fragments = connected_parts(network, {}, in_one_piece);
+std::vector<Fragment> find_fragments(const Network& network,
+                                     const std::vector<std::uint8_t>& held) {
+  std::vector<Fragment> fragments = connected_parts(network, {});
   const std::vector<std::uint8_t> rotating = rotating_particles(network);
   const std::vector<std::uint8_t> resisted = held_or_sprung(network, held);
   for (Fragment& fragment : fragments) {

@@ -19,22 +19,17 @@ struct Fragment {
                        ///< leave free
 };
 
-/// Returns the parts of the network that unbroken elements with stiffness connect, in the order of
-/// their first particles. Free modes are not counted.
-/// \param in_one_piece  all particles are known to be connected
-std::vector<Fragment> connected_parts(const Network& network, Secants secants,
-                                      bool in_one_piece = false);
+/// Parts of the network that elements connect, but for those that are broken or have no stiffness,
+/// in the order of their first particles. Their free modes are not counted.
+std::vector<Fragment> connected_parts(const Network& network, Secants secants);
 
 /// Flags components that are held or that elastic supports resist, shape (particles, width).
 std::vector<std::uint8_t> held_or_sprung(const Network& network, std::vector<std::uint8_t> held);
 
-/// Returns the connected parts of the network with the number of rigid-body modes that `held`
-/// leaves free in each. Elements without stiffness do not connect. Rotations of particles that no
-/// bond turns do not count as held.
-/// \param held          shape (particles, width)
-/// \param in_one_piece  all particles are known to be connected
-std::vector<Fragment> find_fragments(const Network& network, const std::vector<std::uint8_t>& held,
-                                     bool in_one_piece = false);
+/// Connected parts of the network (elements of zero stiffness do not connect) with the number of
+/// rigid-body modes that `held` (shape (particles, width)) leaves free in each. Rotations of
+/// particles that no bond turns hold nothing.
+std::vector<Fragment> find_fragments(const Network& network, const std::vector<std::uint8_t>& held);
 
 /// Returns the number of rigid-body modes of some particles that `held` and bonds to fixed parts
 /// leave free.

@@ -135,8 +135,7 @@ void load_particles(const Network& network, std::span<double> forces) {
 
 std::vector<std::uint8_t> rotating_particles(const Network& network) {
   if (!network.carries_moments()) return {};
-  std::vector<std::uint8_t> rotating(static_cast<std::size_t>(network.particles.size()),
-                                     network.all_turn ? 1 : 0);
+  std::vector<std::uint8_t> rotating(static_cast<std::size_t>(network.particles.size()));
   for (Index e = 0; e < network.num_elements(); ++e) {
     if (!(network.bending[e] > 0.0)) continue;
     const int hinged = network.hinged.empty() ? 0 : network.hinged[e];

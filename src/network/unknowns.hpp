@@ -103,9 +103,8 @@ void follow_particles(const Network& network, std::span<double> motion);
 /// Moves the forces of embedded points to their particles, with the weights of the motion.
 void load_particles(const Network& network, std::span<double> forces);
 
-/// Flags particles at an end of a bond with bending stiffness, or all with Network::all_turn.
-/// Rotations of other particles must not be unknowns. The result is empty where no bond carries a
-/// moment.
+/// Whether a bond with bending stiffness turns each particle. Other particles have no rotations,
+/// which must not be unknown. Empty where no bond carries a moment.
 std::vector<std::uint8_t> rotating_particles(const Network& network);
 
 /// Marks rotations without stiffness as held, shape (particles, width). In space this includes one

@@ -11,12 +11,11 @@
 #include "base/memory.hpp"
 #include "base/parcel.hpp"
 #include "base/types.hpp"
-#include "solver/conjugate_gradients.hpp"
 
 namespace perilink {
 
-/// Request from the root to the workers, the first word of every message.
-enum class Service : int { end, solve, move_bonds, relax_bonds, move_rows, show_fields };
+/// What the first rank asks the others for, the first word of every order.
+enum class Service : int { end, solve, move_bonds };
 
 /// Ghosts: particles whose motion this rank needs and another rank owns.
 struct Ghosts {
@@ -48,15 +47,7 @@ class Ranks {
   /// Sends and receives one message per rank; the other ranks do likewise.
   virtual void exchange(std::span<Exchange> with) = 0;
 
-  /// Collective: perilink::conjugate_gradients() of a system with unknowns divided among the ranks.
-  /// All vectors are the rank's own parts, including the arguments of both maps.
-  virtual GradientsReport conjugate_gradients(const LinearMap& product,
-                                              const LinearMap& precondition,
-                                              std::span<const double> right,
-                                              std::span<double> solution, double enough,
-                                              double scale, int most_iterations) = 0;
-
-  /// Ends all ranks at once, because others may be waiting for this one.
+  /// Ends all ranks at once: others may be waiting for this one.
   [[noreturn]] virtual void abandon(const std::string& reason) = 0;
 };
 

@@ -45,7 +45,7 @@ const std::vector<Confinement>& confined_headers() {
       {std::regex("^(suitesparse/)?cholmod.*\\.h$"), "solver/"},
       {std::regex("^metis\\.h$"), "solver/"},
       {std::regex("^(cblas|lapacke?)\\.h$"), "solver/"},
-      {std::regex("^(petsc|mpi).*\\.h(pp)?$"), "solver/ranks/"},
+      {std::regex("^mpi.*\\.h$"), "solver/ranks/"},
       {std::regex("^nanoflann\\.hpp$"), "discretization/neighbor_search.cpp"},
       {std::regex("^toml\\+\\+/.*"), "io/"},
       {std::regex("^pugi(xml|config)\\.hpp$"), "io/"},

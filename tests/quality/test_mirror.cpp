@@ -19,9 +19,7 @@ const std::map<std::string, std::string>& tested_elsewhere() {
       {"app/commands/converge_command.cpp", "a command: tests/cli runs the program"},
       {"app/commands/run_command.cpp", "a command: tests/cli runs the program"},
       {"analysis/dynamics/bonds/runs/run_share.cpp", "a part of runs: test_bond_analysis.cpp"},
-      {"analysis/dynamics/meetings.cpp", "a part of shares: test_lattice_share.cpp"},
-      {"analysis/quasistatic/subdomains/column_cache.cpp",
-       "a part of SubdomainFactor: test_subdomain_factor.cpp"},
+      {"analysis/dynamics/lattice/rows/paper_forces.cpp", "a row kernel: test_row_kernels.cpp"},
       {"analysis/quasistatic/subdomains/subdomain_blocks.cpp",
        "a part of SubdomainSolver: test_subdomain_factor.cpp"},
       {"analysis/quasistatic/ranks/part_solver.cpp", "a part of a team: test_team.cpp"},
@@ -43,8 +41,7 @@ const std::map<std::string, std::string>& tested_elsewhere() {
       {"solver/cholmod_support.cpp", "what the routes share: test_factor_routes.cpp runs them"},
       {"solver/cholmod_updown_factor.cpp", "a route: test_factor_routes.cpp runs every route"},
       {"solver/factor.cpp", "what routes share: test_factor_routes.cpp runs every route"},
-      {"solver/ranks/petsc_gradients.cpp", "needs mpiexec: tests/cli/test_ranks.cpp"},
-      {"solver/ranks/petsc_ranks.cpp", "needs mpiexec: tests/cli/test_ranks.cpp"},
+      {"solver/ranks/mpi_ranks.cpp", "needs mpiexec: tests/cli/test_ranks.cpp"},
       {"solver/refactorizing_factor.cpp", "a route: test_factor_routes.cpp runs every route"},
   };
   return table;

@@ -79,7 +79,7 @@ inline std::string driven(const std::string& text) {
 }
 
 struct RankCase {
-  std::string name, text, many = "broken_bonds";  ///< key of summary.json that must exceed 20
+  std::string name, text;
 };
 
 class RankFolder : public testing::Test {

@@ -67,18 +67,6 @@ class ThreadRanks final : public Ranks {
     for (Exchange& each : with) each.in = Parcel(receive(each.rank));
   }
 
-  GradientsReport conjugate_gradients(const LinearMap& product, const LinearMap& precondition,
-                                      std::span<const double> right, std::span<double> solution,
-                                      double enough, double scale, int most_iterations) override {
-    const auto dot = [this](std::span<const double> a, std::span<const double> b) {
-      double value = scalar_product(a, b);
-      sum({&value, 1});
-      return value;
-    };
-    return perilink::conjugate_gradients(product, precondition, right, solution, enough, scale,
-                                         most_iterations, dot);
-  }
-
   [[noreturn]] void abandon(const std::string& reason) override {
     throw std::runtime_error(reason);
   }

@@ -178,36 +178,19 @@ auto by_subdomains(Make make) {
 
 }  // namespace
 
-bool is_for_subdomains(const LoadedNetwork& problem, LinearSolver solver, bool has_ranks) {
+bool is_for_subdomains(const LoadedNetwork& problem, LinearSolver solver, const Ranks* ranks) {
   if (solver != LinearSolver::automatic) return solver == LinearSolver::iterative;
-  if (has_ranks && can_be_shared(problem.network, problem.unknowns)) return true;
+  if (can_be_shared(problem.network, problem.unknowns, ranks)) return true;
   const bool is_mid_surface = problem.network.dim() == 2 || problem.network.shell;
   return !problem.unknowns.carries() && problem.unknowns.count > (is_mid_surface ? 20000 : 3000);
 }
-
-namespace {
-
-ElasticResult solve_by_ranks(const LoadedNetwork& problem, const SubdomainSolverOptions& options) {
-  const Timer timer;
-  const auto solver = std::make_shared<SubdomainSolver>(*problem.pattern, problem.network,
-                                                        problem.unknowns, options);
-  const double seconds = timer.seconds();
-  ElasticResult result = solve_elastic(
-      &problem.network, problem.unknowns, problem.loads, by_subdomains([&] { return solver; }),
-      [&](std::span<const double> u) { return solver->team()->internal(u); });
-  result.seconds.factorization += seconds;
-  result.team = solver->team();
-  return result;
-}
-
-}  // namespace
 
 std::pair<std::vector<double>, std::vector<double>> find_closed_cracks(
     const LoadedNetwork& problem, const ElasticOptions& options) {
   EquilibriumOptions settling;
   settling.threads = options.threads;
   settling.subdomains = options.subdomains;
-  if (is_for_subdomains(problem, options.solver, options.subdomains.ranks != nullptr)) {
+  if (is_for_subdomains(problem, options.solver, options.subdomains.ranks)) {
     settling.solver = LinearSolver::iterative;
   }
   const Equilibrium settled(problem, settling);
@@ -220,7 +203,6 @@ std::pair<std::vector<double>, std::vector<double>> find_closed_cracks(
 }
 
 ElasticResult run_elastic_analysis(const LoadedNetwork& problem, const ElasticOptions& options) {
-  if (problem.pattern) return solve_by_ranks(problem, options.subdomains);
   const Network& network = problem.network;
   const Unknowns& unknowns = problem.unknowns;
   std::pair<std::vector<double>, std::vector<double>> closed;
@@ -233,7 +215,7 @@ ElasticResult run_elastic_analysis(const LoadedNetwork& problem, const ElasticOp
     return solve_elastic(&network, unknowns, problem.loads, prepare, internal_of);
   };
   ElasticResult result =
-      is_for_subdomains(problem, options.solver, options.subdomains.ranks != nullptr)
+      is_for_subdomains(problem, options.solver, options.subdomains.ranks)
           ? solve(by_subdomains([&] {
               return std::make_shared<SubdomainSolver>(network, unknowns, secants,
                                                        options.subdomains);

@@ -19,10 +19,11 @@ struct ElasticOptions {
   SubdomainSolverOptions subdomains = {};
 };
 
-/// Returns whether conjugate gradients solve a problem. They do if the options choose them, or if
-/// they are faster than a factor and no particles are embedded (docs/theory/large_bodies.md). With
-/// MPI ranks they are used wherever possible.
-bool is_for_subdomains(const LoadedNetwork& problem, LinearSolver solver, bool has_ranks = false);
+/// Whether conjugate gradients solve a problem: where they are chosen, or take less time than a
+/// factor of the stiffness and nothing carries particles (docs/theory/large_bodies.md).
+/// Ranks share the work of conjugate gradients alone, and take them wherever they can.
+bool is_for_subdomains(const LoadedNetwork& problem, LinearSolver solver,
+                       const Ranks* ranks = nullptr);
 
 /// Wall seconds of the phases of an elastic analysis.
 struct ElasticSeconds {
@@ -44,8 +45,6 @@ struct ElasticResult {
   int iterations = 0;                  ///< conjugate-gradient iterations
   double error = 0.0;                  ///< relative error of conjugate gradients in the energy norm
   ElasticSeconds seconds;
-  /// Communicator of the ranks that built the body, or null.
-  std::shared_ptr<const Team> team = {};
 };
 
 /// Solves for static equilibrium by one factorisation and one solve, or by conjugate gradients. If

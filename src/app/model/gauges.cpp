@@ -251,13 +251,6 @@ std::vector<double> gauge_values(const Model& model, const ModelState& state, Cs
     }
     const std::size_t component = number_of(*gauge.stress);
     double value = 0.0;
-    if (!state.stresses.empty()) {
-      for (const Gauge::Term& term : gauge.terms) {
-        value += term.weight * state.stresses[term.particle * Stress{}.size() + component];
-      }
-      values.push_back(value);
-      continue;
-    }
     if (neighbourhoods.rows() == 0) {
       neighbourhoods = bonds_of_particles(model.network.bonds, model.network.particles.size());
     }

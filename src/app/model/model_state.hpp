@@ -17,8 +17,6 @@ struct ModelState {
   std::span<const double> set_factors = {};
   /// Forces that hold the particles so, where they are known (InternalForce::forces); else empty.
   std::span<const double> internal = {};
-  /// Stresses at the particles, where they are known, shape (particles, 6); else empty.
-  std::span<const double> stresses = {};
   /// Per finite element, whether it constrains its particles; empty: as in LoadedNetwork::carried.
   std::span<const std::uint8_t> whole = {};
 };

@@ -35,13 +35,8 @@ void become_rank(char** words) {
   if (first_of({"OMPI_COMM_WORLD_RANK", "PMI_RANK"}) <= 0) {
     complain(
         "several processes were started, and this build knows no MPI: all would do the same\n"
-        "  start one process without mpiexec, or build with PETSc (docs/mpi.md)");
+        "  start one process without mpiexec, or build with MPI (docs/mpi.md)");
   }
-}
-
-int ranks_here(int all) {
-  const int here = first_of({"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS"});
-  return here > 0 && here < all ? here : all;
 }
 
 Ranks* ranks() { return shared; }

@@ -11,9 +11,6 @@ bool is_one_of_many();
 /// where there is none; the first process says so.
 void become_rank(char** words);
 
-/// Processes of this run on this machine, as mpiexec says; all where it does not.
-int ranks_here(int all);
-
 /// The processes that share the work of this one, two at least; null where it is alone.
 Ranks* ranks();
 void set_ranks(Ranks* ranks);

@@ -3,10 +3,7 @@
 #include <exception>
 
 #include "analysis/dynamics/bonds/runs/bond_analysis.hpp"
-#include "analysis/dynamics/bonds/runs/dynamic_relaxation.hpp"
-#include "analysis/dynamics/lattice/lattice_analysis.hpp"
 #include "analysis/quasistatic/ranks/team.hpp"
-#include "app/results/field_pieces.hpp"
 #include "base/memory.hpp"
 #include "base/parcel.hpp"
 
@@ -20,10 +17,7 @@ void serve(Ranks& ranks) {
       switch (order.get<Service>()) {
         case Service::end: return;
         case Service::solve: member.obey(order); break;
-        case Service::show_fields: show_fields_along(ranks, member.own(), order); break;
         case Service::move_bonds: move_bonds_along(ranks, order); break;
-        case Service::relax_bonds: relax_bonds_along(ranks, order); break;
-        case Service::move_rows: move_rows_along(ranks, order); break;
       }
     }
   } catch (const std::exception& error) {

@@ -2,9 +2,7 @@
 #include <optional>
 
 #include "app/model/gauges.hpp"
-#include "app/process/ranks.hpp"
 #include "app/results/bar_file.hpp"
-#include "app/results/field_pieces.hpp"
 #include "app/run/quasistatic.hpp"
 #include "app/run/run_kind.hpp"
 #include "app/run/run_warnings.hpp"
@@ -32,28 +30,6 @@ VtuGrid make_grid(const Model& model, const Csr& neighbourhoods, Secants secants
   return grid;
 }
 
-bool has_stress_gauges(const Model& model) {
-  return std::any_of(model.gauges.begin(), model.gauges.end(),
-                     [](const Gauge& gauge) { return gauge.stress.has_value(); });
-}
-
-/// Calls visit(first, second) for the ends of all bonds of the solid, or edges of linear elements.
-template <class Visit>
-void for_each_bond(const Model& model, Visit visit) {
-  if (model.pattern) {
-    const LatticeGrid& grid = model.pattern->grid;
-    const GridWindow all = grid.all();
-    PatternBonds(*model.pattern)
-        .for_each(all, [&](const GridPoint& first, const GridPoint& second, Index) {
-          visit(grid.number(all, first), grid.number(all, second));
-        });
-    return;
-  }
-  const Bonds& bonds = model.network.bonds;
-  for (Index e = 0; e < model.network.first_slip_spring; ++e)
-    visit(bonds.first[e], bonds.second[e]);
-}
-
 /// Share of the bonds whose vectors change by more than a tenth of their lengths.
 /// \param motion  shape (particles, width)
 double share_of_large_motion(const Model& model, std::span<const double> motion) {
@@ -61,7 +37,10 @@ double share_of_large_motion(const Model& model, std::span<const double> motion)
   const Particles& particles = model.network.particles;
   const std::size_t width = model.network.width();
   double large = 0.0, all = 0.0;
-  for_each_bond(model, [&](Index i, Index j) {
+  const Bonds& bonds = model.network.bonds;
+  for (Index e = 0; e < model.network.first_slip_spring;
+       ++e) {  // bonds of the solid, or edges of elements
+    const Index i = bonds.first[e], j = bonds.second[e];
     double length = 0.0, change = 0.0;  // squares
     for (int a = 0; a < particles.dim; ++a) {
       const double u = motion[j * width + a] - motion[i * width + a];
@@ -71,7 +50,7 @@ double share_of_large_motion(const Model& model, std::span<const double> motion)
     }
     all += 1.0;
     if (change > small * small * length) large += 1.0;
-  });
+  }
   return all > 0.0 ? large / all : 0.0;
 }
 
@@ -79,7 +58,7 @@ double share_of_large_motion(const Model& model, std::span<const double> motion)
 class ElasticRun final : public NetworkRun {
  public:
   ElasticRun(const CaseFile& of_case, int on_threads, bool quiet)
-      : NetworkRun(of_case, on_threads, quiet, ranks() != nullptr ? ranks()->count() : 1) {
+      : NetworkRun(of_case, on_threads, quiet) {
     refuse_pieces_on_bars(input, model_, threads);
     plan += fmt::format(", {} unknowns", model_.unknowns.count);
     if (auto note = note_of_separated_body(input, model_, threads)) notes.push_back(*note);
@@ -101,12 +80,6 @@ class ElasticRun final : public NetworkRun {
     ModelState state{secants, displacement};
     state.internal = answer_.solution.forces;
     const FieldMoment moment = moment_of(row, input, model_);
-    const PieceInput pieces{moment, model_.problem, model_.hooke};
-    std::vector<double> stresses;
-    if (model_.pattern && has_stress_gauges(model_)) {
-      state.stresses = stresses =
-          stresses_of_parts(*answer_.solution.team, model_.network.particles.size(), pieces);
-    }
     Csr neighbourhoods;
     files_->add_row(row, gauge_values(model_, state, neighbourhoods));
     write_reactions(row, support_regions(input, model_), state);
@@ -114,12 +87,6 @@ class ElasticRun final : public NetworkRun {
     if (!model_.network.bars.bar.empty()) {
       bars = bar_state(model_.network, secants, displacement);
       files_->write_table("bars", row.step, bar_table(model_.network, *bars));
-    }
-    if (model_.pattern) {
-      files_->write_pieces(row.step, row.step, [&](const std::string& stem) {
-        write_pieces(*answer_.solution.team, stem, pieces);
-      });
-      return;
     }
     files_->write_fields(row.step, row.step, [&] {
       if (neighbourhoods.rows() == 0) {

@@ -1,8 +1,36 @@
+#include <fmt/format.h>
+
+#include "app/process/ranks.hpp"
 #include "app/run/damage_run.hpp"
+#include "base/error.hpp"
+#include "io/case/sections/case_kinds.hpp"
 
 namespace perilink {
+namespace {
+
+/// \throws InputError where mpiexec has started several processes and they cannot share the case
+void refuse_several_processes(const CaseFile& input) {
+  if (ranks() == nullptr) return;
+  const auto refuse = [&](const char* key, const char* value, const char* allowed) {
+    throw InputError(input.where(key),
+                     fmt::format("is \"{}\", which the {} processes of mpiexec cannot share; they "
+                                 "share {}",
+                                 value, ranks()->count(), allowed),
+                     "start one process without mpiexec; --threads shares its work among threads");
+  };
+  if (input.analysis.type == AnalysisType::relaxation) {
+    refuse("analysis.type", "relaxation", "\"elastic\", \"damage\" and \"explicit\"");
+  }
+  if (has_state_based_particles(input.body)) {
+    refuse("body.model", is_lattice(input.body) ? "lattice" : "particles",
+           "\"bond_based\" and \"micropolar\"");
+  }
+}
+
+}  // namespace
 
 std::unique_ptr<RunKind> make_run(const CaseFile& input, int threads, bool quiet) {
+  refuse_several_processes(input);
   switch (input.analysis.type) {
     case AnalysisType::elastic: return make_elastic_run(input, threads, quiet);
     case AnalysisType::relaxation: return make_relaxation_run(input, threads, quiet);

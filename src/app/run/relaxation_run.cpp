@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "app/process/ranks.hpp"
+#include <cmath>
+#include <numbers>
+
+#include "analysis/dynamics/fundamental_period.hpp"
 #include "app/run/bond_run.hpp"
 #include "app/run/run_notes.hpp"
 #include "app/run/run_warnings.hpp"
@@ -16,7 +19,6 @@ RelaxationOptions relaxation_options(const CaseFile& input, int threads) {
   options.most_iterations = input.analysis.iterations;
   options.strain = input.analysis.strain;
   options.threads = threads;
-  options.ranks = ranks();
   return options;
 }
 
@@ -45,10 +47,8 @@ class RelaxationRun final : public MovingBondsRun {
     summary.add("iterations", result_.iterations);
     summary.add("residual", result_.residual);
     summary.add("displacement_error", result_.error);
-    if (result_.ranks > 1) summary.add("ranks", result_.ranks);
-    summary.line("iterations", "{}, residual {:.1e}, displacements to {:.1e}{}", result_.iterations,
-                 result_.residual, result_.error,
-                 result_.ranks > 1 ? fmt::format(" by {} ranks", result_.ranks) : "");
+    summary.line("iterations", "{}, residual {:.1e}, displacements to {:.1e}", result_.iterations,
+                 result_.residual, result_.error);
     summary.add("rows", files().rows());
     summary.add("broken_bonds", broken);
     tell_energies(summary, energy);

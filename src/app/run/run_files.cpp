@@ -76,12 +76,6 @@ void RunFiles::write_fields(Index step, double at, const std::function<VtuGrid()
   add_to_series(at, name, [&] { write_vtu((directory_ / name).string(), make_grid()); });
 }
 
-void RunFiles::write_pieces(Index step, double at,
-                            const std::function<void(const std::string&)>& write) {
-  const std::string stem = fmt::format("fields_{:06}", step);
-  add_to_series(at, stem + ".pvtu", [&] { write((directory_ / stem).string()); });
-}
-
 void RunFiles::add_to_series(double at, const std::string& name,
                              const std::function<void()>& write) {
   if (!series_.empty() && series_.back().file == name) return;

@@ -38,9 +38,6 @@ class RunFiles {
   /// \param at         place of the file in the series of fields.pvd
   /// \param make_grid  makes what is in it
   void write_fields(Index step, double at, const std::function<VtuGrid()>& make_grid);
-  /// The same of fields in pieces: fields_STEP.pvtu names them.
-  /// \param write  writes STEM.pvtu and its pieces, given the path before the dot
-  void write_pieces(Index step, double at, const std::function<void(const std::string&)>& write);
   /// Writes KIND_STEP.csv beside the fields, KIND one of `tables`.
   void write_table(const char* kind, Index step, const std::string& text);
   static constexpr std::array<const char*, 2> tables = {"bars", "reactions"};

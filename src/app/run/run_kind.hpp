@@ -61,8 +61,7 @@ class RunKind {
 /// A run on a network of bonds, or on linear elements.
 class NetworkRun : public RunKind {
  public:
-  /// \param parts  see build_model()
-  NetworkRun(const CaseFile& of_case, int on_threads, bool quiet, int parts = 1);
+  NetworkRun(const CaseFile& of_case, int on_threads, bool quiet);
 
  protected:
   /// "3.2 M bond-steps/s".
@@ -94,6 +93,6 @@ std::string rate_text(double count, double seconds, const std::string& unit);
 Summary summary_of(RunKind& run, const std::filesystem::path& directory);
 
 /// build_model(), while people at a terminal see how the calibration of the bonds comes along.
-Model build_model_visibly(const CaseFile& input, bool quiet, int parts = 1);
+Model build_model_visibly(const CaseFile& input, bool quiet);
 
 }  // namespace perilink

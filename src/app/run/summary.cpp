@@ -96,7 +96,6 @@ void tell_motion(Summary& summary, const CaseFile& input, const RunFiles& files,
 namespace {
 
 std::int64_t bonds_and_slip_springs(const Model& model) {
-  if (model.pattern) return static_cast<std::int64_t>(model.pattern->num_bonds());
   return model.network.first_bar_element - model.network.num_edges_of_cells();
 }
 

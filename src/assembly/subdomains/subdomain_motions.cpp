@@ -59,31 +59,6 @@ SubdomainMotions::SubdomainMotions(const Network& network, Secants secants,
   find_centres(network.particles);
 }
 
-SubdomainMotions::SubdomainMotions(const Particles& particles, const Unknowns& unknowns,
-                                   std::vector<std::vector<Index>> own, Index first_subdomain,
-                                   Index num_subdomains, const Exchange& exchange)
-    : dim_(particles.dim),
-      unknowns_(unknowns),
-      subdomains_(static_cast<std::size_t>(num_subdomains)) {
-  std::move(own.begin(), own.end(), subdomains_.begin() + first_subdomain);
-  subdomain_of_ = numbers_of_subdomains(subdomains_, particles.size());
-  find_centres(particles);
-  const std::size_t dim = static_cast<std::size_t>(dim_), width = dim + 2;
-  std::vector<double> known(subdomain_of_.size() * width, 0.0);
-  for (std::size_t p = 0; p < subdomain_of_.size(); ++p) {
-    if (subdomain_of_[p] == no_index) continue;
-    known[p * width] = subdomain_of_[p];
-    known[p * width + 1] = size_[subdomain_of_[p]];
-    std::copy_n(arms_.begin() + p * dim, dim, known.begin() + p * width + 2);
-  }
-  exchange(known, static_cast<int>(width));
-  for (std::size_t p = 0; p < subdomain_of_.size(); ++p) {
-    subdomain_of_[p] = static_cast<Index>(known[p * width]);
-    size_[subdomain_of_[p]] = known[p * width + 1];
-    std::copy_n(known.begin() + p * width + 2, dim, arms_.begin() + p * dim);
-  }
-}
-
 void SubdomainMotions::find_centres(const Particles& particles) {
   const std::size_t dim = static_cast<std::size_t>(dim_);
   arms_ = particles.positions;

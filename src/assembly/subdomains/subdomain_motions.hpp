@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -24,17 +23,6 @@ class SubdomainMotions {
  public:
   /// \param most  largest number of particles in a subdomain
   SubdomainMotions(const Network& network, Secants secants, const Unknowns& unknowns, Index most);
-
-  /// Updates the values at particles of other processes, shape (particles, width).
-  using Exchange = std::function<void(std::span<double> known, int width)>;
-  /// Builds the coarse space of one process. It owns the first particles of the body, with their
-  /// subdomains already split by cracks. Of other subdomains it has the numbers and centres.
-  /// \param own              subdomains of this process
-  /// \param first_subdomain  number of subdomains of the processes before
-  /// \param unknowns         unknowns of all particles
-  SubdomainMotions(const Particles& particles, const Unknowns& unknowns,
-                   std::vector<std::vector<Index>> own, Index first_subdomain, Index num_subdomains,
-                   const Exchange& exchange);
 
   Index num_subdomains() const { return static_cast<Index>(subdomains_.size()); }
   /// Number of motions per subdomain: three in the plane, six in space.

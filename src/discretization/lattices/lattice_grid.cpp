@@ -7,36 +7,6 @@
 #include "discretization/lattices/lattice_parts.hpp"
 
 namespace perilink {
-namespace {
-
-/// Divides a window into `parts` windows. \return false if it has too few planes
-bool split(const LatticeGrid& grid, const GridWindow& window, int parts,
-           std::vector<GridWindow>& found) {
-  if (parts == 1) {
-    found.push_back(window);
-    return grid.size(window) > 0;
-  }
-  int axis = 0;
-  double longest = -1.0;
-  for (int a = 0; a < grid.dim; ++a) {
-    const double side = (window.last[a] - window.first[a]) * grid.step[a];
-    if (side <= longest) continue;
-    longest = side;
-    axis = a;
-  }
-  const Index planes = window.last[axis] - window.first[axis] + 1;
-  const int lower_parts = parts / 2;
-  const auto lower_planes =
-      static_cast<Index>(std::lround(1.0 * planes * lower_parts / static_cast<double>(parts)));
-  if (lower_planes == 0 || lower_planes == planes) return false;
-  GridWindow lower = window, upper = window;
-  upper.first[axis] = window.first[axis] + lower_planes;
-  lower.last[axis] = upper.first[axis] - 1;
-  return split(grid, lower, lower_parts, found) && split(grid, upper, parts - lower_parts, found);
-}
-
-}  // namespace
-
 Index LatticeGrid::number(const GridWindow& window, const GridPoint& point) const {
   // How many of `count` consecutive numbers are even; the first is even (odd = 0) or odd (odd = 1).
   const auto evens = [&](Index count, Index odd) {
@@ -64,15 +34,6 @@ Vector3 LatticeGrid::position(const GridPoint& point) const {
     x[a] = point[a] == count[a] ? upper[a] : lower[a] + step[a] * point[a];
   }
   return x;
-}
-
-GridWindow LatticeGrid::grown(const GridWindow& window, const std::array<Index, 3>& steps) const {
-  GridWindow wide = window;
-  for (int a = 0; a < 3; ++a) {
-    wide.first[a] = std::max(0, window.first[a] - steps[a]);
-    wide.last[a] = std::min(count[a], window.last[a] + steps[a]);
-  }
-  return wide;
 }
 
 std::optional<LatticeGrid> grid_of(const Body& body) {
@@ -125,12 +86,6 @@ Body body_of(const LatticeGrid& grid, const Lattice& lattice, double thickness) 
   body.particles = fill_conforming_grid(input, lattice, outline);
   body.facets = grid_facets(input, lattice, outline, body.particles);
   return body;
-}
-
-std::vector<GridWindow> split_grid(const LatticeGrid& grid, int parts) {
-  std::vector<GridWindow> found;
-  if (!split(grid, grid.all(), parts, found)) found.clear();
-  return found;
 }
 
 }  // namespace perilink

@@ -15,13 +15,6 @@ using GridPoint = std::array<Index, 3>;
 /// Box of points, including its faces.
 struct GridWindow {
   GridPoint first{}, last{};
-
-  bool contains(const GridPoint& point) const {
-    for (int a = 0; a < 3; ++a) {
-      if (point[a] < first[a] || point[a] > last[a]) return false;
-    }
-    return true;
-  }
 };
 
 /// Box filled with one rectangular, cubic or face-centred lattice, described by few numbers. Its
@@ -41,9 +34,6 @@ struct LatticeGrid {
     return number(window, {window.first[0], window.first[1], window.last[2] + 1});
   }
   Vector3 position(const GridPoint& point) const;
-  /// Returns a window enlarged by some steps along each axis, within the grid.
-  GridWindow grown(const GridWindow& window, const std::array<Index, 3>& steps) const;
-
   /// Calls visit(point) for the particles of a window in their order.
   template <class Visit>
   void for_each(const GridWindow& window, Visit visit) const {
@@ -64,10 +54,5 @@ std::optional<LatticeGrid> grid_of(const Body& body);
 /// Returns a body of one material on a grid with the given lattice.
 /// \param thickness  in the plane [length]
 Body body_of(const LatticeGrid& grid, const Lattice& lattice, double thickness);
-
-/// Divides the particles: halves the box along its longest side, in proportion to the parts on both
-/// sides.
-/// \return windows; empty if the box has too few planes
-std::vector<GridWindow> split_grid(const LatticeGrid& grid, int parts);
 
 }  // namespace perilink

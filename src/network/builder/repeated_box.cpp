@@ -76,8 +76,8 @@ std::optional<Network> repeat_smaller_box(
   const auto count = static_cast<std::size_t>(pattern->num_bonds());
   network.bonds.begin_alike(sample.bonds, count);
   like.reserve(count);
-  PatternBonds(*pattern).for_each_first(
-      grid.all(), [&](const GridPoint& first, const GridPoint& second, Index element) {
+  PatternBonds(*pattern).for_each(
+      [&](const GridPoint& first, const GridPoint& second, Index element) {
         network.bonds.append_alike(grid.number(grid.all(), first), grid.number(grid.all(), second),
                                    sample.bonds.kind_of(element));
         like.push_back(element);

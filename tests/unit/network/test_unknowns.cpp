@@ -38,15 +38,5 @@ TEST(RotatingParticles, AreNotThoseWithHingesOnly) {
   EXPECT_EQ(rotating_particles(network), (std::vector<std::uint8_t>{1, 1, 0}));
 }
 
-TEST(RotatingParticles, AreAllWhoseBondsOthersMake) {
-  Network network;
-  network.particles.volumes.assign(3, 1.0);
-  EXPECT_EQ(network.width(), 2);
-  EXPECT_TRUE(rotating_particles(network).empty());
-  network.all_turn = true;
-  EXPECT_EQ(network.width(), 3);
-  EXPECT_EQ(rotating_particles(network), (std::vector<std::uint8_t>{1, 1, 1}));
-}
-
 }  // namespace
 }  // namespace perilink

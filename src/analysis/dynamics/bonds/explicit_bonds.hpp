@@ -7,8 +7,6 @@
 
 namespace perilink {
 
-class GhostLayer;
-
 /// Motion of a network at step n: displacements now, velocities half a step earlier, both of shape
 /// (particles, width).
 struct BondMotion {
@@ -38,14 +36,12 @@ class ExplicitBonds {
   virtual ~ExplicitBonds() = default;
 
   /// Whether forces need sums over the neighbours of both ends of a bond: prepare() then comes
-  /// before forces(), for all particles, and finish_step() once after them. Where ranks share the
-  /// work they bring the states of each other's particles up to date in between.
+  /// before forces(), for all particles, and finish_step() once after them.
   virtual bool has_states() const { return false; }
   virtual BondLosses prepare(Index /*begin*/, Index /*end*/, double /*time_step*/,
                              const BondMotion& /*motion*/) {
     return {};
   }
-  virtual void update_states(GhostLayer& /*ghosts*/) {}
   virtual void finish_step() {}
 
   /// Internal force, K u of small strains, of the particles [begin, end), after the bonds that

@@ -8,9 +8,9 @@
 #include "analysis/dynamics/bonds/break_order.hpp"
 #include "analysis/dynamics/bonds/explicit_bonds.hpp"
 #include "analysis/dynamics/bonds/free_motion.hpp"
-#include "analysis/dynamics/bonds/particle_blocks.hpp"
 #include "analysis/dynamics/explicit_run.hpp"
 #include "analysis/dynamics/inertia.hpp"
+#include "analysis/ranks/particle_blocks.hpp"
 #include "network/loaded_network.hpp"
 
 namespace perilink {

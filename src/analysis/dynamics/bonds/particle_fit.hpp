@@ -24,7 +24,7 @@ class ParticleStrains {
     Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(static_cast<Index>(halves.size()), entries);
     for (std::size_t k = 0; k < halves.size(); ++k) {
       if (!halves[k].mine) continue;
-      const auto& n = halves[k].direction;
+      const auto& n = halves[k].n;
       for (int c = 0; c < entries; ++c) {  // entries off the diagonal count twice
         const auto [a, b] = axes[c];
         rows(static_cast<Index>(k), c) = (a == b ? 1.0 : 2.0) * n[a] * n[b];

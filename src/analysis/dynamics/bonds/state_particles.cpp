@@ -4,29 +4,37 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <vector>
 
+#include "analysis/dynamics/bonds/element_halves.hpp"
 #include "analysis/dynamics/bonds/particle_fit.hpp"
 #include "base/plain_text.hpp"
 #include "material/principal_values.hpp"
-#include "solver/ranks.hpp"
 
 namespace perilink {
 namespace {
 
 /// A bond as one of its ends sees it.
 template <int Dim>
-struct StateHalf {
-  std::array<double, Dim> direction;  ///< outwards
-  double stiffness = 0.0;             ///< stiffness of the whole bond [force/length]
-  Index other = 0;
-  Index element = 0;
-  bool mine = false;    ///< counts in the sum of this end
-  bool others = false;  ///< in that of the other one
+struct StateHalf : TrussHalf<Dim> {
+  Index element;
+  bool mine;    ///< counts in the sum of this end
+  bool others;  ///< counts in the sum of the other end
+
+  StateHalf(const Network& network, Index number, bool first)
+      : TrussHalf<Dim>(network, number, first),
+        element(number),
+        mine(network.counts_for(number, first ? first_end : second_end)),
+        others(network.counts_for(number, first ? second_end : first_end)) {}
+
+  /// Extension of the bond of a particle in a field of shape (particles, Dim).
+  double extension_in(const std::vector<double>& field, Index own) const {
+    return this->extension(field.data() + own * std::size_t{Dim},
+                           field.data() + this->other * std::size_t{Dim});
+  }
 };
 
 /// What damage leaves of a bond: of its own force, and as weights of its extension in the sums of
@@ -63,7 +71,6 @@ class StateParticles final : public ExplicitBonds {
 
   bool has_states() const override { return true; }
   BondLosses prepare(Index begin, Index end, double time_step, const BondMotion& motion) override;
-  void update_states(GhostLayer& ghosts) override;
   void finish_step() override { damage_.swap(next_); }
   BondLosses forces(Index begin, Index end, double time_step, const BondMotion& motion,
                     std::span<double> force) override;
@@ -74,14 +81,6 @@ class StateParticles final : public ExplicitBonds {
  private:
   std::span<const StateHalf<Dim>> halves_of(Index i) const {
     return {halves_.data() + offsets_[i], halves_.data() + offsets_[i + 1]};
-  }
-  static double difference(const StateHalf<Dim>& half, Index i, const std::vector<double>& field) {
-    double along = 0.0;
-    for (int c = 0; c < Dim; ++c) {
-      along += half.direction[c] *
-               (field[half.other * std::size_t{Dim} + c] - field[i * std::size_t{Dim} + c]);
-    }
-    return along;
   }
   const HalfFactors& factors(std::size_t half, double extension) const {
     static constexpr HalfFactors intact{};
@@ -135,19 +134,7 @@ StateParticles<Dim>::StateParticles(const Network& network, Problem problem,
   const Bonds& bonds = network.bonds;
   const Csr around = bonds_of_particles(bonds, network.particles.size());
   for (Index i = 0; i < network.particles.size(); ++i) {
-    for (const Index e : around.row(i)) {
-      const bool outward = bonds.first[e] == i;
-      StateHalf<Dim> half;
-      for (int c = 0; c < Dim; ++c) {
-        half.direction[c] = outward ? bonds.direction(e)[c] : -bonds.direction(e)[c];
-      }
-      half.stiffness = network.stiffness[e];
-      half.other = outward ? bonds.second[e] : bonds.first[e];
-      half.element = e;
-      half.mine = network.counts_for(e, outward ? first_end : second_end);
-      half.others = network.counts_for(e, outward ? second_end : first_end);
-      halves_.push_back(half);
-    }
+    for (const Index e : around.row(i)) halves_.emplace_back(network, e, bonds.first[e] == i);
     offsets_.push_back(halves_.size());
   }
   if (!breakable_) return;
@@ -186,10 +173,10 @@ double StateParticles<Dim>::half_energy(Index i, double time_step, const BondMot
   double energy = 0.0, now = 0.0, before = 0.0;
   for (std::size_t h = offsets_[i]; h < offsets_[i + 1]; ++h) {
     const StateHalf<Dim>& half = halves_[h];
-    const double e = difference(half, i, motion.displacement);
-    const double past = e - time_step * difference(half, i, motion.velocity);
+    const double e = half.extension_in(motion.displacement, i);
+    const double past = e - time_step * half.extension_in(motion.velocity, i);
     const HalfFactors& factor = factors(h, e);
-    energy += 0.25 * half.stiffness * factor.bond * e * past;
+    energy += 0.25 * half.k * factor.bond * e * past;
     if (!half.mine) continue;
     now += factor.mine * e;
     before += factor.mine * past;
@@ -258,7 +245,7 @@ BondLosses StateParticles<Dim>::prepare(Index begin, Index end, double time_step
     }
     double sum = 0.0;
     for (std::size_t h = offsets_[i]; h < offsets_[i + 1]; ++h) {
-      const double e = difference(halves_[h], i, motion.displacement);
+      const double e = halves_[h].extension_in(motion.displacement, i);
       if (breakable_) extension_[h] = e;
       if (halves_[h].mine) sum += factors(h, e).mine * e;
     }
@@ -271,12 +258,6 @@ BondLosses StateParticles<Dim>::prepare(Index begin, Index end, double time_step
 }
 
 template <int Dim>
-void StateParticles<Dim>::update_states(GhostLayer& ghosts) {
-  if (breakable_) return ghosts.update(1, {sum_, next_});
-  ghosts.update(1, {sum_});
-}
-
-template <int Dim>
 BondLosses StateParticles<Dim>::forces(Index begin, Index end, double /*time_step*/,
                                        const BondMotion& motion, std::span<double> force) {
   for (Index i = begin; i < end; ++i) {
@@ -284,14 +265,14 @@ BondLosses StateParticles<Dim>::forces(Index begin, Index end, double /*time_ste
     const double own = network_.state_stiffness[i] * sum_[i];
     for (std::size_t h = offsets_[i]; h < offsets_[i + 1]; ++h) {
       const StateHalf<Dim>& half = halves_[h];
-      const double e = difference(half, i, motion.displacement);
+      const double e = half.extension_in(motion.displacement, i);
       const HalfFactors& factor = factors(h, e);
-      double pull = factor.bond * half.stiffness * e;
+      double pull = factor.bond * half.k * e;
       if (half.mine) pull += factor.mine * own;
       if (half.others) {
         pull += factor.other * network_.state_stiffness[half.other] * sum_[half.other];
       }
-      for (int c = 0; c < Dim; ++c) inner[c] -= pull * half.direction[c];
+      for (int c = 0; c < Dim; ++c) inner[c] -= pull * half.n[c];
     }
     for (int c = 0; c < Dim; ++c) force[i * std::size_t{Dim} + c] = inner[c];
   }
@@ -306,8 +287,7 @@ double StateParticles<Dim>::stored(Index begin, Index end, double time_step,
   return energy;
 }
 
-/// Factors differ between the ends by round-off. That of the upper end counts, as it does where
-/// ranks put theirs together: the halves of a rank's ghosts above it stay intact.
+/// Factors differ between the ends by round-off. The factor at the upper end counts.
 template <int Dim>
 std::vector<double> StateParticles<Dim>::secants() const {
   std::vector<double> secants(static_cast<std::size_t>(network_.num_elements()), 1.0);

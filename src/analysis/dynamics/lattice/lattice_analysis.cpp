@@ -13,8 +13,6 @@
 
 #include "analysis/dynamics/lattice/body/lattice_loads.hpp"
 #include "analysis/dynamics/lattice/lattice_changes.hpp"
-#include "analysis/dynamics/lattice/ranks/lattice_share.hpp"
-#include "analysis/dynamics/lattice/ranks/row_partition.hpp"
 #include "analysis/dynamics/lattice/rows/row_energy.hpp"
 #include "analysis/dynamics/lattice/rows/row_kernels.hpp"
 #include "analysis/dynamics/lattice/rows/row_sweep.hpp"
@@ -65,8 +63,7 @@ class ExplicitRun {
         state_(state),
         options_(options),
         observer_(observer),
-        own_{0, static_cast<Index>(model.lattice.rows.size())},
-        swept_{0, own_.end},
+        rows_(static_cast<Index>(model.lattice.rows.size())),
         loop_(options, critical) {
     if (model.alters()) changes_.emplace(model);
   }
@@ -74,25 +71,12 @@ class ExplicitRun {
   ExplicitResult run() {
     // Three barriers per step: a thread pays only with enough particles of its own.
     const Index useful = std::max<Index>(1, model_.lattice.particles() / particles_per_thread);
-    return run_on(std::min<Index>(options_.threads, useful));
-  }
-
-  /// Together with other ranks.
-  ExplicitResult run(LatticeShare& share) {
-    share_ = &share;
-    own_ = share.part().own;
-    swept_ = share.part().swept;
-    run_on(1);
-    share.leads() ? look_back() : share.report(state_);
-    return loop_.result();
-  }
-
- private:
-  ExplicitResult run_on(Index threads) {
+    const Index threads = std::min<Index>(options_.threads, useful);
     prepare_passing(threads);
     return loop_.run(threads, [this](Index step) { one_step(step); });
   }
 
+ private:
   /// Damage and flow, between stretches and forces; nothing in bodies that never change.
   auto changes(double dt) {
     const Index reach = model_.lattice.reach, flow = model_.material.yields ? reach : 0;
@@ -130,14 +114,9 @@ class ExplicitRun {
     return std::tuple_cat(stretches(dt), changes(dt), motion(dt, factor, increment));
   }
 
- public:
-  /// How far apart the rows are that depend on each other in a step.
-  SweepReach reach() { return reach_of(all_stages(0.0, 0.0, 0.0)); }
-
- private:
   /// Steps that nobody looks at keep their numbers in the cache.
   void prepare_passing(Index threads) {
-    const SweepReach reach = this->reach();
+    const SweepReach reach = reach_of(all_stages(0.0, 0.0, 0.0));
     PassingRows passing;
     passing.blocks = threads;
     passing.alive = reach.ahead + reach.widest + 1;
@@ -158,20 +137,17 @@ class ExplicitRun {
     const double dt = loop_.time_step();
     const double factor = loop_.load_factor(step);
     const double increment = loop_.load_factor(step + 1) - factor;
-    if (share_ != nullptr) share_->update_rows(state_);  // by one thread
     const bool passes = is_passing(step);
     if (passes != passed_) {
 #pragma omp single
       std::swap(state_.now, passing_);
     }
     if (loop_.is_looked_at(step)) {
-      const auto first = stretches(dt);
-      sweep_rows(swept_, first);
+      sweep_rows(rows_, stretches(dt));
       look(step);
-      sweep_rows(swept_.after(reach_of(first)),
-                 std::tuple_cat(changes(dt), motion(dt, factor, increment)));
+      sweep_rows(rows_, std::tuple_cat(changes(dt), motion(dt, factor, increment)));
     } else {
-      sweep_rows(swept_, all_stages(dt, factor, increment));
+      sweep_rows(rows_, all_stages(dt, factor, increment));
     }
 #pragma omp single
     note_reactions(step, passes);
@@ -180,12 +156,11 @@ class ExplicitRun {
   void note_reactions(Index step, bool passes) {
     passed_ = passes;
     state_.step = step + 1;
-    if (share_ != nullptr) return share_->note_step(state_);
-    note_peak(step, note_loads(step));
+    note_loads(step);
   }
 
-  /// Loads of a step into the record. \return reactions of supports
-  double note_loads(Index step) {
+  /// Loads of a step into the record.
+  void note_loads(Index step) {
     double driven = 0.0, supports = 0.0;
     for (const RowReactions& row : state_.reactions) {
       driven += row.driven;
@@ -194,37 +169,20 @@ class ExplicitRun {
     const double factor = loop_.load_factor(step);
     record_.load = options_.driven ? driven / options_.reference : factor * options_.reference;
     record_.support_reaction = supports;
-    return supports;
-  }
-
-  void note_peak(Index step, double supports) {
-    const double factor = loop_.load_factor(step);
     loop_.note_reaction(supports, options_.driven ? factor * options_.reference : 0.0);
-  }
-
-  /// What note_reactions() does, for the steps in which the other ranks went by themselves.
-  void look_back() {
-    for (const double supports : share_->collect(state_)) note_peak(noted_++, supports);
-    if (noted_ > 0) note_loads(noted_ - 1);
   }
 
   void look(Index step) {
     const double dt = loop_.time_step();
 #pragma omp for schedule(static)
-    for (Index r = own_.begin; r < own_.end; ++r) measure_row(model_, state_, r, dt);
+    for (Index r = 0; r < rows_; ++r) measure_row(model_, state_, r, dt);
 #pragma omp single
     note_row(step);
   }
 
   void note_row(Index step) {
-    if (share_ != nullptr && !share_->leads()) {
-      if (!share_->meet(state_)) loop_.leave();
-      return;
-    }
-    if (share_ != nullptr) look_back();
     record_.energy = energy_balance(state_.sums);
     loop_.look(step, record_, observer_, state_, [this](ExplicitRecord& record) {
-      if (share_ != nullptr) share_->collect_fields(state_);
       record.displacement = options_.driven ? record.load_factor * options_.reference
                                             : loaded_work(model_, state_) / options_.reference;
       record.cracked_particles = record.yielded_particles = 0;
@@ -233,17 +191,13 @@ class ExplicitRun {
         record.yielded_particles += row.yielded;
       }
     });
-    if (share_ != nullptr) share_->tell(!loop_.is_done());
   }
 
   const ExplicitModel& model_;
   ExplicitState& state_;
   const ExplicitOptions& options_;
   ExplicitObserver& observer_;
-  LatticeShare* share_ = nullptr;  ///< null: this process is alone
-  RowRange own_;                   ///< that this process moves
-  SweptRows swept_;
-  Index noted_ = 0;  ///< steps that look_back() has seen
+  Index rows_;
   std::optional<LatticeChanges> changes_;
   ExplicitLoop loop_;
   ExplicitRecord record_;
@@ -252,55 +206,11 @@ class ExplicitRun {
   bool passed_ = false;       ///< in the last step; rounds of steps may differ in their threads
 };
 
-/// What the options of a run are to another rank, and its part of the rows.
-struct RowOrder {
-  ExplicitOptions options;
-  double critical_time_step;
-  RowPart part;
-};
-
 }  // namespace
 
 ExplicitResult run_explicit_analysis(const ExplicitModel& model, ExplicitState& state,
                                      const ExplicitOptions& options, ExplicitObserver& observer) {
-  const double critical = critical_time_step(model);
-  ExplicitRun run(model, state, options, critical, observer);
-  if (options.ranks == nullptr || state.step != 0) return run.run();
-  Ranks& ranks = *options.ranks;
-  const RowPartition partition(model.lattice, run.reach(), ranks.count());
-  if (partition.count() == 1) return run.run();
-  return lead(ranks, [&] {
-    std::vector<RowRange> own_of{partition.own(0)};
-    for (int rank = 1; rank < partition.count(); ++rank) {
-      const RowRange known = partition.known(rank);
-      Parcel order, part;
-      order.put(Service::move_rows);
-      order.put(RowOrder{options, critical, partition.part(rank)});
-      ranks.send(rank, order.bytes());
-      pack(cut_rows(model, known), part);
-      part.put(cut_field(state.displacement, model.lattice, known));
-      part.put(cut_field(state.velocity, model.lattice, known));
-      ranks.send(rank, part.bytes());
-      own_of.push_back(partition.own(rank));
-    }
-    LatticeShare share(ranks, partition.part(0), model, std::move(own_of));
-    ExplicitResult result = run.run(share);
-    result.ranks = partition.count();
-    return result;
-  });
-}
-
-void move_rows_along(Ranks& ranks, Parcel& order) {
-  const auto rest = order.get<RowOrder>();
-  Parcel parcel(ranks.receive(0));
-  const ExplicitModel model = unpack_model(parcel);
-  ExplicitState state(model);
-  parcel.get(state.displacement);
-  parcel.get(state.velocity);
-  parcel = {};
-  LatticeShare share(ranks, rest.part, model);
-  ExplicitObserver nobody;
-  ExplicitRun(model, state, rest.options, rest.critical_time_step, nobody).run(share);
+  return ExplicitRun(model, state, options, critical_time_step(model), observer).run();
 }
 
 }  // namespace perilink

@@ -2,23 +2,18 @@
 
 #include "analysis/dynamics/explicit_run.hpp"
 #include "analysis/dynamics/lattice/body/lattice_state.hpp"
-#include "base/parcel.hpp"
 
 namespace perilink {
 
 using ExplicitObserver = RunObserver<ExplicitState>;
 
 /// Runs a body from the given state by Euler–Cromer: forces at step n change velocities, those the
-/// displacements. Sums are the same for any number of threads and ranks. Ranks share the work where
-/// the body is intact at first and has enough rows for two of them.
+/// displacements. Sums are the same for any number of threads.
 /// \throws std::invalid_argument where the time step exceeds the critical one (unless
 /// refuse_unstable is off) or duration is not positive
 /// \returns ending = failed where energy grows from nothing: kinetic and stored energy exceed twice
 /// all work done so far, or the kinetic one a hundred times
 ExplicitResult run_explicit_analysis(const ExplicitModel& model, ExplicitState& state,
                                      const ExplicitOptions& options, ExplicitObserver& observer);
-
-/// The part of a rank that does not lead in a run that ranks share.
-void move_rows_along(Ranks& ranks, Parcel& order);
 
 }  // namespace perilink

@@ -21,7 +21,7 @@ void LatticeChanges::look(ExplicitState& state, Index row) const {
   if (!is_scan_due(model_, state, row)) return;
   state.row_changes[row] |= RowChanges::scanned;
   thread_local DueParticles due;
-  scan_row(model_, particles_, state, row, due);
+  scan_row(model_, state, row, due);
   // Both see the stretches that were there before.
   for (const Index slot : due.damage) {
     if (damage_.grow(state, row, slot)) state.row_changes[row] |= RowChanges::damage_grew;

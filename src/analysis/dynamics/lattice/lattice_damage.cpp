@@ -76,8 +76,7 @@ bool LatticeDamage::follows_stress(const Neighbourhood& neighbourhood) const {
 void LatticeDamage::watch(ExplicitState& state, const Neighbourhood& neighbourhood, double strain,
                           double damage) const {
   const Index slot = neighbourhood.slot;
-  double& next =
-      model_.rules == LatticeRules::consistent ? state.crack_at[slot] : state.grow_at[slot];
+  double& next = state.crack_at[slot];
   if (damage >= 1.0) {
     next = never;
   } else if (follows_stress(neighbourhood)) {
@@ -106,7 +105,7 @@ bool LatticeDamage::grow(ExplicitState& state, Index row, Index slot) const {
   const double strain = driving_strain(state, neighbourhood);
   const double damage = damage_at(strain, state.crack_band[slot]);
   const bool grows = damage > state.damage[slot];
-  if (first || grows || model_.rules != LatticeRules::consistent) {
+  if (model_.rules == LatticeRules::consistent && (first || grows)) {
     watch(state, neighbourhood, strain, std::max(damage, state.damage[slot]));
   }
   if (grows && state.damage[slot] == 0.0) state.cracked_in[slot] = state.step;

@@ -34,7 +34,8 @@ class LatticeDamage {
   double driving_strain(const ExplicitState& state, const Neighbourhood& neighbourhood) const;
   /// Whether damage follows the particle's own stress: by the consistent rules away from faces.
   bool follows_stress(const Neighbourhood& neighbourhood) const;
-  /// Sets the threshold at which a cracked particle has to be looked at again.
+  /// Sets the threshold at which a cracked particle has to be looked at again by the consistent
+  /// rules.
   void watch(ExplicitState& state, const Neighbourhood& neighbourhood, double strain,
              double damage) const;
   double damage_at(double strain, double band) const;

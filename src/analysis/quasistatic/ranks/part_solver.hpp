@@ -1,33 +1,57 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
 
-#include "analysis/quasistatic/ranks/body_part.hpp"
+#include "analysis/ranks/body_part.hpp"
 #include "assembly/internal_force.hpp"
+#include "assembly/subdomains/subdomain_stiffness.hpp"
 #include "base/parcel.hpp"
 #include "solver/blocks/block_gradients.hpp"
 #include "solver/factor.hpp"
 
 namespace perilink {
 
-/// What has become of a body since its parts were told last.
+/// Changes of a body since its parts were sent.
 struct BodyChanges {
-  std::vector<GlobalIndex> elements;  ///< with other secants than before, ascending
-  std::vector<double> axial, other;   ///< what these are now
-  std::vector<double> ground;  ///< springs that hold unknowns; empty: those that are known already
+  std::vector<Index> elements;       ///< numbers in the whole body, ascending
+  std::vector<double> axial, other;  ///< new secants of these elements
+  std::vector<double> ground;        ///< springs that hold unknowns; empty: as before
 
   void pack(Parcel& parcel) const;
   static BodyChanges unpack(Parcel& parcel);
 };
 
-/// The part of a rank in conjugate gradients with boxes (docs/theory/large_bodies.md). All ranks
-/// have a factor of the boxes, small beside their parts.
+/// A part of a body with its rows of the two-level preconditioner.
+struct PreconditionedPart {
+  BodyPart part;  ///< unknowns have the numbers of the part: own particles have some, ghosts none
+  std::vector<double> axial, other;  ///< secants of the elements
+  std::vector<double> blocks;     ///< inverse stiffness of each own particle, (owned, width, width)
+  SparseMatrix coarse;            ///< P'K P of the whole body, lower triangle
+  std::vector<Index> subdomains;  ///< per own particle
+  std::vector<std::array<double, 6>> rows;  ///< rows of P, shape (owned, width)
+  int motions = 3;                          ///< number of motions of a box
+  bool changes = false;                     ///< secants change, and search_block() is called
+
+  Secants secants() const { return {other, axial}; }
+  void pack(Parcel& parcel) const;
+  static PreconditionedPart unpack(Parcel& parcel);
+};
+
+/// \param stiffness  stiffness of the whole body, its blocks inverted
+PreconditionedPart cut_part(const Network& network, Secants secants, const Unknowns& unknowns,
+                            const SubdomainMotions& motions, const SubdomainStiffness& stiffness,
+                            const Partition& partition, int rank);
+
+/// The work of one rank in conjugate gradients with the two-level preconditioner
+/// (docs/theory/large_bodies.md). Every rank has a factor of the coarse matrix, which is small
+/// beside the parts.
 class PartSolver {
  public:
   /// \throws SolverError where the boxes' matrix is not positive definite, on all ranks
-  PartSolver(Ranks& ranks, BodyPart part);
+  PartSolver(Ranks& ranks, PreconditionedPart part);
 
   /// Elements of the whole body, of which this part has some; springs of its own unknowns.
   void follow(const BodyChanges& changes);
@@ -41,20 +65,15 @@ class PartSolver {
   GradientsReport search_block(std::span<double> right, std::span<double> solution,
                                const BlockRow& sizes, double enough, int most_iterations);
 
-  /// Collective. What internal_force() finds, of the own particles, and the energy of the elements
-  /// whose first end is one of them.
-  /// \param motion  that of the own particles, shape (owned, width)
-  InternalForce internal(std::span<const double> motion);
-
-  const BodyPart& part() const { return part_; }
-  /// What internal() was asked for last, and the same of ghosts; shape (owned + ghosts, width).
-  std::span<const double> last_motion() const { return last_motion_; }
-
-  std::size_t size() const { return static_cast<std::size_t>(part_.unknowns.count); }
-  FactorStatistics coarse() const { return factor_->statistics(); }
-  Index num_subdomains() const { return static_cast<Index>(coarse_.size()) / part_.motions; }
-
  private:
+  const Unknowns& unknowns() const { return own_.part.body.unknowns; }
+  /// Number of the first own component in fields of the part, shape (particles, width).
+  std::size_t first_slot() const {
+    return static_cast<std::size_t>(own_.part.own_begin) * unknowns().width;
+  }
+  /// A map of vectors whose exceptions end all ranks: other ranks would wait for this one.
+  template <class Map>
+  auto guarded(Map map);
   void multiply(std::span<const double> q, std::span<double> result);
   void precondition(std::span<const double> residual, std::span<double> result);
   void multiply_block(std::span<const double> motions, std::span<double> results);
@@ -62,14 +81,13 @@ class PartSolver {
   void solve_coarse_block();
 
   Ranks& ranks_;
-  BodyPart part_;
+  PreconditionedPart own_;
   std::vector<double> ground_;  ///< springs of the own unknowns, or empty
   std::unique_ptr<Factor> factor_;
   GhostLayer layer_;
-  std::vector<double> motion_;  ///< shape (owned + ghosts, width), zero where it is prescribed
+  std::vector<double> motion_;  ///< shape (particles, width), zero where it is prescribed
   std::vector<double> coarse_;  ///< residual or motion of the boxes, shape (boxes, motions)
   InternalForce forces_;
-  std::vector<double> last_motion_;
 
   // Each number of the above block_width times.
   std::vector<double> motions_, block_forces_, coarse_sums_, coarse_columns_;

@@ -3,19 +3,18 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
-#include "analysis/quasistatic/ranks/lattice_part.hpp"
 #include "analysis/quasistatic/ranks/part_solver.hpp"
 
 namespace perilink {
 
-/// Whether ranks can share the work on a network: their parts have bonds, sums of their extensions
-/// and springs, no more.
-inline bool can_be_shared(const Network& network, const Unknowns& unknowns) {
-  return !network.cells && !network.shell && !unknowns.carries();
-}
+/// Whether ranks share the work on a network: there are several, a particle at least for each, and
+/// their parts have nothing but bonds and springs.
+/// \param ranks  null: this process is alone
+bool can_be_shared(const Network& network, const Unknowns& unknowns, const Ranks* ranks);
 
-/// All ranks at work on one body, seen from the one that leads. The others obey, to one team at a
+/// All ranks at work on one body, seen from the first rank. The other ranks serve one team at a
 /// time.
 class Team {
  public:
@@ -23,64 +22,53 @@ class Team {
   /// \param stiffness  its blocks inverted
   /// \param ground     springs that hold unknowns, size n, or empty until there are some, and
   ///                   never again; null: neither these nor the secants change. Both are kept by
-  ///                   reference, and every search is that of what they are by then
+  ///                   reference, and every search takes their present values
   Team(Ranks& ranks, const Network& network, const Unknowns& unknowns, Secants secants,
        const SubdomainMotions& motions, const SubdomainStiffness& stiffness,
        const std::vector<double>* ground = nullptr);
-
-  /// Lets every rank make its own part of a box of a lattice, which has as many planes at least.
-  /// \param places  particles and springs of the whole body; no bonds
-  /// \throws SolverError on all ranks
-  Team(Ranks& ranks, const LatticePattern& pattern, const Network& places, const Unknowns& unknowns,
-       Index particles_of_box);
 
   /// conjugate_gradients() of the whole body; vectors have all its unknowns.
   GradientsReport search(std::span<const double> right, std::span<double> solution, double enough,
                          double scale, int most_iterations);
 
-  /// block_conjugate_gradients() of vectors of shape (particles, width, block_width), where changes
-  /// may come.
+  /// block_conjugate_gradients() of vectors of shape (particles, width, block_width), where secants
+  /// may change.
   GradientsReport search_block(std::span<const double> right, std::span<double> solution,
                                const BlockRow& sizes, double enough, int most_iterations);
 
-  /// internal_force() of parts that the ranks have made; motion of shape (particles, width).
-  InternalForce internal(std::span<const double> motion);
-
-  /// Puts what a rank has found of its own particles among what is known of all.
-  /// \param own  shape (owned, width)
-  /// \param all  shape (particles, width), zero there before
-  void put_in_place(int rank, std::span<const double> own, std::size_t width,
-                    std::span<double> all) const;
-
-  FactorStatistics coarse() const { return own_->coarse(); }
-  Index num_subdomains() const { return own_->num_subdomains(); }
-  Ranks& ranks() const { return ranks_; }
-  const PartSolver& own() const { return *own_; }
-
  private:
-  void tell_changes();
+  /// Shares of a field of shape (particles, width) or of the unknowns.
+  struct Share {
+    std::vector<std::size_t> first;  ///< per rank, and an end
+    std::size_t width = 1;
+    template <class Values>
+    auto of(int rank, Values values) const {
+      return values.subspan(first[rank] * width, (first[rank + 1] - first[rank]) * width);
+    }
+  };
+
+  template <class Order, class Search>
+  GradientsReport search_with_all(const Order& order, const Share& share,
+                                  std::span<const double> right, std::span<double> solution,
+                                  Search search);
+  void send_changes();
 
   Ranks& ranks_;
-  Partition partition_;
-  std::size_t width_;
+  Share unknowns_, blocks_;
   Secants secants_;
   const std::vector<double>* ground_ = nullptr;
-  std::vector<double> told_axial_, told_other_, told_ground_;  ///< what the parts know
+  std::vector<double> sent_axial_, sent_other_, sent_ground_;  ///< known to the parts
   std::unique_ptr<PartSolver> own_;
 };
 
-/// What the other ranks do in a team.
+/// The work of another rank for a team.
 class TeamMember {
  public:
   explicit TeamMember(Ranks& ranks) : ranks_(ranks) {}
   /// \param order  the team's, its Service read
   void obey(Parcel& order);
-  /// \pre it has a part
-  const PartSolver& own() const { return *solver_; }
 
  private:
-  void find_forces(Parcel& order);
-
   Ranks& ranks_;
   std::optional<PartSolver> solver_;
 };

@@ -53,9 +53,9 @@ void SubdomainSolver::precondition_block(std::span<const double> residuals,
       std::copy(sums.begin(), sums.end(), results.data() + begin + a * block_width);
     }
   }
-  motions_->restrict_block(residuals, coarse_block_);
+  motions_.restrict_block(residuals, coarse_block_);
   factor_->solve_all(coarse_block_);
-  motions_->add_block(coarse_block_, results);
+  motions_.add_block(coarse_block_, results);
 }
 
 void SubdomainSolver::multiply_block(std::span<const double> motions, std::span<double> results) {

@@ -41,25 +41,24 @@ SubdomainSolver::SubdomainSolver(const Network& network, const Unknowns& unknown
       unknowns_(unknowns),
       secants_(secants),
       options_(options),
-      motions_(std::in_place, network, secants, unknowns, particles_of_subdomain(network, options)),
+      motions_(network, secants, unknowns, particles_of_subdomain(network, options)),
       ground_(ground),
       factor_(make_factor(options.blocks ? FactorRoute::refactorize : FactorRoute::in_place, 1)),
       motion_(unknowns.number.size(), 0.0) {
   expect_nothing_embedded(unknowns);
-  SubdomainStiffness stiffness =
-      assemble_subdomain_stiffness(network, secants, unknowns, *motions_);
+  SubdomainStiffness stiffness = assemble_subdomain_stiffness(network, secants, unknowns, motions_);
   if (!stiffness.invert_blocks(unknowns.width)) {
     throw NotPositiveDefinite("the stiffness of a particle is not positive definite");
   }
   blocks_ = std::move(stiffness.blocks);
-  const int motions = motions_->num_motions();
+  const int motions = motions_.num_motions();
   coarse_.resize(static_cast<std::size_t>(num_subdomains()) * motions);
   std::vector<Index> groups;
   for (Index b = 0; b < num_subdomains(); ++b) groups.insert(groups.end(), motions, b);
   factor_->factorize(stiffness.coarse, groups);
-  if (options.ranks && can_be_shared(network, unknowns)) {
+  if (can_be_shared(network, unknowns, options.ranks)) {
     stiffness.blocks = blocks_;
-    team_ = std::make_shared<Team>(*options.ranks, network, unknowns, secants, *motions_, stiffness,
+    team_ = std::make_unique<Team>(*options.ranks, network, unknowns, secants, motions_, stiffness,
                                    ground);
   }
   if (!team_ && SingleBody::is_made_of(network)) pack();
@@ -67,24 +66,14 @@ SubdomainSolver::SubdomainSolver(const Network& network, const Unknowns& unknown
 }
 
 void SubdomainSolver::pack() {
-  order_.emplace(*motions_, network_.particles.size());
+  order_.emplace(motions_, network_.particles.size());
   packed_ = std::make_unique<PackedBonds>(network_, secants_, order_->place,
                                           largest_stiffness(network_), order_->part_end());
   packed_motion_.resize(order_->place.size() * PackedBonds::row_size(network_.dim()));
   packed_forces_.resize(packed_motion_.size());
   if (!options_.blocks) return;
-  single_ = std::make_unique<SingleBody>(network_, unknowns_, *motions_, *order_, *packed_, blocks_,
+  single_ = std::make_unique<SingleBody>(network_, unknowns_, motions_, *order_, *packed_, blocks_,
                                          *factor_);
-}
-
-SubdomainSolver::SubdomainSolver(const LatticePattern& pattern, const Network& places,
-                                 const Unknowns& unknowns, const SubdomainSolverOptions& options)
-    : network_(places),
-      unknowns_(unknowns),
-      options_(options),
-      team_(std::make_shared<Team>(*options.ranks, pattern, places, unknowns,
-                                   particles_of_subdomain(places, options))) {
-  require_resistance();
 }
 
 SolverError SubdomainSolver::not_there(int iterations, double error, double tolerance) {
@@ -197,9 +186,9 @@ void SubdomainSolver::precondition(std::span<const double> residual, std::span<d
       result[unknowns_.at(p, a)] = sum;
     }
   }
-  motions_->restrict(residual, coarse_);
+  motions_.restrict(residual, coarse_);
   factor_->solve(coarse_, coarse_);
-  motions_->add(coarse_, result);
+  motions_.add(coarse_, result);
 }
 
 /// Computes result = K q.

@@ -45,14 +45,9 @@ class SubdomainSolver {
                   const SubdomainSolverOptions& options,
                   const std::vector<double>* ground = nullptr);
 
-  /// Makes the solver of a lattice box whose parts the ranks of the options generate.
-  /// \param places    particles and springs, without bonds; kept by reference, as unknowns
-  SubdomainSolver(const LatticePattern& pattern, const Network& places, const Unknowns& unknowns,
-                  const SubdomainSolverOptions& options);
-
-  /// Solves K solution = right, of size n; both may be the same memory. A later solve may correct
-  /// an earlier one: the error scales with the largest energy so far.
-  /// \throws SolverError if the iterations do not converge
+  /// Both of size n; they may be the same memory. What is solved later may correct what was solved
+  /// before: the error counts by the largest energy so far.
+  /// \throws SolverError where the iterations do not get there
   void solve(std::span<const double> right, std::span<double> solution);
 
   /// Solves for block_width right sides from zero, each by itself; shape (particles, width,
@@ -78,14 +73,10 @@ class SubdomainSolver {
   static constexpr double finer = 1e-3;
 
   int iterations() const { return iterations_; }  ///< in all solves
-  double error() const { return error_; }         ///< relative error of the last solve
-  Index num_subdomains() const {
-    return motions_ ? motions_->num_subdomains() : team_->num_subdomains();
-  }
+  double error() const { return error_; }         ///< the last solve left, as the tolerance counts
+  Index num_subdomains() const { return motions_.num_subdomains(); }
   int num_ranks() const { return team_ ? options_.ranks->count() : 1; }
-  FactorStatistics coarse() const { return factor_ ? factor_->statistics() : team_->coarse(); }
-  /// Returns the communicator of the ranks that share the work, or null.
-  const std::shared_ptr<Team>& team() const { return team_; }
+  FactorStatistics coarse() const { return factor_->statistics(); }
 
  private:
   static constexpr int most_iterations = 20000;
@@ -120,11 +111,11 @@ class SubdomainSolver {
   const Unknowns& unknowns_;
   Secants secants_;
   SubdomainSolverOptions options_;
-  std::optional<SubdomainMotions> motions_;  ///< absent if ranks generated the body
-  std::vector<double> blocks_;               // inverse, shape (particles, width, width)
+  SubdomainMotions motions_;
+  std::vector<double> blocks_;  // inverse, shape (particles, width, width)
   const std::vector<double>* ground_ = nullptr;
   std::unique_ptr<Factor> factor_;
-  std::shared_ptr<Team> team_;  ///< null: a single process
+  std::unique_ptr<Team> team_;  ///< null: this process works alone
   std::optional<SubdomainOrder> order_;
   std::unique_ptr<PackedBonds> packed_;  ///< null: products use the network
   std::unique_ptr<SingleBody> single_;   ///< null: blocks use double precision

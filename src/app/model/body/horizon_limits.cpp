@@ -51,8 +51,8 @@ void refuse_too_many_bonds(const CaseFile& input, const HorizonReach& reach) {
                     input.body.model == BodyModel::bond_based &&
                     input.analysis.solver != LinearSolver::direct;
   const double bytes = (bars ? bytes_per_bar : bytes_per_bond) * bonds;
-  const bool numbered = bonds / reach.parts <= std::numeric_limits<Index>::max();
-  if (numbered && bytes * reach.parts_here / reach.parts <= reach.memory) return;
+  const bool numbered = bonds <= std::numeric_limits<Index>::max();
+  if (numbered && bytes <= reach.memory) return;
   throw InputError(
       input.where(horizon_key(input.body)),
       fmt::format("makes the horizon {:.6g}, {:.4g} spacings: each of about {:.3g} particles would "

@@ -16,8 +16,6 @@ struct HorizonReach {
   Vector3 extents{};       ///< size of the body along each axis [length]
   int dim = 2;
   double memory = 0.0;  ///< what the machine has [bytes]
-  int parts = 1;        ///< that processes make
-  int parts_here = 1;   ///< on this machine
 };
 
 /// The same of the particles of a body on this machine.

@@ -125,8 +125,7 @@ void pin(const CaseFile& input, Model& model, Fragment fragment, Prescription& p
 /// \param off  CutOffParts::particles
 void hold_rigid_modes(const CaseFile& input, Model& model, Prescription& prescription,
                       const std::vector<std::uint8_t>& off) {
-  const std::vector<Fragment> fragments =
-      find_fragments(model.network, prescription.held, model.pattern.has_value());
+  const std::vector<Fragment> fragments = find_fragments(model.network, prescription.held);
   const bool pins = input.analysis.rigid_body_modes == RigidBodyModes::pin;
   const bool moves = input.analysis.type == AnalysisType::explicit_;
   if (fragments.size() > 1) {
@@ -348,7 +347,7 @@ void apply_boundary_conditions(const CaseFile& input, Model& model) {
   refuse_mere_shift(input, model, prescription, first);
   model.resultant = load_resultant(model.network, model.loads);
   const CutOffParts off = find_cut_off_parts(input, model, prescription);
-  if (!model.pattern) refuse_loose_particles(input, model, prescription, off.particles);
+  refuse_loose_particles(input, model, prescription, off.particles);
   hold_rigid_modes(input, model, prescription, off.particles);
   if (!off.note.empty()) model.notes.push_back(off.note);
   std::vector<double>& springs = model.network.support_stiffness;

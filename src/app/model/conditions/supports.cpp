@@ -345,7 +345,7 @@ CutOffParts find_cut_off_parts(const CaseFile& input, const Model& model,
   const Network& network = model.network;
   CutOffParts off;
   off.particles.assign(static_cast<std::size_t>(network.particles.size()), 0);
-  if (input.cracks.empty() || model.pattern || network.has_states()) return off;
+  if (input.cracks.empty() || network.has_states()) return off;
   std::vector<Fragment> parts = find_loose_parts(network, prescription.held);
   if (parts.empty()) return off;
   std::vector<std::uint8_t> loaded = loaded_particles(input, model);

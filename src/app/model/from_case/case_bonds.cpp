@@ -163,25 +163,6 @@ void refuse_before_calibration(const CaseFile& input, const Body& body, NetworkI
   build_gauges(input, draft, draft.notes);
 }
 
-/// The bonds of a box, calibrated in a smaller one; none where a part of it is not like another.
-/// \param by_crack  how many bonds each pre-crack cuts
-std::optional<LatticePattern> find_pattern(const CaseFile& input, const BondOptions& options,
-                                           const Body& body, NetworkInput network,
-                                           std::vector<Index>& by_crack) {
-  if (options.parts < 2 || !can_be_made_in_parts(input)) return std::nullopt;
-  const std::optional<LatticeGrid> grid = grid_of(body);
-  if (!grid || split_grid(*grid, options.parts).empty()) return std::nullopt;
-  LatticePattern pattern = pattern_of(*grid, network.horizon);
-  network.solid = {{pattern.small.lower, pattern.small.upper}};
-  const Body sample = body_of(pattern.small, body.lattice, network.thickness);
-  const std::vector<Crack> cracks = std::exchange(network.cracks, {});
-  network.only_alike = body.lattice.surface == Surface::calibrated;
-  pattern.sample = build_case_network(input, sample, network);
-  share_directions(pattern.sample.bonds);
-  if (!can_repeat(pattern.sample) || !cut_bonds(pattern, cracks, by_crack)) return std::nullopt;
-  return pattern;
-}
-
 }  // namespace
 
 bool have_unlike_constants(const CaseFile& input) {
@@ -194,23 +175,6 @@ bool have_unlike_constants(const CaseFile& input) {
     return !has_ratio_of_bonds &&
            material.poissons_ratio.value_or(otherwise) != first.poissons_ratio.value_or(otherwise);
   });
-}
-
-bool can_be_made_in_parts(const CaseFile& input) {
-  const BodySection& body = input.body;
-  const bool is_plane = dimension_of(body) == 2;
-  const bool may_close =
-      !input.cracks.empty() &&
-      std::ranges::any_of(input.materials, [](const auto& m) { return m.softening.closes; });
-  return input.analysis.type == AnalysisType::elastic &&
-         input.analysis.solver != LinearSolver::direct && !body.mesh &&
-         body.method == BodyMethod::bonds &&
-         (body.model == BodyModel::bond_based || body.model == BodyModel::micropolar) &&
-         !is_shell(body) && !is_beam(body) && !(is_plane && body.surface == Surface::calibrated) &&
-         !may_close && input.interfaces.empty() && input.rebar.empty() && !input.elements &&
-         (input.analysis.rigid_body_modes == RigidBodyModes::refuse ||
-          input.materials.size() == 1) &&
-         !have_unlike_constants(input);
 }
 
 namespace {
@@ -243,29 +207,6 @@ void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, 
   if (network.shell) refuse_impossible_shell(input, body, network);
   refuse_impossible_cracks(input, body.particles.dim);
   model.crack_cost = count_on_the_path(input, body, network);
-  model.pattern = find_pattern(input, options, body, network, model.network.cut_by_crack);
-  if (model.pattern) {
-    refuse_cracks_without_bonds(input, model.network);
-    model.network.particles = std::move(body.particles);
-    model.network.all_turn = model.pattern->sample.carries_moments();
-    model.network.calibration = model.pattern->sample.calibration;
-    std::string steps;
-    for (int a = 0; a < body.particles.dim; ++a) {
-      steps += (a > 0 ? " by " : "") + std::to_string(model.pattern->small.count[a]);
-    }
-    model.notes.push_back(
-        fmt::format("each of {} processes makes its own part of the body: its bonds are like those "
-                    "of a box of {} steps, in which they were calibrated or made{}",
-                    options.parts, steps,
-                    input.cracks.empty()
-                        ? ""
-                        : fmt::format(", but for {:.0f} that cracks cut", model.pattern->num_cut)));
-    return;
-  }
-  if (options.parts > 1 &&
-      can_be_made_in_parts(input)) {  // but is not: one process has to hold them all
-    refuse_impossible_horizon(input, reach_of(body.particles, model.horizon, body.lattice.spacing));
-  }
   if (!options.draft) refuse_before_calibration(input, body, network, model);
   model.network = build_case_network(input, body, network);
   refuse_cracks_without_bonds(input, model.network);

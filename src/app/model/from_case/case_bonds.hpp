@@ -13,17 +13,11 @@ namespace perilink {
 struct BondOptions {
   bool draft = false;  ///< not calibrated at all
   CalibrationObserver on_search;
-  /// Processes that can make their parts of the bonds: where the body lets them, the model has a
-  /// pattern in place of bonds.
-  int parts = 1;
 };
 
 /// Whether materials differ in an elastic constant. That of trusses is the Poisson's ratio of
 /// bonds, given with some digits or left out.
 bool have_unlike_constants(const CaseFile& input);
-
-/// Whether ranks can make the bonds of a case by themselves, if its body is one box.
-bool can_be_made_in_parts(const CaseFile& input);
 
 /// Puts the bonds and bars of a case between the particles of its body.
 /// \throws InputError where the case makes no sense for its body

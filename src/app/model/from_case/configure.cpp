@@ -15,7 +15,6 @@
 #include "app/model/conditions/boundary_conditions.hpp"
 #include "app/model/from_case/case_bonds.hpp"
 #include "app/model/gauges.hpp"
-#include "app/process/ranks.hpp"
 #include "base/error.hpp"
 #include "discretization/lattices/beam_body.hpp"
 #include "discretization/lattices/make_body.hpp"
@@ -94,7 +93,7 @@ Body build_beam_body(const CaseFile& input, const LatticeInput& lattice, double&
   }
 }
 
-Body build_lattice_body(const CaseFile& input, int dim, double& horizon, int parts) {
+Body build_lattice_body(const CaseFile& input, int dim, double& horizon) {
   LatticeInput lattice;
   lattice.pattern = input.body.pattern;
   lattice.surface = input.body.surface;
@@ -113,12 +112,7 @@ Body build_lattice_body(const CaseFile& input, int dim, double& horizon, int par
   if (is_beam(input.body)) return build_beam_body(input, lattice, horizon);
   if (bonds) {
     lattice.horizon = horizon_of(input.body, lattice.spacing);
-    HorizonReach reach = reach_of(box, dim, lattice.horizon, lattice.spacing);
-    if (can_be_made_in_parts(input)) {
-      reach.parts = parts;
-      reach.parts_here = ranks_here(parts);
-    }
-    refuse_impossible_horizon(input, reach);
+    refuse_impossible_horizon(input, reach_of(box, dim, lattice.horizon, lattice.spacing));
   } else {
     lattice.surface = Surface::calibrated;  // the same particles
   }
@@ -137,9 +131,8 @@ Body build_lattice_body(const CaseFile& input, int dim, double& horizon, int par
   }
 }
 
-Body build_body(const CaseFile& input, int dim, double& horizon, int parts,
-                std::vector<std::string>& notes) {
-  if (!input.body.mesh) return build_lattice_body(input, dim, horizon, parts);
+Body build_body(const CaseFile& input, int dim, double& horizon, std::vector<std::string>& notes) {
+  if (!input.body.mesh) return build_lattice_body(input, dim, horizon);
   Body body = read_mesh_body(input, dim, notes);
   if (!has_horizon(input.body)) return body;
   body.lattice.surface = input.body.surface;
@@ -169,7 +162,7 @@ Model build_bodies_model(const CaseFile& input, const BondOptions& options) {
   model.problem =
       is_shell(input.body) || is_beam(input.body) ? Problem::plane_stress : input.body.problem;
   const int dim = dimension_of(model.problem);
-  Body body = build_body(input, dim, model.horizon, options.parts, model.notes);
+  Body body = build_body(input, dim, model.horizon, model.notes);
   model.lattice = body.lattice;
   refuse_materials_without_particles(input, body);
   if (has_horizon(input.body)) {
@@ -202,10 +195,10 @@ Model build_model_with(const CaseFile& input, const BondOptions& options) {
 
 }  // namespace
 
-Model build_model(const CaseFile& input, const CalibrationObserver& on_search, int parts) {
-  return build_model_with(input, {false, on_search, parts});
+Model build_model(const CaseFile& input, const CalibrationObserver& on_search) {
+  return build_model_with(input, {false, on_search});
 }
 
-Model draft_model(const CaseFile& input) { return build_model_with(input, {true, {}, 1}); }
+Model draft_model(const CaseFile& input) { return build_model_with(input, {true, {}}); }
 
 }  // namespace perilink

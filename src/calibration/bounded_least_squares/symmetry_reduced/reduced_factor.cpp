@@ -16,7 +16,7 @@ namespace {
 
 /// Added to the diagonal of the factor beside that, relative to its mean: round-off of single
 /// precision must not make rows negative that depend on others. More where it does.
-constexpr std::array<double, 3> floors = {1e-7, 1e-6, 1e-5};
+constexpr std::array<double, 3> pivot_floors = {1e-7, 1e-6, 1e-5};
 
 std::vector<std::pair<Index, Index>> shared_points(const ReducedEquations::Matrix& columns,
                                                    Index rows) {
@@ -102,7 +102,7 @@ void ReducedFactor::factorize(const ReducedEquations::Matrix& matrix,
     trace += number * number * active_weight[matrix.innerIndexPtr()[k]];
   }
   const double mean = trace / static_cast<double>(row_.size());
-  for (const double floor : floors) {
+  for (const double floor : pivot_floors) {
     const auto add = [&](Index column, std::span<const Index> place, std::span<double> values) {
       const Index own_row = row_[column];
       for (int k = matrix.outerIndexPtr()[own_row]; k < matrix.outerIndexPtr()[own_row + 1]; ++k) {

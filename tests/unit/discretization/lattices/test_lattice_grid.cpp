@@ -2,9 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "discretization/lattices/make_body.hpp"
 
@@ -45,29 +43,6 @@ TEST_P(Grids, NumberTheParticlesOfTheirBody) {
   EXPECT_EQ(next, body.particles.size());
 }
 
-TEST_P(Grids, AreSharedOutWholeInNearlyEqualParts) {
-  const auto& [pattern, size] = GetParam();
-  const auto grid = grid_of(make_body(box_of(pattern, size)));
-  ASSERT_TRUE(grid);
-  for (const int parts : {1, 2, 3, 5, 8}) {
-    const std::vector<GridWindow> windows = split_grid(*grid, parts);
-    ASSERT_EQ(windows.size(), parts);
-    std::vector<int> owners(static_cast<std::size_t>(grid->size(grid->all())), 0);
-    for (const GridWindow& window : windows) {
-      Index next = 0;
-      grid->for_each(window, [&](const GridPoint& point) {
-        EXPECT_EQ(grid->number(window, point), next++);
-        EXPECT_TRUE(window.contains(point));
-        ++owners[grid->number(grid->all(), point)];
-      });
-      EXPECT_EQ(grid->size(window), next);
-      // Parts end at planes, of which the least of these boxes has eight along each halved side.
-      EXPECT_GT(next * parts, 0.5 * static_cast<double>(owners.size()));
-    }
-    EXPECT_EQ(std::count(owners.begin(), owners.end(), 1), owners.size());
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P(Patterns, Grids,
                          testing::Values(GridCase{Pattern::rectangular, {17.3, 8, 0}},
                                          GridCase{Pattern::cubic, {9, 16.4, 8}},
@@ -102,13 +77,6 @@ TEST(Grid, IsNoneOfBodiesThatAreNoBox) {
                 {{1, 2, 0}, {2, 3, 1}}};
   hole.material = {0, 0, 0, 0};
   EXPECT_FALSE(grid_of(make_body(hole)));
-}
-
-TEST(Grid, IsNotSplitIntoMorePartsThanPlanes) {
-  const auto grid = grid_of(make_body(box_of(Pattern::cubic, {1, 1, 1})));
-  ASSERT_TRUE(grid);
-  EXPECT_EQ(split_grid(*grid, 8).size(), 8u);
-  EXPECT_TRUE(split_grid(*grid, 9).empty());
 }
 
 }  // namespace

@@ -61,7 +61,6 @@ class BondRun {
     if (body_.bonds->has_states()) {
 #pragma omp for schedule(static)
       for (Index b = first_block_; b < past_block_; ++b) body_.prepare(b, step);
-      if (shares_.own()) shares_.own()->update_states(*body_.bonds);
     }
 #pragma omp for schedule(static)
     for (Index b = first_block_; b < past_block_; ++b) body_.find_forces(b, step);
@@ -166,7 +165,7 @@ class BondRun {
       body_.note_motion(all, motion_factor(step), record);
       if (shares_.leading) shares_.leading->collect_motion(body_);
     });
-    if (shares_.leading) shares_.leading->tell(!loop_.is_done());
+    if (shares_.leading) shares_.leading->end_meeting(!loop_.is_done());
   }
 
   const ExplicitOptions& options_;
@@ -182,16 +181,40 @@ class BondRun {
   ExplicitRecord record_;
 };
 
-/// What the rules and options of a run are to another rank.
+/// Rules and options of a run for another rank.
 struct RunOrder {
   double damping_rate;
   Strain strain;
   bool constant_velocity;
-  Problem problem;
-  double thickness;
   double frequency_bound;
   ExplicitOptions options;
 };
+
+/// Sends the other ranks their parts of the body, and runs that of the first.
+ExplicitResult run_with_ranks(const LoadedNetwork& problem, const Inertia& inertia,
+                              const BondRunRules& rules, const ExplicitOptions& options,
+                              BondRunObserver& observer) {
+  Ranks& ranks = *options.ranks;
+  BondStencil stencil = stencil_for(problem.network, rules.strain);
+  const ParticleBlocks blocks(problem.network.particles.size(), problem.unknowns.width);
+  const Partition partition(problem.network, blocks, ranks.count());
+  return lead(ranks, [&] {
+    for (int rank = 1; rank < ranks.count(); ++rank) {
+      Parcel order;
+      order.put(Service::move_bonds);
+      order.put(RunOrder{rules.damping_rate, rules.strain, rules.constant_velocity,
+                         inertia.frequency_bound, options});
+      cut_part(problem, inertia.mass, stencil, partition, rank).pack(order);
+      ranks.send(rank, order.bytes());
+    }
+    LeadingShare share(ranks, problem, partition);
+    auto bonds = leading_bonds(make_bonds(problem.network, rules, std::move(stencil)), share);
+    ExplicitResult result =
+        BondRun(problem, inertia, std::move(bonds), rules, options, observer, {&share}).run();
+    result.ranks = ranks.count();
+    return result;
+  });
+}
 
 }  // namespace
 
@@ -199,40 +222,24 @@ ExplicitResult run_explicit_bonds(const LoadedNetwork& problem, const Inertia& i
                                   const BondRunRules& rules, const ExplicitOptions& options,
                                   BondRunObserver& observer) {
   expect_nothing_embedded(problem.unknowns);
-  if (!can_be_shared(problem, options.ranks)) {
-    auto bonds = make_bonds(problem.network, rules, stencil_for(problem.network, rules.strain));
-    return BondRun(problem, inertia, std::move(bonds), rules, options, observer).run();
+  if (can_be_shared(problem, options.ranks)) {
+    return run_with_ranks(problem, inertia, rules, options, observer);
   }
-  Parcel order;
-  order.put(Service::move_bonds);
-  order.put(RunOrder{rules.damping_rate, rules.strain, rules.constant_velocity,
-                     rules.states.problem, rules.states.thickness, inertia.frequency_bound,
-                     options});
-  order.put(rules.states.materials);
-  return run_shared(
-      *options.ranks, order, problem, inertia.mass, rules.strain,
-      [&](BondStencil stencil, LeadingShare& share) {
-        auto bonds = leading_bonds(make_bonds(problem.network, rules, std::move(stencil)), share);
-        return BondRun(problem, inertia, std::move(bonds), rules, options, observer, {&share})
-            .run();
-      });
+  auto bonds = make_bonds(problem.network, rules, stencil_for(problem.network, rules.strain));
+  return BondRun(problem, inertia, std::move(bonds), rules, options, observer).run();
 }
 
 void move_bonds_along(Ranks& ranks, Parcel& order) {
-  auto rest = order.get<RunOrder>();
-  BondPart part = BondPart::unpack(Parcel(ranks.receive(0)));
-  BondRunRules rules;
-  rules.damping_rate = rest.damping_rate;
-  rules.strain = rest.strain;
-  rules.constant_velocity = rest.constant_velocity;
-  rules.states = {rest.problem, rest.thickness, {}};
-  order.get(rules.states.materials);
-  const Inertia inertia{std::move(part.mass), rest.frequency_bound};
-  FollowingShare share(ranks, part);
+  const auto rest = order.get<RunOrder>();
+  BondPart own = BondPart::unpack(order);
+  const BondRunRules rules{rest.damping_rate, rest.strain, rest.constant_velocity};
+  const Inertia inertia{std::move(own.mass), rest.frequency_bound};
+  FollowingShare share(ranks, own.part);
   BondRunObserver nobody;
-  BondRun run(part.body, inertia, make_bonds(part.body.network, rules, std::move(part.stencil)),
-              rules, rest.options, nobody, {nullptr, &share});
-  run.body().component = part.component;
+  const LoadedNetwork& body = own.part.body;
+  BondRun run(body, inertia, make_bonds(body.network, rules, std::move(own.stencil)), rules,
+              rest.options, nobody, {nullptr, &share});
+  run.body().component = own.component;
   run.run();
 }
 

@@ -47,7 +47,7 @@ ExplicitResult run_explicit_bonds(const LoadedNetwork& problem, const Inertia& i
                                   const BondRunRules& rules, const ExplicitOptions& options,
                                   BondRunObserver& observer);
 
-/// The part of a rank that does not lead in a run that ranks share.
+/// The work of another rank in a run that ranks share.
 void move_bonds_along(Ranks& ranks, Parcel& order);
 
 }  // namespace perilink

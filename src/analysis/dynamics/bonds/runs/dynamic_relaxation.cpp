@@ -11,7 +11,6 @@
 
 #include "analysis/dynamics/bonds/bond_forces.hpp"
 #include "analysis/dynamics/bonds/runs/rest_sums.hpp"
-#include "analysis/dynamics/bonds/runs/run_share.hpp"
 #include "analysis/dynamics/bonds/runs/separation.hpp"
 #include "base/memory.hpp"
 #include "base/thread_choice.hpp"
@@ -28,19 +27,16 @@ class Relaxation {
  public:
   Relaxation(const LoadedNetwork& problem, const Inertia& inertia,
              std::unique_ptr<ExplicitBonds> bonds, const RelaxationOptions& options,
-             BondRunObserver& observer, const Shares& shares = {})
+             BondRunObserver& observer)
       : options_(options),
         observer_(observer),
         body_(problem, inertia, std::move(bonds), options.safety * inertia.critical_time_step()),
-        shares_(shares),
-        first_block_(shares.first_block()),
-        past_block_(shares.past_block(body_.blocks)),
         before_(body_.force),
         first_(body_.force),
         first_force_(body_.force),
         rest_(body_.sums.size()),
         separation_(problem),
-        threads_(shares.own() ? 1 : body_.blocks.threads(options.threads)) {
+        threads_(body_.blocks.threads(options.threads)) {
     for (std::size_t slot = 0; slot < body_.force.size(); ++slot) {
       // Moments become forces of like energy.
       const std::size_t own = slot - slot % body_.unknowns.width;
@@ -60,8 +56,6 @@ class Relaxation {
     result_.displacement = body_.motion.displacement;
     return std::move(result_);
   }
-
-  MovingBonds& body() { return body_; }
 
  private:
   /// Where the body is in proportion to the last equilibrium, at rest.
@@ -84,16 +78,15 @@ class Relaxation {
 
   /// Run by every thread; loops end in barriers.
   void iterate() {
-    if (shares_.own()) shares_.own()->update_ghosts(body_.motion);  // by one thread
 #pragma omp for schedule(static)
-    for (Index b = first_block_; b < past_block_; ++b) {
+    for (Index b = 0; b < body_.blocks.count(); ++b) {
       body_.find_forces(b, result_.iterations);
       measure(b);
     }
 #pragma omp single
     decide();
 #pragma omp for schedule(static)
-    for (Index b = first_block_; b < past_block_; ++b) advance(b);
+    for (Index b = 0; b < body_.blocks.count(); ++b) advance(b);
   }
 
   void measure(Index block) {
@@ -123,20 +116,11 @@ class Relaxation {
     });
   }
 
-  /// By one thread; the first rank decides for all.
+  /// By one thread.
   void decide() {
-    const auto own = std::span<const RestSums>(rest_).subspan(
-        static_cast<std::size_t>(first_block_),
-        static_cast<std::size_t>(past_block_ - first_block_));
-    if (RunShare* share = shares_.own()) {
-      const RestSums all = share->sum_in_order(own);
-      if (shares_.leading) judge(all);
-      next_ = share->of_first(next_);
-    } else {
-      RestSums all;
-      for (const RestSums& block : own) all += block;
-      judge(all);
-    }
+    RestSums all;
+    for (const RestSums& block : rest_) all += block;
+    judge(all);
     if (next_.examines) examine();
     ++iteration_;
     ++result_.iterations;
@@ -182,19 +166,9 @@ class Relaxation {
     });
   }
 
-  /// Takes part in a meeting of ranks, but for the first one.
-  bool has_followed() {
-    if (shares_.following) next_.done = !shares_.following->meet(body_);
-    return shares_.following != nullptr;
-  }
-
-  /// During an iteration, by all ranks.
   void examine() {
     next_.examines = false;
-    if (has_followed()) return;
-    if (shares_.leading) shares_.leading->collect(body_);
     observe([&] { examine_pieces(); });
-    if (shares_.leading) shares_.leading->tell(!next_.done);
   }
   void examine_pieces() {
     const auto pulled = separation_.examine(body_.bonds->secants(), fractured_, factor_ != 0.0);
@@ -257,16 +231,11 @@ class Relaxation {
     });
   }
 
-  /// The end of a load step, for all ranks.
+  /// The end of a load step.
   void rest() {
     std::fill(body_.motion.velocity.begin(), body_.motion.velocity.end(), 0.0);
-    for (Index b = first_block_; b < past_block_; ++b) {
+    for (Index b = 0; b < body_.blocks.count(); ++b) {
       body_.sums[b].stored = body_.stored(body_.blocks.begin(b), body_.blocks.end(b));
-    }
-    if (has_followed()) return;
-    if (shares_.leading) {
-      shares_.leading->collect(body_);
-      shares_.leading->collect_motion(body_);
     }
     observe([&] {
       note_row();
@@ -280,7 +249,6 @@ class Relaxation {
       // Load steps may be at rest from the beginning.
       if (observer_.stop_requested()) end(Termination::interrupted, "interrupted");
     });
-    if (shares_.leading) shares_.leading->tell(!next_.done);
   }
 
   void note_row() {
@@ -320,8 +288,6 @@ class Relaxation {
   const RelaxationOptions& options_;
   BondRunObserver& observer_;
   MovingBonds body_;
-  Shares shares_;
-  Index first_block_, past_block_;           ///< that this process moves
   std::vector<double> before_;               ///< internal forces an iteration ago
   std::vector<double> first_, first_force_;  ///< where the damping began to be measured
   std::vector<double> weight_;  ///< factors of squares of forces and moments, per component
@@ -354,40 +320,9 @@ RelaxationResult run_dynamic_relaxation(const LoadedNetwork& problem,
                                         BondRunObserver& observer) {
   expect_nothing_embedded(problem.unknowns);
   const Inertia inertia = fictitious_inertia(problem.network, options.strain);
-  if (!can_be_shared(problem, options.ranks)) {
-    return Relaxation(problem, inertia, make_explicit_bonds(problem.network, options.strain),
-                      options, observer)
-        .run();
-  }
-  Parcel order;
-  order.put(Service::relax_bonds);
-  order.put(options.strain);
-  order.put(options.safety);
-  order.put(options.load_factors);
-  order.put(inertia.frequency_bound);
-  return run_shared(
-      *options.ranks, order, problem, inertia.mass, options.strain,
-      [&](BondStencil stencil, LeadingShare& share) {
-        auto bonds = leading_bonds(
-            make_explicit_bonds(problem.network, options.strain, std::move(stencil)), share);
-        return Relaxation(problem, inertia, std::move(bonds), options, observer, {&share}).run();
-      });
-}
-
-void relax_bonds_along(Ranks& ranks, Parcel& order) {
-  RelaxationOptions options;
-  order.get(options.strain);
-  order.get(options.safety);
-  order.get(options.load_factors);
-  BondPart part = BondPart::unpack(Parcel(ranks.receive(0)));
-  const Inertia inertia{std::move(part.mass), order.get<double>()};
-  FollowingShare share(ranks, part);
-  BondRunObserver nobody;
-  Relaxation run(part.body, inertia,
-                 make_explicit_bonds(part.body.network, options.strain, std::move(part.stencil)),
-                 options, nobody, {nullptr, &share});
-  run.body().component = part.component;
-  run.run();
+  return Relaxation(problem, inertia, make_explicit_bonds(problem.network, options.strain), options,
+                    observer)
+      .run();
 }
 
 }  // namespace perilink

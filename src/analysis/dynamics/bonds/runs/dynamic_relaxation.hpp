@@ -15,7 +15,6 @@ struct RelaxationOptions {
   double safety = 0.95;                      ///< step over the critical one of the masses
   Strain strain = Strain::small;
   int threads = 1;
-  Ranks* ranks = nullptr;  ///< as in ExplicitOptions
 };
 
 /// How a relaxation ended.
@@ -30,9 +29,8 @@ struct RelaxationResult {
   /// over the stiffness of the slowest vibration. Likewise the largest.
   double error = 0.0;
   double peak_load = 0.0;  ///< largest support reaction in magnitude [force]
-  int ranks = 1;           ///< that shared the work
   ExplicitRecord last;     ///< end of the last load step that came to rest
-  /// Where it ended, shape (particles, width); of a run that ranks shared only if it came to rest.
+  /// Where it ended, shape (particles, width).
   std::vector<double> displacement;
 };
 
@@ -62,8 +60,5 @@ Inertia fictitious_inertia(const Network& network, Strain strain);
 RelaxationResult run_dynamic_relaxation(const LoadedNetwork& problem,
                                         const RelaxationOptions& options,
                                         BondRunObserver& observer);
-
-/// The part of a rank that does not lead in a relaxation that ranks share.
-void relax_bonds_along(Ranks& ranks, Parcel& order);
 
 }  // namespace perilink

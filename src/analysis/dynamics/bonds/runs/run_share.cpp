@@ -1,23 +1,21 @@
 #include "analysis/dynamics/bonds/runs/run_share.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 namespace perilink {
 namespace {
 
-/// The bonds of the first rank, which asks the others what is left of theirs.
+/// Requests of the first rank in a meeting; no number is that of a Service.
+enum class Wish : int { motion = 100, secants, go_on, leave };
+
+/// The bonds of the first rank, which asks the others for the secants of their elements.
 class LeadingBonds final : public ExplicitBonds {
  public:
   LeadingBonds(std::unique_ptr<ExplicitBonds> own, LeadingShare& share)
       : own_(std::move(own)), share_(share) {}
 
-  bool has_states() const override { return own_->has_states(); }
-  BondLosses prepare(Index begin, Index end, double time_step, const BondMotion& motion) override {
-    return own_->prepare(begin, end, time_step, motion);
-  }
-  void update_states(GhostLayer& ghosts) override { own_->update_states(ghosts); }
-  void finish_step() override { own_->finish_step(); }
   BondLosses forces(Index begin, Index end, double time_step, const BondMotion& motion,
                     std::span<double> force) override {
     return own_->forces(begin, end, time_step, motion, force);
@@ -30,28 +28,106 @@ class LeadingBonds final : public ExplicitBonds {
     share_.collect_secants(secants);
     return secants;
   }
-  std::vector<double> damage() const override {
-    std::vector<double> damage = own_->damage();
-    if (!damage.empty()) share_.collect_damage(damage);
-    return damage;
-  }
 
  private:
   std::unique_ptr<ExplicitBonds> own_;
   LeadingShare& share_;
 };
 
+/// Groups of ghosts are empty.
+BondStencil cut_stencil(const BondStencil& stencil, const BodyPart& part) {
+  const std::vector<Index>& elements = part.elements;
+  const Index first = part.first_particle;
+  BondStencil own;
+  own.rest = in_part(stencil.rest, elements);
+  if (stencil.kinds.empty()) return own;
+  constexpr Index lanes = BondStencil::lanes;
+  own.kinds = stencil.kinds;
+  own.patterns = stencil.patterns;
+  own.patterns.emplace_back();
+  const int nothing = static_cast<int>(stencil.patterns.size());
+  own.groups.assign(static_cast<std::size_t>(part.own_begin / lanes), {nothing, 0});
+  for (Index g = (first + part.own_begin) / lanes; g * lanes < first + part.own_end; ++g) {
+    const auto& [pattern, slot] = stencil.groups[g];
+    own.groups.push_back({pattern, own.element.size()});
+    const std::size_t slots = stencil.patterns[pattern].size() * BondStencil::line_slots;
+    for (std::size_t k = slot; k < slot + slots; ++k) {
+      const Index e = stencil.element[k];
+      const auto at = std::lower_bound(elements.begin(), elements.end(), e);
+      own.element.push_back(e == no_index ? e : static_cast<Index>(at - elements.begin()));
+    }
+  }
+  return own;
+}
+
+template <class Part, class Visit>
+void for_each_bond_member(Part& own, Visit visit) {
+  visit(own.part.body.loads.forces);
+  visit(own.part.body.reference);
+  visit(own.component);
+  visit(own.mass);
+  visit(own.stencil.kinds);
+  visit(own.stencil.groups);
+  visit(own.stencil.element);
+  visit(own.stencil.rest);
+}
+
+void add_supports(const std::vector<double>& of_rank, std::vector<double>& of_steps) {
+  const std::size_t blocks = of_rank.size() / std::max<std::size_t>(1, of_steps.size());
+  for (std::size_t k = 0; k < of_rank.size(); ++k) of_steps[k / blocks] += of_rank[k];
+}
+
+void send_to_all(Ranks& ranks, Wish wish) {
+  Parcel parcel;
+  parcel.put(wish);
+  for (int rank = 1; rank < ranks.count(); ++rank) ranks.send(rank, parcel.bytes());
+}
+
+ParticleBlocks blocks_of(const BodyPart& part) {
+  return {part.body.network.particles.size(), part.body.unknowns.width};
+}
+
 }  // namespace
 
 bool can_be_shared(const LoadedNetwork& problem, const Ranks* ranks) {
   const Network& network = problem.network;
-  return ranks != nullptr &&
+  return ranks != nullptr && !network.has_states() &&
          ParticleBlocks(network.particles.size(), network.width()).count() >= ranks->count();
+}
+
+BondPart cut_part(const LoadedNetwork& body, const std::vector<double>& mass,
+                  const BondStencil& stencil, const Partition& partition, int rank) {
+  const Index first = partition.first_particle[rank], past = partition.past_particle[rank];
+  const int width = body.unknowns.width;
+  BondPart own;
+  own.part = cut_part(body.network, body.unknowns, partition, rank);
+  own.part.body.loads.forces = slice(body.loads.forces, first, past, width);
+  own.part.body.reference = body.reference;
+  own.component = main_component(body);
+  own.mass = slice(mass, first, past, width);
+  own.stencil = cut_stencil(stencil, own.part);
+  return own;
+}
+
+void BondPart::pack(Parcel& parcel) const {
+  part.pack(parcel);
+  for_each_bond_member(*this, [&](const auto& member) { parcel.put(member); });
+  parcel.put(stencil.patterns.size());
+  for (const auto& pattern : stencil.patterns) parcel.put(pattern);
+}
+
+BondPart BondPart::unpack(Parcel& parcel) {
+  BondPart own;
+  own.part = BodyPart::unpack(parcel);
+  for_each_bond_member(own, [&](auto& member) { parcel.get(member); });
+  own.stencil.patterns.resize(parcel.get<std::size_t>());
+  for (auto& pattern : own.stencil.patterns) parcel.get(pattern);
+  return own;
 }
 
 RunShare::RunShare(Ranks& ranks, const Unknowns& unknowns, const ParticleBlocks& blocks,
                    Index first_block, Index past_block, const Ghosts& ghosts)
-    : meetings_(ranks, ranks.count()),
+    : ranks_(ranks),
       width_(unknowns.width),
       first_block_(first_block),
       past_block_(past_block),
@@ -63,13 +139,19 @@ RunShare::RunShare(Ranks& ranks, const Unknowns& unknowns, const ParticleBlocks&
   }
 }
 
-LeadingShare::LeadingShare(Ranks& ranks, const LoadedNetwork& body, const BlockPartition& partition)
+LeadingShare::LeadingShare(Ranks& ranks, const LoadedNetwork& body, const Partition& partition)
     : RunShare(ranks, body.unknowns, partition.blocks, 0, partition.first_block[1],
                partition.ghosts(body.network, 0)),
       partition_(partition) {}
 
 std::vector<double> LeadingShare::collect(MovingBonds& body) {
-  return meetings_.collect([&](int rank, Parcel& parcel) {
+  std::vector<double> supports(static_cast<std::size_t>(steps_), 0.0);
+  add_supports(supports_, supports);
+  for (int rank = 1; rank < ranks_.count(); ++rank) {
+    Parcel parcel(ranks_.receive(rank));
+    std::vector<double> of_rank;
+    parcel.get(of_rank);
+    add_supports(of_rank, supports);
     std::vector<MotionSums> sums;
     parcel.get(sums);
     std::copy(sums.begin(), sums.end(), body.sums.begin() + partition_.first_block[rank]);
@@ -78,81 +160,81 @@ std::vector<double> LeadingShare::collect(MovingBonds& body) {
     for (const auto& [step, number] : broken) {
       body.broken.add(partition_.first_block[rank], step, {&number, 1});
     }
-  });
+  }
+  supports_.clear();
+  steps_ = 0;
+  return supports;
 }
 
 void LeadingShare::collect_motion(MovingBonds& body) {
-  collect_fields(Wish::motion, width_,
-                 {&body.motion.displacement, &body.motion.velocity, &body.force});
-}
-
-void LeadingShare::collect_fields(Wish wish, int width,
-                                  std::initializer_list<std::vector<double>*> fields) {
-  meetings_.ask(wish, [&](int rank, Parcel& parcel) {
-    const auto begin = static_cast<std::ptrdiff_t>(partition_.own_begin(rank)) * width;
-    for (std::vector<double>* all : fields) {
+  send_to_all(ranks_, Wish::motion);
+  for (int rank = 1; rank < ranks_.count(); ++rank) {
+    Parcel answer(ranks_.receive(rank));
+    const auto begin = std::ptrdiff_t{partition_.own_begin(rank)} * width_;
+    for (std::vector<double>* all :
+         {&body.motion.displacement, &body.motion.velocity, &body.force}) {
       std::vector<double> own;
-      parcel.get(own);
+      answer.get(own);
       std::copy(own.begin(), own.end(), all->begin() + begin);
     }
-  });
-}
-
-void LeadingShare::collect_damage(std::vector<double>& damage) {
-  lead(meetings_.ranks(), [&] { collect_fields(Wish::fields, 1, {&damage}); });
+  }
 }
 
 void LeadingShare::collect_secants(std::span<double> secants) {
   // An observer asks: its failures end a run in good order, which answers left unread do not.
-  lead(meetings_.ranks(), [&] {
-    meetings_.ask(Wish::secants, [&](int, Parcel& parcel) {
+  lead(ranks_, [&] {
+    send_to_all(ranks_, Wish::secants);
+    for (int rank = 1; rank < ranks_.count(); ++rank) {
+      Parcel answer(ranks_.receive(rank));
       std::vector<Index> elements;
       std::vector<double> own;
-      parcel.get(elements);
-      parcel.get(own);
+      answer.get(elements);
+      answer.get(own);
       for (std::size_t k = 0; k < own.size(); ++k) secants[elements[k]] = own[k];
-    });
+    }
   });
 }
 
-FollowingShare::FollowingShare(Ranks& ranks, const BondPart& part)
-    : RunShare(ranks, part.body.unknowns,
-               ParticleBlocks(part.body.network.particles.size(), part.body.unknowns.width),
-               part.first_block, part.past_block, part.ghosts),
+void LeadingShare::end_meeting(bool goes_on) {
+  send_to_all(ranks_, goes_on ? Wish::go_on : Wish::leave);
+}
+
+FollowingShare::FollowingShare(Ranks& ranks, const BodyPart& part)
+    : RunShare(ranks, part.body.unknowns, blocks_of(part), blocks_of(part).of(part.own_begin),
+               blocks_of(part).of(part.own_end - 1) + 1, part.ghosts),
       part_(part) {}
 
 void FollowingShare::report(MovingBonds& body) {
-  meetings_.report([&](Parcel& parcel) {
-    parcel.put(std::vector<MotionSums>(body.sums.begin() + first_block(),
-                                       body.sums.begin() + past_block()));
-    std::vector<BreakOrder::Break> broken = body.broken.take_latest();
-    for (auto& [step, number] : broken) {
-      number = body.bonds->has_states() ? part_.first_particle + number : part_.elements[number];
-    }
-    parcel.put(broken);
-  });
+  Parcel parcel;
+  parcel.put(supports_);
+  supports_.clear();
+  parcel.put(
+      std::vector<MotionSums>(body.sums.begin() + first_block_, body.sums.begin() + past_block_));
+  std::vector<BreakOrder::Break> broken = body.broken.take_latest();
+  for (auto& [step, number] : broken) number = part_.elements[number];
+  parcel.put(broken);
+  ranks_.send(0, parcel.bytes());
 }
 
 bool FollowingShare::meet(MovingBonds& body) {
   report(body);
-  // Those of the own particles.
-  const auto put = [&](Parcel& parcel, const std::vector<double>& all, int width) {
-    const auto begin = all.begin() + std::ptrdiff_t{body.blocks.begin(first_block())} * width;
-    const auto end = all.begin() + std::ptrdiff_t{body.blocks.end(past_block() - 1)} * width;
-    parcel.put(std::vector<double>(begin, end));
-  };
-  return meetings_.obey([&](Wish wish, Parcel& parcel) {
-    if (wish == Wish::secants) {
-      parcel.put(part_.elements);
-      parcel.put(body.bonds->secants());
-    } else if (wish == Wish::fields) {
-      put(parcel, body.bonds->damage(), 1);
-    } else {
-      put(parcel, body.motion.displacement, width_);
-      put(parcel, body.motion.velocity, width_);
-      put(parcel, body.force, width_);
+  for (;;) {
+    const Wish wish = Parcel(ranks_.receive(0)).get<Wish>();
+    if (wish < Wish::motion) {
+      throw std::logic_error("the first rank has left a run in which others wait for it");
     }
-  });
+    if (wish == Wish::go_on || wish == Wish::leave) return wish == Wish::go_on;
+    Parcel answer;
+    if (wish == Wish::secants) {
+      answer.put(part_.elements);
+      answer.put(body.bonds->secants());
+    } else {
+      for (const auto* all : {&body.motion.displacement, &body.motion.velocity, &body.force}) {
+        answer.put(slice(*all, part_.own_begin, part_.own_end, width_));
+      }
+    }
+    ranks_.send(0, answer.bytes());
+  }
 }
 
 std::unique_ptr<ExplicitBonds> leading_bonds(std::unique_ptr<ExplicitBonds> own,

@@ -1,29 +1,42 @@
 #pragma once
 
-#include <initializer_list>
 #include <memory>
 #include <span>
-#include <utility>
 #include <vector>
 
-#include "analysis/dynamics/bonds/bond_forces.hpp"
+#include "analysis/dynamics/bonds/bond_stencil.hpp"
 #include "analysis/dynamics/bonds/moving_bonds.hpp"
-#include "analysis/dynamics/bonds/runs/bond_part.hpp"
-#include "analysis/dynamics/meetings.hpp"
+#include "analysis/ranks/body_part.hpp"
 #include "solver/ranks.hpp"
 
 namespace perilink {
 
-/// Whether ranks can share the work on these bonds: every rank needs a block of particles.
+/// Whether ranks share the work on these bonds: there are several, a block of particles at least
+/// for each, and the network has no states.
 /// \param ranks  null: this process is alone
 bool can_be_shared(const LoadedNetwork& problem, const Ranks* ranks);
 
-/// How a rank takes part in a run of moving bonds: it moves its own blocks, and ranks know of each
-/// other's particles what their elements reach. In meetings the first rank takes the sums of all
-/// blocks, and what has broken.
+/// The part of a body whose bonds a rank moves.
+struct BondPart {
+  BodyPart part;             ///< with the loads of its particles
+  int component = 0;         ///< main_component() of the whole body
+  std::vector<double> mass;  ///< shape (particles, width)
+  BondStencil stencil;       ///< cut out of that of the whole body, so that sums keep their order
+
+  void pack(Parcel& parcel) const;
+  static BondPart unpack(Parcel& parcel);
+};
+
+/// \param mass  shape (particles, width)
+BondPart cut_part(const LoadedNetwork& body, const std::vector<double>& mass,
+                  const BondStencil& stencil, const Partition& partition, int rank);
+
+/// The share of a rank in a run of moving bonds: it moves its own blocks, and in every step ranks
+/// bring the motion of their ghosts up to date. In meetings every few steps the first rank takes
+/// the sums of all blocks and the broken bonds, may ask for more, and ends the meeting.
 class RunShare {
  public:
-  /// \param unknowns  those of the particles that the rank numbers
+  /// \param unknowns  motion of the particles that the rank numbers
   RunShare(Ranks& ranks, const Unknowns& unknowns, const ParticleBlocks& blocks, Index first_block,
            Index past_block, const Ghosts& ghosts);
 
@@ -34,85 +47,49 @@ class RunShare {
   void update_ghosts(BondMotion& motion) {
     layer_.update(width_, {motion.displacement, motion.velocity});
   }
-  /// Collective.
-  void update_states(ExplicitBonds& bonds) { bonds.update_states(layer_); }
 
-  /// Once in every step.
+  /// Once in every step: reactions of supports [force] for the next meeting.
   void note_supports(const MovingBonds& body) {
-    meetings_.note_step(held_blocks_, [&](Index b) { return body.sums[b].supports; });
-  }
-
-  /// Collective: sums over blocks in the order of their numbers, as one process takes them.
-  /// \param own  those of the blocks that this rank moves
-  /// \return the first rank's: of all blocks
-  template <class Sum>
-  Sum sum_in_order(std::span<const Sum> own) {
-    Ranks& ranks = meetings_.ranks();
-    Sum sum{};
-    for (const Sum& block : own) sum += block;
-    if (!ranks.leads()) put_in(0, std::vector<Sum>(own.begin(), own.end()));
-    std::vector<Sum> others;
-    for (int rank = 1; ranks.leads() && rank < ranks.count(); ++rank) {
-      Parcel(ranks.receive(rank)).get(others);
-      for (const Sum& block : others) sum += block;
-    }
-    return sum;
-  }
-  /// Collective. \return what the first rank gives
-  template <class Value>
-  Value of_first(const Value& value) {
-    Ranks& ranks = meetings_.ranks();
-    if (!ranks.leads()) return Parcel(ranks.receive(0)).get<Value>();
-    for (int rank = 1; rank < ranks.count(); ++rank) put_in(rank, value);
-    return value;
+    for (const Index block : held_blocks_) supports_.push_back(body.sums[block].supports);
+    ++steps_;
   }
 
  protected:
-  Meetings meetings_;
+  Ranks& ranks_;
   int width_;  ///< components of the motion of a particle
+  Index first_block_, past_block_;
+  std::vector<double> supports_;  ///< since the last meeting, shape (steps, held blocks)
+  Index steps_ = 0;               ///< since the last meeting
 
  private:
-  template <class Value>
-  void put_in(int rank, const Value& value) {
-    Parcel parcel;
-    parcel.put(value);
-    meetings_.ranks().send(rank, parcel.bytes());
-  }
-
-  Index first_block_, past_block_;
-  std::vector<Index> held_blocks_;
+  std::vector<Index> held_blocks_;  ///< own blocks in which something is held, ascending
   GhostLayer layer_;
 };
 
-/// The first rank's share. Its numbers are those of the whole body.
+/// The share of the first rank. Its numbers are those of the whole body.
 class LeadingShare final : public RunShare {
  public:
-  LeadingShare(Ranks& ranks, const LoadedNetwork& body, const BlockPartition& partition);
+  LeadingShare(Ranks& ranks, const LoadedNetwork& body, const Partition& partition);
 
-  /// Begins a meeting, or comes after the last step: takes sums and what broke into `body`.
-  /// \return reactions of supports in each step since the last time [force]
+  /// Begins a meeting, or comes after the last step: takes sums and broken bonds into `body`.
+  /// \return reactions of supports in each step since the last meeting, summed in the order of the
+  ///         blocks as one process does [force]
   std::vector<double> collect(MovingBonds& body);
   /// During a meeting: the motion of all particles and the forces on them.
   void collect_motion(MovingBonds& body);
   /// During a meeting. \param secants  of all elements; those of other ranks are overwritten
   void collect_secants(std::span<double> secants);
-  /// During a meeting. \param damage  of all particles; that of other ranks is overwritten
-  void collect_damage(std::vector<double>& damage);
-  /// Ends a meeting.
-  void tell(bool goes_on) { meetings_.tell(goes_on); }
+  void end_meeting(bool goes_on);
 
  private:
-  /// Fields of shape (particles, width): those of the other ranks' particles.
-  void collect_fields(Wish wish, int width, std::initializer_list<std::vector<double>*> fields);
-
-  BlockPartition partition_;
+  Partition partition_;
 };
 
-/// That of the others.
+/// The share of another rank.
 class FollowingShare final : public RunShare {
  public:
   /// \param part  has to outlive this
-  FollowingShare(Ranks& ranks, const BondPart& part);
+  FollowingShare(Ranks& ranks, const BodyPart& part);
 
   /// A meeting. \return whether the run goes on
   bool meet(MovingBonds& body);
@@ -120,10 +97,10 @@ class FollowingShare final : public RunShare {
   void report(MovingBonds& body);
 
  private:
-  const BondPart& part_;
+  const BodyPart& part_;
 };
 
-/// What this process does in a run that ranks share; both null: it is alone.
+/// The share of this process in a run; both null: it is alone.
 struct Shares {
   LeadingShare* leading = nullptr;
   FollowingShare* following = nullptr;
@@ -135,28 +112,8 @@ struct Shares {
   }
 };
 
-/// The bonds of the first rank, which asks the others what is left of theirs.
+/// The bonds of the first rank, which asks the others for the secants of their elements.
 std::unique_ptr<ExplicitBonds> leading_bonds(std::unique_ptr<ExplicitBonds> own,
                                              LeadingShare& share);
-
-/// Sends the other ranks an order and their parts of the body, and runs that of the first.
-/// \param mass  shape (particles, width)
-/// \param run   run(stencil, share) gives a result that tells how many ranks there were
-template <class Run>
-auto run_shared(Ranks& ranks, const Parcel& order, const LoadedNetwork& problem,
-                const std::vector<double>& mass, Strain strain, Run run) {
-  BondStencil stencil = stencil_for(problem.network, strain);
-  const BlockPartition partition(problem.network, ranks.count());
-  return lead(ranks, [&] {
-    for (int rank = 1; rank < ranks.count(); ++rank) {
-      ranks.send(rank, order.bytes());
-      ranks.send(rank, cut_part(problem, mass, stencil, partition, rank).pack().bytes());
-    }
-    LeadingShare share(ranks, problem, partition);
-    auto result = run(std::move(stencil), share);
-    result.ranks = ranks.count();
-    return result;
-  });
-}
 
 }  // namespace perilink

@@ -22,7 +22,6 @@ double product_of(const Vector3& n, int entry) { return n[axes[entry][0]] * n[ax
 LatticeParticles::LatticeParticles(const ExplicitModel& model) : model_(model) {
   const LatticeRows& lattice = model.lattice;
   whole_ = (1U << (2 * lattice.own_bonds())) - 1U;
-  whole_inverse_ = invert(whole_);
   kind_.assign(lattice.slots, 0);
   std::unordered_map<std::uint32_t, std::uint32_t> known;
   for_each_particle(lattice, [&](Index row, Index slot) {

@@ -69,8 +69,6 @@ class LatticeParticles {
 
   /// Strain that fits the stretches of the existing bonds best; in the plane xx, yy and xy only.
   SymmetricTensor fit(const Halves& stretch, const Neighbourhood& neighbourhood) const;
-  /// Coefficients of `fit` of a particle with all bonds in the plane, shape (6, 3).
-  const std::vector<double>& whole_inverse() const { return whole_inverse_; }
   /// Stretches of the bonds under a strain.
   Halves project(const SymmetricTensor& strain, const Neighbourhood& neighbourhood) const;
 
@@ -91,7 +89,6 @@ class LatticeParticles {
 
   const ExplicitModel& model_;
   std::uint32_t whole_ = 0;
-  Inverse whole_inverse_;
   std::vector<Inverse> inverses_;
   std::vector<std::uint8_t> near_face_;
   std::vector<std::uint32_t> kind_;  ///< number of the particle's inverse, of each slot

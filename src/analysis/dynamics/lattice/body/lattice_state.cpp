@@ -79,7 +79,6 @@ ExplicitState::ExplicitState(const ExplicitModel& model)
   for (auto* array : {&next_damage, &crack_band}) array->assign(slots, 0.0);
   const LatticeMaterial& material = model.material;
   crack_at.assign(slots, never);
-  grow_at.assign(slots, never);
   quiet_until.assign(slots, -never);
   if (!material.breakable) return;
   cracked_in.assign(slots, 0);

@@ -110,7 +110,6 @@ struct ExplicitState {
   std::vector<Index> cracked_in;          ///< step in which damage of a particle began
   std::vector<double> crack_band;         ///< width [length]; zero where no crack began
   std::vector<double> crack_at;  ///< first principal stress at which a particle is looked at
-  std::vector<double> grow_at;   ///< the same for the strain that drives damage (papers' rules)
   std::vector<double>
       quiet_until;  ///< path of the row before which no crack can begin at a particle
   LatticeFlow flow;

@@ -7,6 +7,7 @@
 
 #include "analysis/dynamics/lattice/body/lattice_loads.hpp"
 #include "analysis/dynamics/lattice/rows/bond_pointers.hpp"
+#include "analysis/dynamics/lattice/rows/paper_forces.hpp"
 #include "analysis/dynamics/lattice/rows/row_pointers.hpp"
 
 namespace perilink {
@@ -171,14 +172,13 @@ void weigh(const ExplicitModel& model, ExplicitState& state, Index r) {
   }
 }
 
-/// Magnitudes of a group's bond forces times their directions.
+/// Magnitudes of a group's bond forces times their directions, by the consistent rules.
 /// \param Weakened  bonds have factors of damage
-/// \param Differ    the two halves of a bond carry different forces (rules of 2018)
-template <int Dim, LatticeRules Rules, bool Weakened, bool Differ>
+template <int Dim, bool Weakened>
 void force_group(const ExplicitModel& model, ExplicitState& state, Index r, int first) {
   const LatticeRows& lattice = model.lattice;
   const LatticeRow& row = lattice.rows[r];
-  std::array<const double*, group> effective, present, rate, tension, compression, stretch, half;
+  std::array<const double*, group> effective, present, rate, tension, compression, stretch;
   std::array<double*, group> drag;
   const RowPlaces& places = state.now.places;
   at_bonds_now(std::as_const(state.now.effective), places, first, r, effective);
@@ -187,7 +187,6 @@ void force_group(const ExplicitModel& model, ExplicitState& state, Index r, int 
   at_bonds(std::as_const(state.in_tension), lattice, first, row, tension);
   at_bonds(std::as_const(state.in_compression), lattice, first, row, compression);
   at_bonds_now(std::as_const(state.now.stretch), places, first, r, stretch);
-  at_bonds(std::as_const(state.flow.half), lattice, first, row, half);
   at_bonds(state.drag, lattice, first, row, drag);
   double* force[group][Dim];
   double own[group];
@@ -206,27 +205,15 @@ void force_group(const ExplicitModel& model, ExplicitState& state, Index r, int 
   for (Index i = 0; i < row.size; ++i) {
 #pragma GCC unroll 6
     for (int g = 0; g < group; ++g) {
-      double factor = present[g][i];
-      if constexpr (Weakened) factor = by_sign(stretch[g][i], tension[g][i], compression[g][i]);
       const double here = modulus * sum[i], there = modulus * sum[i + shift[g]];
       double magnitude = own[g] * effective[g][i];
-      if constexpr (Rules == LatticeRules::consistent && Weakened) {
-        magnitude += weight.mean(g, i, stretch[g][i], here, there);
-      } else if constexpr (Rules == LatticeRules::consistent) {
-        magnitude += factor * 0.5 * (here + there);
-      } else if constexpr (Rules == LatticeRules::mean_2017) {
-        magnitude = present[g][i] * (magnitude + 0.5 * (here + there));
-      } else {
-        double excess = 0.0;
-        if constexpr (Differ) excess = own[g] * factor * half[g][i];
-        const double mine = magnitude + here + excess, other = magnitude + there - excess;
-        const double smaller = std::abs(mine) < std::abs(other) ? mine : other;
-        magnitude = present[g][i] * (mine * other > 0.0 ? smaller : 0.5 * (mine + other));
-      }
       if constexpr (Weakened) {
+        const double factor = by_sign(stretch[g][i], tension[g][i], compression[g][i]);
+        magnitude += weight.mean(g, i, stretch[g][i], here, there);
         drag[g][i] = damping * factor * rate[g][i];
         magnitude += drag[g][i];
       } else {
+        magnitude += present[g][i] * 0.5 * (here + there);
         magnitude += damping * rate[g][i];
       }
       for (int c = 0; c < Dim; ++c) force[g][c][i] *= magnitude;
@@ -234,27 +221,12 @@ void force_group(const ExplicitModel& model, ExplicitState& state, Index r, int 
   }
 }
 
-template <int Dim, LatticeRules Rules>
-void forces(const ExplicitModel& model, ExplicitState& state, Index r) {
-  const Level level = level_of(model, state, r);
-  const bool weakened = level == Level::weakened;
-  constexpr bool may_differ = Rules == LatticeRules::least_2018;
-  const bool differ = may_differ && model.material.yields && (weakened || level == Level::flowed);
-  const auto differing = weakened ? force_group<Dim, Rules, true, may_differ>
-                                  : force_group<Dim, Rules, false, may_differ>;
-  const auto alike =
-      weakened ? force_group<Dim, Rules, true, false> : force_group<Dim, Rules, false, false>;
-  for (int first = 0; first < model.lattice.own_bonds(); first += group) {
-    (differ ? differing : alike)(model, state, r, first);
-  }
-}
-
 template <int Dim>
 void forces(const ExplicitModel& model, ExplicitState& state, Index r) {
-  switch (model.rules) {
-    case LatticeRules::consistent: return forces<Dim, LatticeRules::consistent>(model, state, r);
-    case LatticeRules::mean_2017: return forces<Dim, LatticeRules::mean_2017>(model, state, r);
-    case LatticeRules::least_2018: return forces<Dim, LatticeRules::least_2018>(model, state, r);
+  const bool weakened = level_of(model, state, r) == Level::weakened;
+  const auto force = weakened ? force_group<Dim, true> : force_group<Dim, false>;
+  for (int first = 0; first < model.lattice.own_bonds(); first += group) {
+    force(model, state, r, first);
   }
 }
 
@@ -356,6 +328,7 @@ void sum_stretches(const ExplicitModel& model, ExplicitState& state, Index r) {
 }
 
 void bond_forces(const ExplicitModel& model, ExplicitState& state, Index row) {
+  if (model.rules != LatticeRules::consistent) return paper_forces(model, state, row);
   model.lattice.dim == 2 ? forces<2>(model, state, row) : forces<3>(model, state, row);
 }
 

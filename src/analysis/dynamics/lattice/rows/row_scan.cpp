@@ -117,56 +117,6 @@ double scan_space(const ExplicitModel& model, const ExplicitState& state, Index 
   return least;
 }
 
-/// Makes particles due whose strain has passed the largest so far; in the plane.
-template <LatticeRules Rules, bool Yields>
-void scan_cracks(const ExplicitModel& model, const LatticeParticles& particles,
-                 const ExplicitState& state, Index r, double* left) {
-  const LatticeRow& row = model.lattice.rows[r];
-  const BondPointers<6> bond(model, state, r);
-  const std::vector<double>& inverse = particles.whole_inverse();
-  const double* grow_at = state.grow_at.data() + row.first;
-#pragma omp simd
-  for (Index i = 0; i < row.size; ++i) {
-    double xx = 0.0, yy = 0.0, xy = 0.0;
-#pragma GCC unroll 6
-    for (int j = 0; j < 6; ++j) {
-      const double whole = bond.stretch[j][i] * bond.present[j][i];
-      double half = whole;
-      if constexpr (Rules != LatticeRules::mean_2017) {
-        const double owners =
-            by_sign(whole, bond.share_tension[j][i], bond.share_compression[j][i]);
-        half *= j < 3 ? owners : 2.0 - owners;
-        if constexpr (Yields) half += j < 3 ? bond.half[j][i] : -bond.half[j][i];
-      }
-      xx += inverse[3 * j] * half;
-      yy += inverse[3 * j + 1] * half;
-      xy += inverse[3 * j + 2] * half;
-    }
-    const double mean = 0.5 * (xx + yy), difference = 0.5 * (xx - yy);
-    const double radius = std::sqrt(difference * difference + xy * xy);
-    const double e1 = mean + radius, e2 = mean - radius;
-    double strain = e1;
-    if constexpr (Rules == LatticeRules::least_2018) {
-      strain = std::sqrt(e1 * e1 - e1 * e2 + e2 * e2);
-    }
-    left[i] = strain > grow_at[i] ? -1.0 : left[i];
-  }
-}
-
-void scan_cracks(const ExplicitModel& model, const LatticeParticles& particles,
-                 const ExplicitState& state, Index r, double* left) {
-  const bool yields = model.material.yields;
-  switch (model.rules) {
-    case LatticeRules::consistent: return;  // LatticeDamage::watch has moved their crack_at
-    case LatticeRules::mean_2017:
-      return scan_cracks<LatticeRules::mean_2017, false>(model, particles, state, r, left);
-    case LatticeRules::least_2018:
-      return yields
-                 ? scan_cracks<LatticeRules::least_2018, true>(model, particles, state, r, left)
-                 : scan_cracks<LatticeRules::least_2018, false>(model, particles, state, r, left);
-  }
-}
-
 double scan_stress(const ExplicitModel& model, const ExplicitState& state, Index r,
                    std::uint8_t bond_changes, Left& left) {
   if (model.lattice.dim == 3) return scan_space(model, state, r, left);
@@ -225,22 +175,20 @@ double stress_stiffness(const ExplicitModel& model) {
   return own + 2.0 * weights * std::abs(model.moduli.sum) * weights / model.lattice.spacing;
 }
 
-void scan_row(const ExplicitModel& model, const LatticeParticles& particles, ExplicitState& state,
-              Index r, DueParticles& due) {
+void scan_row(const ExplicitModel& model, ExplicitState& state, Index r, DueParticles& due) {
   const LatticeRow& row = model.lattice.rows[r];
   thread_local Left left;
   left.damage.resize(row.size);
   left.flow.assign(row.size, never);
   const std::uint8_t bond_changes = changes_of_bonds(model.lattice, state, r);
   const double least = scan_stress(model, state, r, bond_changes, left);
-  const bool cracked = (state.row_changes[r] & RowChanges::cracked) != 0;
-  if (cracked && model.lattice.dim == 2) {
-    scan_cracks(model, particles, state, r, left.damage.data());
-  }
+  // LatticeDamage::watch moves crack_at by the consistent rules only.
+  const bool cracked =
+      (state.row_changes[r] & RowChanges::cracked) != 0 && model.rules != LatticeRules::consistent;
   due.damage.clear();
   due.flow.clear();
   for (Index i = 0; i < row.size; ++i) {
-    const bool grows = cracked && model.lattice.dim == 3 && state.grow_at[row.first + i] < never;
+    const bool grows = cracked && state.crack_band[row.first + i] > 0.0;
     if (left.damage[i] < 0.0 || grows) due.damage.push_back(row.first + i);
     if (left.flow[i] < 0.0) due.flow.push_back(row.first + i);
   }

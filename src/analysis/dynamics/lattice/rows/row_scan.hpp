@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "analysis/dynamics/lattice/body/lattice_particles.hpp"
+#include "analysis/dynamics/lattice/body/lattice_state.hpp"
 
 /// \file
 /// Which particles of a row have to be looked at. Damage and flow cost nothing until stretches
@@ -27,14 +27,13 @@ double stress_stiffness(const ExplicitModel& model);
 
 /// Slots of a row that have to be looked at.
 struct DueParticles {
-  std::vector<Index> damage;  ///< first principal stress above crack_at, or by the rules of the
-                              ///< papers strain above grow_at
+  std::vector<Index> damage;  ///< first principal stress above crack_at; by the rules of the papers
+                              ///< also all particles with a crack
   std::vector<Index> flow;    ///< von Mises stress above flow.look_at
 };
 
 /// Finds the particles that have reached the thresholds that the state has for them, exact in the
 /// plane, on the safe side in space; and the row's slack. Stretches and sums must be up to date.
-void scan_row(const ExplicitModel& model, const LatticeParticles& particles, ExplicitState& state,
-              Index row, DueParticles& due);
+void scan_row(const ExplicitModel& model, ExplicitState& state, Index row, DueParticles& due);
 
 }  // namespace perilink

@@ -39,19 +39,6 @@ SweepReach reach_of(const std::tuple<RowStage<Work>...>& all) {
       all);
 }
 
-/// The rows of a sweep. Where the body goes on at an end of them, stages leave out the rows there
-/// that need others.
-struct SweptRows {
-  Index begin = 0, end = 0;
-  bool cut_before = false, cut_after = false;
-
-  /// Those that are left to the stages which follow some others.
-  SweptRows after(const SweepReach& others) const {
-    return {begin + (cut_before ? others.behind : 0), end - (cut_after ? others.ahead : 0),
-            cut_before, cut_after};
-  }
-};
-
 /// Rows that some stages do among themselves: stage by stage each a range, which follows from the
 /// one before.
 namespace row_sweep {
@@ -93,25 +80,23 @@ void run_stage(Index rows, const RowStage<Work>& stage) {
 
 }  // namespace row_sweep
 
-/// Runs every stage once on each of the rows, in an order that finds in the cache what the stages
-/// before wrote: each thread takes all stages together through a block of rows,
-/// row after row; what lies at the edges of blocks comes after a barrier. Rows too few for that are
-/// done stage by stage. To be called by all threads of a parallel region, by one alone where the
-/// body goes on beyond the rows; ends in a barrier.
+/// Runs every stage once on each row, in an order that finds in the cache what the stages before
+/// wrote: each thread takes all stages together through a block of rows, row after row; the rows at
+/// the edges of blocks come after a barrier. Too few rows for that are done stage by stage. To be
+/// called by all threads of a parallel region; ends in a barrier.
 template <class... Work>
-void sweep_rows(const SweptRows& rows, const std::tuple<RowStage<Work>...>& all) {
+void sweep_rows(Index count, const std::tuple<RowStage<Work>...>& all) {
   const Index shortest = reach_of(all).shortest();
-  const auto sweep = [&rows, shortest](const RowStage<Work>&... stages) {
-    const Index blocks = omp_get_num_threads(), count = rows.end - rows.begin;
+  const auto sweep = [count, shortest](const RowStage<Work>&... stages) {
+    const Index blocks = omp_get_num_threads();
     if (blocks > 1 && count / blocks < shortest) {
       (row_sweep::run_stage(count, stages), ...);
       return;
     }
-    const auto begin = [&](Index block) { return rows.begin + count * block / blocks; };
+    const auto begin = [&](Index block) { return count * block / blocks; };
 #pragma omp for schedule(static)
     for (Index b = 0; b < blocks; ++b) {
-      const bool first = b == 0 && !rows.cut_before, last = b == blocks - 1 && !rows.cut_after;
-      row_sweep::sweep_block(begin(b), begin(b + 1), first, last, stages...);
+      row_sweep::sweep_block(begin(b), begin(b + 1), b == 0, b == blocks - 1, stages...);
     }
     if (blocks == 1) return;
 #pragma omp for schedule(static)

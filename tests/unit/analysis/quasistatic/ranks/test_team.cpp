@@ -112,32 +112,6 @@ INSTANTIATE_TEST_SUITE_P(
              std::to_string(std::get<1>(instance.param));
     });
 
-/// Sums of extensions couple particles two horizons apart; a bond counts at both ends, one or none.
-TEST(Team, KnowsTheSumsOfNeighbours) {
-  for (const LatticeCase& lattice : {square_lattice, cubic}) {
-    AnalysisBody body = make_block({lattice});
-    Network& network = body.network;
-    for (Index p = 0; p < network.particles.size(); ++p) {
-      network.state_stiffness.push_back(0.02 * network.stiffness[0] * (1 + p % 5));
-    }
-    for (Index e = 0; e < network.num_elements(); ++e) {
-      network.state_of.push_back(static_cast<std::uint8_t>(e % 4));
-    }
-    const std::vector<double> secants = intact(network);
-    const std::vector<double> alone = solve(body, secants, nullptr);
-    for (const int count : {2, 3, 5}) {
-      with_thread_ranks(
-          count,
-          [&](Ranks& ranks) {
-            const std::vector<double> shared = solve(body, secants, &ranks);
-            dismiss(ranks);
-            EXPECT_LT(difference_of(alone, shared), 1e-10);  // as above
-          },
-          serve);
-    }
-  }
-}
-
 TEST(Team, ABodyThatNothingHoldsIsRefusedByAllRanks) {
   AnalysisBody body = make_block({cubic});
   number(body, [](Index, int) { return false; });

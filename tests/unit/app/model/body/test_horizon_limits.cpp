@@ -55,17 +55,6 @@ TEST(HorizonLimits, HoldFewerBytesForElasticBonds) {
               HasSubstr("and 458 GB"));
 }
 
-TEST(HorizonLimits, HoldTheBondsOfAPartAgainstTheMachineThatMakesIt) {
-  HorizonReach reach = block(3, 1e11);
-  reach.parts = 4;
-  EXPECT_THAT(answer(reach), HasSubstr("458 GB"));
-  reach.parts = 5;
-  EXPECT_EQ(answer(reach), "accepted");
-  reach = block(6, 1e99);
-  reach.parts = 8;
-  EXPECT_EQ(answer(reach), "accepted");
-}
-
 TEST(HorizonLimits, CountNoNeighboursBesideSlenderBodies) {
   // 2 rows, 121 columns within reach of each; a full circle would have 11310.
   HorizonReach reach = reach_of(Box{{0, 0, 0}, {200000, 10, 0}}, 2, 600, 10);

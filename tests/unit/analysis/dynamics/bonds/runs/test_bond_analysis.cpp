@@ -24,7 +24,6 @@ class Recorder final : public BondRunObserver {
     rows.push_back(record);
     motion = state.motion;
     secants = state.bonds.secants();
-    damage = state.bonds.damage();
     broken = state.broken;
     for (Index e = 0; e < state.network.first_bar_element; ++e) {
       if (secants[e] == 0.0 && !std::count(seen.begin(), seen.end(), e)) seen.push_back(e);
@@ -37,7 +36,7 @@ class Recorder final : public BondRunObserver {
   int ends = 0;
   std::vector<ExplicitRecord> rows;
   BondMotion motion;
-  std::vector<double> secants, damage;
+  std::vector<double> secants;
   std::vector<Index> broken;
   std::vector<Index> seen;  ///< to be broken, row after row, in a row by their numbers
 };
@@ -249,7 +248,6 @@ void expect_the_same(const Outcome& found, const Outcome& alone) {
   EXPECT_EQ(found.recorder.motion.displacement, alone.recorder.motion.displacement);
   EXPECT_EQ(found.recorder.motion.velocity, alone.recorder.motion.velocity);
   EXPECT_EQ(found.recorder.secants, alone.recorder.secants);
-  EXPECT_EQ(found.recorder.damage, alone.recorder.damage);
   EXPECT_EQ(found.recorder.broken, alone.recorder.broken);
   EXPECT_EQ(found.recorder.ends, 1);
   EXPECT_EQ(found.result.peak_load, alone.result.peak_load);
@@ -264,20 +262,17 @@ bool has_fallen_slip_spring(const Network& network, const std::vector<double>& s
                      [](double secant) { return secant < 1.0; });
 }
 
-/// Some hundred steps in which bonds break, or particles crack, on a way that several ranks have
-/// parts of.
-void expect_ranks_to_change_nothing(const AnalysisBody& body, Strain strain,
-                                    const StateBody& states = {}, bool breaks = true) {
+/// Some hundred steps in which bonds break along a path through the parts of several ranks.
+void expect_ranks_to_change_nothing(const AnalysisBody& body, Strain strain) {
   const Inertia inertia = lumped_inertia(body.network, densities, MassScaling::none, strain);
   ExplicitOptions options;
   options.duration = 400.0 * inertia.critical_time_step();
   options.ramp = 0.8 * options.duration;
   options.rows = 20;
-  const BondRunRules rules{
-      .damping_rate = 0.1 / options.duration, .strain = strain, .states = states};
+  const BondRunRules rules{.damping_rate = 0.1 / options.duration, .strain = strain};
   for (const std::size_t stop_after : {0, 7}) {
     const Outcome alone = run(body, options, rules, stop_after);
-    EXPECT_EQ(alone.recorder.broken.size() > 20U, breaks);
+    EXPECT_GT(alone.recorder.broken.size(), 20U);
     if (body.network.embedded_points.size() > 0) {
       EXPECT_TRUE(has_fallen_slip_spring(body.network, alone.recorder.secants));
     }
@@ -308,36 +303,6 @@ TEST_P(SharedBondRuns, RanksChangeNothing) {
       scaled(body, block.driven ? 2.0 * stretch * block.columns : 600.0 * stretch), strain);
 }
 
-class SharedParticleRuns : public testing::TestWithParam<std::tuple<int, bool>> {};
-
-/// A square or cube held and driven at opposite faces, of two materials that crack differently.
-TEST_P(SharedParticleRuns, RanksChangeNothing) {
-  const auto [dim, breakable] = GetParam();
-  AnalysisBody body = free_body(unstructured_particles(dim, dim == 2 ? 30 : 9).network);
-  const Particles& particles = body.network.particles;
-  const auto x = [&](Index i) { return particles.position(i)[0]; };
-  for (Index i = 0; i < particles.size(); ++i) {
-    if (x(i) == 1.0) body.unknowns.prescribed[slot(body, i, 0)] = 4e-3;
-    body.network.particles.material[i] = i % 3 == 0 ? 1 : 0;
-  }
-  number(body, [&](Index i, int) { return x(i) == 0.0 || x(i) == 1.0; });
-  body.reference = {true, 4e-3};
-  StateBody states;
-  states.problem = dim == 2 ? Problem::plane_stress : Problem::three_dimensional;
-  // Strains reach 40 times those at the strength.
-  for (const double strength : {0.003, 0.005}) {
-    states.materials.push_back(
-        {soft_solid.youngs_modulus,
-         soft_solid.poissons_ratio,
-         breakable,
-         {.strength = strength, .knee_opening = 2e-5, .critical_opening = 2e-4}});
-  }
-  expect_ranks_to_change_nothing(body, Strain::small, states, breakable);
-}
-
-INSTANTIATE_TEST_SUITE_P(Dimensions, SharedParticleRuns,
-                         testing::Combine(testing::Values(2, 3), testing::Bool()));
-
 INSTANTIATE_TEST_SUITE_P(
     Bodies, SharedBondRuns,
     testing::Values(
@@ -363,6 +328,43 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& instance) {
       return to_string(std::get<0>(instance.param)) + std::to_string(instance.index);
     });
+
+/// A square or cube held and driven at opposite faces, of two materials that crack differently.
+TEST(ExplicitBondAnalysis, ParticlesCrackOnTheWay) {
+  for (const int dim : {2, 3}) {
+    AnalysisBody body = free_body(unstructured_particles(dim, dim == 2 ? 30 : 9).network);
+    const Particles& particles = body.network.particles;
+    const auto x = [&](Index i) { return particles.position(i)[0]; };
+    for (Index i = 0; i < particles.size(); ++i) {
+      if (x(i) == 1.0) body.unknowns.prescribed[slot(body, i, 0)] = 4e-3;
+      body.network.particles.material[i] = i % 3 == 0 ? 1 : 0;
+    }
+    number(body, [&](Index i, int) { return x(i) == 0.0 || x(i) == 1.0; });
+    body.reference = {true, 4e-3};
+    BondRunRules rules;
+    rules.states.problem = dim == 2 ? Problem::plane_stress : Problem::three_dimensional;
+    // Strains reach 40 times those at the strength.
+    for (const double strength : {0.003, 0.005}) {
+      rules.states.materials.push_back(
+          {soft_solid.youngs_modulus,
+           soft_solid.poissons_ratio,
+           true,
+           {.strength = strength, .knee_opening = 2e-5, .critical_opening = 2e-4}});
+    }
+    const Inertia inertia = lumped_inertia(body.network, densities);
+    ExplicitOptions options;
+    options.duration = 400.0 * inertia.critical_time_step();
+    options.ramp = 0.8 * options.duration;
+    options.rows = 20;
+    const Outcome outcome = run(body, options, rules);
+    EXPECT_EQ(outcome.result.termination, Termination::completed) << outcome.result.reason;
+    EXPECT_GT(outcome.recorder.broken.size(), 20U);
+    EXPECT_EQ(outcome.result.last.cracked_particles, outcome.recorder.broken.size());
+    EXPECT_GT(outcome.result.last.energy.fractured, 0.0);
+    // Bonds stiffen where cracks close (docs/theory/explicit_bonds.md): 2.5e-4 was measured.
+    EXPECT_LT(outcome.result.largest_surplus, 1e-3);
+  }
+}
 
 TEST(ExplicitBondAnalysis, StopsWhenAsked) {
   const AnalysisBody body = make_chains(6, 2, true, 10.0, INFINITY);

@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "app/process/serve.hpp"
 #include "support/analysis_bodies.hpp"
-#include "support/thread_ranks.hpp"
 
 namespace perilink {
 namespace {
@@ -21,8 +19,6 @@ class StepRecorder final : public BondRunObserver {
     if (rows.size() == most_rows) throw std::runtime_error("the disk is full");
     rows.push_back(record);
     displacement = state.motion.displacement;
-    secants = state.bonds.secants();
-    broken = state.broken;
   }
   void on_end(const ExplicitRecord&, const BondRunState&) override { ++ends; }
   void on_iteration(Index, Index, double) override {
@@ -34,8 +30,7 @@ class StepRecorder final : public BondRunObserver {
   std::size_t most_rows = 1000;
   int ends = 0;
   std::vector<ExplicitRecord> rows;
-  std::vector<double> displacement, secants;  ///< in the last row
-  std::vector<Index> broken;
+  std::vector<double> displacement;  ///< in the last row
 };
 
 struct Relaxed {
@@ -43,10 +38,8 @@ struct Relaxed {
   StepRecorder recorder;
 };
 
-Relaxed relax(const AnalysisBody& body, const RelaxationOptions& options,
-              std::size_t most_rows = 1000) {
+Relaxed relax(const AnalysisBody& body, const RelaxationOptions& options) {
   Relaxed outcome;
-  outcome.recorder.most_rows = most_rows;
   outcome.result = run_dynamic_relaxation(body, options, outcome.recorder);
   return outcome;
 }
@@ -104,92 +97,6 @@ INSTANTIATE_TEST_SUITE_P(
                     BlockCase{{"space", Pattern::cubic, Surface::none}, true, false, 4, 0.1, true}),
     [](const auto& body) { return to_string(body.param) + std::to_string(body.index); });
 
-const LatticeCase squares{"square", Pattern::rectangular, Surface::none};
-const LatticeCase cubes{"cube", Pattern::cubic, Surface::none};
-
-/// Bodies in which bonds break on the way to rest, at particles of several ranks.
-class SharedRelaxations : public testing::TestWithParam<std::tuple<BlockCase, Strain>> {};
-
-void expect_the_same(const Relaxed& found, const Relaxed& alone) {
-  EXPECT_EQ(found.recorder.rows, alone.recorder.rows);
-  EXPECT_EQ(found.recorder.displacement, alone.recorder.displacement);
-  EXPECT_EQ(found.recorder.secants, alone.recorder.secants);
-  EXPECT_EQ(found.recorder.broken, alone.recorder.broken);
-  EXPECT_EQ(found.recorder.ends, alone.recorder.ends);
-  EXPECT_EQ(found.result.termination, alone.result.termination);
-  EXPECT_EQ(found.result.reason, alone.result.reason);
-  EXPECT_EQ(found.result.iterations, alone.result.iterations);
-  EXPECT_EQ(found.result.residual, alone.result.residual);
-  EXPECT_EQ(found.result.error, alone.result.error);
-  EXPECT_EQ(found.result.peak_load, alone.result.peak_load);
-  EXPECT_EQ(found.result.last, alone.result.last);
-}
-
-TEST_P(SharedRelaxations, RanksChangeNothing) {
-  const auto& [block, strain] = GetParam();
-  AnalysisBody body = make_block(block);
-  std::vector<double>& limits = body.network.critical_stretch;
-  const auto bonds = limits.begin() + body.network.first_slip_spring;
-  const double stretch = *std::min_element(limits.begin(), bonds);
-  // What breaks lies far apart, so that the body stays whole.
-  for (auto limit = limits.begin(); limit != bonds; ++limit) {
-    if ((limit - limits.begin()) % 20 != 0) *limit = INFINITY;
-  }
-  RelaxationOptions options;
-  for (double& factor : options.load_factors = {0.02, 1.0, 1.5}) {
-    factor *= stretch * block.columns;
-  }
-  options.tolerance = 1e-3;
-  options.strain = strain;
-  options.safety = 0.5;  // Green strains stiffen what cannot break
-  // To the end, until an observer fails at a row, and as far as some iterations go.
-  for (const auto& [most_rows, most_iterations] : {std::pair{1000, 3000}, {2, 3000}, {1000, 20}}) {
-    options.most_iterations = most_iterations;
-    options.ranks = nullptr;
-    const Relaxed alone = relax(body, options, most_rows);
-    for (const int count : {2, 3}) {
-      with_thread_ranks(
-          count,
-          [&](Ranks& ranks) {
-            options.ranks = &ranks;
-            const Relaxed found = relax(body, options, most_rows);
-            dismiss(ranks);
-            EXPECT_EQ(found.result.ranks, count);
-            expect_the_same(found, alone);
-          },
-          serve);
-    }
-    if (most_rows == 2) {
-      EXPECT_EQ(alone.result.reason, "the disk is full");
-    } else if (most_iterations == 20) {
-      EXPECT_EQ(alone.result.termination, Termination::failed);
-    } else {
-      EXPECT_EQ(alone.result.termination, Termination::completed) << alone.result.reason;
-      EXPECT_GT(alone.result.last.broken_bonds, 20);
-    }
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Bodies, SharedRelaxations,
-    testing::Values(
-        std::tuple{BlockCase{.lattice = squares, .driven = true, .columns = 30}, Strain::small},
-        std::tuple{BlockCase{.lattice = cubes, .driven = true, .columns = 9}, Strain::small},
-        std::tuple{BlockCase{.lattice = squares,
-                             .driven = true,
-                             .columns = 30,
-                             .micropolar = true,
-                             .toothed = true},
-                   Strain::small},
-        std::tuple{BlockCase{.lattice = squares, .driven = true, .columns = 30}, Strain::green},
-        std::tuple{
-            BlockCase{
-                .lattice = squares, .driven = true, .bar = true, .columns = 30, .slipping = true},
-            Strain::small}),
-    [](const auto& instance) {
-      return to_string(std::get<0>(instance.param)) + std::to_string(instance.index);
-    });
-
 /// What is an equilibrium in proportion needs no further iteration.
 TEST(DynamicRelaxation, LoadStepsStartWhereTheyEnd) {
   const AnalysisBody body = make_chains(6, 2, true, 10.0, INFINITY);
@@ -241,7 +148,7 @@ TEST(DynamicRelaxation, BondsBreakBetweenLoadSteps) {
   EXPECT_GT(outcome.result.last.energy.external_damping, 0.0);
 }
 
-/// A chain that is pulled beyond its limit flies apart, for one process and for several.
+/// A chain that is pulled beyond its limit flies apart.
 TEST(DynamicRelaxation, LoadsPullPiecesAway) {
   const AnalysisBody body = make_chains(200, 20, false, 10.0, 0.15);
   RelaxationOptions options;
@@ -252,16 +159,6 @@ TEST(DynamicRelaxation, LoadsPullPiecesAway) {
   EXPECT_THAT(outcome.result.reason, testing::HasSubstr("load step 3 (load factor 2)"));
   EXPECT_THAT(outcome.result.reason, testing::HasSubstr("the loads pull away"));
   EXPECT_EQ(outcome.recorder.rows.size(), 2U);
-  with_thread_ranks(
-      2,
-      [&](Ranks& ranks) {
-        options.ranks = &ranks;
-        const Relaxed found = relax(body, options);
-        dismiss(ranks);
-        EXPECT_EQ(found.result.ranks, 2);
-        expect_the_same(found, outcome);
-      },
-      serve);
 }
 
 TEST(DynamicRelaxation, AnIterationLimitIsNoSuccess) {
@@ -297,6 +194,14 @@ TEST(DynamicRelaxation, ObserversStopItAndTheirExceptionsPass) {
   const RelaxationResult failed = run_dynamic_relaxation(body, {}, breaking);
   EXPECT_EQ(failed.termination, Termination::failed);
   EXPECT_EQ(failed.reason, "the disk is full");
+  StepRecorder full;
+  full.most_rows = 2;
+  const RelaxationResult kept =
+      run_dynamic_relaxation(body, {.load_factors = {0.1, 0.2, 0.3, 0.4}}, full);
+  EXPECT_EQ(kept.termination, Termination::failed);
+  EXPECT_EQ(kept.reason, "the disk is full");
+  EXPECT_EQ(full.rows.size(), 2U);
+  EXPECT_EQ(full.ends, 0);
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ void expect_due_particles(const ExplicitModel& model, Past past) {
   int above = 0, below = 0;
   for (std::size_t r = 0; r < model.lattice.rows.size(); ++r) {
     const auto row = static_cast<Index>(r);
-    scan_row(model, particles, state, row, due);
+    scan_row(model, state, row, due);
     const std::set<Index> cracks(due.damage.begin(), due.damage.end());
     const std::set<Index> flows(due.flow.begin(), due.flow.end());
     const LatticeRow& slots = model.lattice.rows[r];
@@ -129,7 +129,7 @@ TEST(ExplicitScan, NothingIsDueBeforeTheSlackIsUsedUp) {
       std::vector<double> slack(rows);
       const std::vector<double> before = state.now.stretch;
       for (Index r = 0; r < rows; ++r) {
-        scan_row(model, particles, state, r, due);
+        scan_row(model, state, r, due);
         slack[r] = state.slack[r];
       }
       for (const double factor : {-3.0, 1.5, 2.0, 4.0, 8.0}) {
@@ -141,7 +141,7 @@ TEST(ExplicitScan, NothingIsDueBeforeTheSlackIsUsedUp) {
         }
         for (Index r = 0; r < rows; ++r) {
           if (change >= slack[r]) continue;
-          scan_row(model, particles, state, r, due);
+          scan_row(model, state, r, due);
           EXPECT_TRUE(due.damage.empty() && due.flow.empty());
           ++promised;
         }

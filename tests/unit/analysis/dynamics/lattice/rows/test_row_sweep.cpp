@@ -39,9 +39,9 @@ struct Record {
     return std::tuple{RowStage{0, reach, [&](Index r) { work(2, r, 0, reach); }},
                       RowStage{reach, reach, [&](Index r) { work(3, r, reach, reach); }}};
   }
-  void sweep(int threads, const SweptRows& swept) {
+  void sweep(int threads) {
 #pragma omp parallel num_threads(threads)
-    sweep_rows(swept, std::tuple_cat(early_stages(), missed_stages()));
+    sweep_rows(rows, std::tuple_cat(early_stages(), missed_stages()));
   }
 };
 
@@ -50,7 +50,7 @@ TEST(RowSweep, DoesEveryRowOnceAndAfterWhatItNeeds) {
     for (const Index rows : {1, 2, 5, 8, 9, 26, 27, 28, 40, 101}) {
       for (const int threads : {1, 2, 3, 4}) {
         Record record(rows, reach);
-        record.sweep(threads, {0, rows});
+        record.sweep(threads);
         for (const auto& stage : record.time) {
           EXPECT_EQ(std::count(stage.begin(), stage.end(), 1), rows)
               << rows << " rows, reach " << reach << ", " << threads << " threads";
@@ -62,37 +62,13 @@ TEST(RowSweep, DoesEveryRowOnceAndAfterWhatItNeeds) {
   }
 }
 
-// Rows beyond a cut never come, and nobody has waited for them.
-TEST(RowSweep, LeavesOutWhatNeedsRowsBeyondACut) {
-  constexpr Index rows = 40;
-  for (const Index reach : {1, 3}) {
-    for (const bool at_once : {true, false}) {
-      Record record(rows, reach);
-      const SweptRows swept{5, 35, true, true};
-      if (at_once) {
-        record.sweep(1, swept);
-      } else {
-        sweep_rows(swept, record.early_stages());
-        sweep_rows(swept.after(reach_of(record.early_stages())), record.missed_stages());
-      }
-      EXPECT_EQ(std::count(record.early.begin(), record.early.end(), 0), rows);
-      for (Index r = 0; r < rows; ++r) {
-        // Both stages with rows behind them, and both with rows ahead.
-        const bool is_done = r >= 5 + 2 * reach && r < 35 - 2 * reach;
-        EXPECT_EQ(record.time[3][r], is_done ? 1 : 0) << "row " << r << ", reach " << reach;
-      }
-    }
-  }
-}
-
 // The point of the sweep: a row's last work comes as soon as it can, not after all first ones.
 TEST(RowSweep, FollowsItselfAsCloselyAsItCan) {
   constexpr Index rows = 20, reach = 2;
   std::vector<Index> order;
 #pragma omp parallel num_threads(1)
-  sweep_rows(SweptRows{0, rows},
-             std::tuple{RowStage{0, 0, [&](Index r) { order.push_back(r); }},
-                        RowStage{0, reach, [&](Index r) { order.push_back(100 + r); }}});
+  sweep_rows(rows, std::tuple{RowStage{0, 0, [&](Index r) { order.push_back(r); }},
+                              RowStage{0, reach, [&](Index r) { order.push_back(100 + r); }}});
   const auto done = [&](Index what) { return std::find(order.begin(), order.end(), what); };
   for (Index r = 0; r + reach + 1 < rows; ++r) {
     EXPECT_LT(done(100 + r), done(r + reach + 1));

@@ -1,6 +1,6 @@
-#include "solver/ranks/petsc_ranks.hpp"
+#include "solver/ranks/mpi_ranks.hpp"
 
-#include <petscksp.h>
+#include <mpi.h>
 
 #include <algorithm>
 #include <chrono>
@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "solver/ranks/petsc_gradients.hpp"
 
 namespace perilink {
 namespace {
@@ -19,27 +18,18 @@ namespace {
 /// MPI counts in int.
 constexpr std::size_t largest_message = 1 << 30;
 
-class PetscRanks final : public Ranks {
+class MpiRanks final : public Ranks {
  public:
-  PetscRanks() {
-    // Ranks that wait for each other leave the processors to others; the user's word goes first.
+  MpiRanks() {
+    // Ranks that wait leave the processors to other programs, unless the user says otherwise.
     setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
-    char name[] = "perilink", own_options_alone[] = "-skip_petscrc";
-    char* words[] = {name, own_options_alone, nullptr};
-    char** argv = words;
-    int argc = 2;
-    if (PetscInitialize(&argc, &argv, nullptr, nullptr) != 0) {
-      throw SolverError("MPI or PETSc does not start");
-    }
-    PetscCallAbort(PETSC_COMM_WORLD, PetscPopSignalHandler());  // the program has its own
-    MPI_Comm_size(PETSC_COMM_WORLD, &count_);
-    MPI_Comm_rank(PETSC_COMM_WORLD, &own_);
-    PetscCallAbort(PETSC_COMM_WORLD,
-                   PetscLogEventRegister("Exchange", PETSC_OBJECT_CLASSID, &exchange_));
+    if (MPI_Init(nullptr, nullptr) != MPI_SUCCESS) throw SolverError("MPI does not start");
+    MPI_Comm_size(MPI_COMM_WORLD, &count_);
+    MPI_Comm_rank(MPI_COMM_WORLD, &own_);
   }
-  ~PetscRanks() override { PetscFinalize(); }
-  PetscRanks(const PetscRanks&) = delete;
-  PetscRanks& operator=(const PetscRanks&) = delete;
+  ~MpiRanks() override { MPI_Finalize(); }
+  MpiRanks(const MpiRanks&) = delete;
+  MpiRanks& operator=(const MpiRanks&) = delete;
 
   int count() const override { return count_; }
   int own() const override { return own_; }
@@ -47,67 +37,56 @@ class PetscRanks final : public Ranks {
   void sum(std::span<double> values) override {
     for (std::size_t first = 0; first < values.size(); first += INT_MAX) {
       const int part = static_cast<int>(std::min<std::size_t>(values.size() - first, INT_MAX));
-      MPI_Allreduce(MPI_IN_PLACE, values.data() + first, part, MPI_DOUBLE, MPI_SUM,
-                    PETSC_COMM_WORLD);
+      MPI_Allreduce(MPI_IN_PLACE, values.data() + first, part, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
     }
   }
 
   void send(int to, std::span<const std::byte> message) override {
     const std::size_t size = message.size();
-    MPI_Send(&size, sizeof(size), MPI_BYTE, to, 0, PETSC_COMM_WORLD);
+    MPI_Send(&size, sizeof(size), MPI_BYTE, to, 0, MPI_COMM_WORLD);
     for (std::size_t first = 0; first < size; first += largest_message) {
       const int part = static_cast<int>(std::min(size - first, largest_message));
-      MPI_Send(message.data() + first, part, MPI_BYTE, to, 0, PETSC_COMM_WORLD);
+      MPI_Send(message.data() + first, part, MPI_BYTE, to, 0, MPI_COMM_WORLD);
     }
   }
 
   std::vector<std::byte> receive(int from) override {
     std::size_t size = 0;
     wait_for(from);
-    MPI_Recv(&size, sizeof(size), MPI_BYTE, from, 0, PETSC_COMM_WORLD, MPI_STATUS_IGNORE);
+    MPI_Recv(&size, sizeof(size), MPI_BYTE, from, 0, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
     std::vector<std::byte> message(size);
     for (std::size_t first = 0; first < size; first += largest_message) {
       const int part = static_cast<int>(std::min(size - first, largest_message));
-      MPI_Recv(message.data() + first, part, MPI_BYTE, from, 0, PETSC_COMM_WORLD,
-               MPI_STATUS_IGNORE);
+      MPI_Recv(message.data() + first, part, MPI_BYTE, from, 0, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
     }
     return message;
   }
 
   void exchange(std::span<Exchange> with) override {
     constexpr int tag = 1;
-    PetscLogEventBegin(exchange_, 0, 0, 0, 0);
     std::vector<MPI_Request> sent(with.size());
     for (std::size_t k = 0; k < with.size(); ++k) {
       const std::span<const std::byte> out = with[k].out.bytes();
       if (out.size() > INT_MAX) abandon("a message is larger than MPI can count");
       MPI_Isend(out.data(), static_cast<int>(out.size()), MPI_BYTE, with[k].rank, tag,
-                PETSC_COMM_WORLD, &sent[k]);
+                MPI_COMM_WORLD, &sent[k]);
     }
     for (Exchange& each : with) {
       MPI_Status status;
       int size = 0;
-      MPI_Probe(each.rank, tag, PETSC_COMM_WORLD, &status);
+      MPI_Probe(each.rank, tag, MPI_COMM_WORLD, &status);
       MPI_Get_count(&status, MPI_BYTE, &size);
       std::vector<std::byte> in(static_cast<std::size_t>(size));
-      MPI_Recv(in.data(), size, MPI_BYTE, each.rank, tag, PETSC_COMM_WORLD, MPI_STATUS_IGNORE);
+      MPI_Recv(in.data(), size, MPI_BYTE, each.rank, tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
       each.in = Parcel(std::move(in));
     }
     MPI_Waitall(static_cast<int>(sent.size()), sent.data(), MPI_STATUSES_IGNORE);
-    PetscLogEventEnd(exchange_, 0, 0, 0, 0);
-  }
-
-  GradientsReport conjugate_gradients(const LinearMap& product, const LinearMap& precondition,
-                                      std::span<const double> right, std::span<double> solution,
-                                      double enough, double scale, int most_iterations) override {
-    return petsc_gradients(*this, product, precondition, right, solution, enough, scale,
-                           most_iterations);
   }
 
   [[noreturn]] void abandon(const std::string& reason) override {
     std::fprintf(stderr, "perilink: rank %d of %d: %s\n", own_, count_, reason.c_str());
     std::fflush(stderr);
-    MPI_Abort(PETSC_COMM_WORLD, 3);
+    MPI_Abort(MPI_COMM_WORLD, 3);
     std::abort();
   }
 
@@ -118,7 +97,7 @@ class PetscRanks final : public Ranks {
     constexpr auto longest_nap = 2000us;
     auto nap = 0us;
     for (int has_come = 0;;) {
-      MPI_Iprobe(from, 0, PETSC_COMM_WORLD, &has_come, MPI_STATUS_IGNORE);
+      MPI_Iprobe(from, 0, MPI_COMM_WORLD, &has_come, MPI_STATUS_IGNORE);
       if (has_come) return;
       std::this_thread::sleep_for(nap);
       nap = std::min(nap + 10us, longest_nap);
@@ -126,11 +105,10 @@ class PetscRanks final : public Ranks {
   }
 
   int count_ = 1, own_ = 0;
-  PetscLogEvent exchange_ = 0;  ///< for -log_view
 };
 
 }  // namespace
 
-std::unique_ptr<Ranks> start_petsc_ranks() { return std::make_unique<PetscRanks>(); }
+std::unique_ptr<Ranks> start_mpi_ranks() { return std::make_unique<MpiRanks>(); }
 
 }  // namespace perilink

@@ -1,25 +1,35 @@
-#include "analysis/dynamics/bonds/runs/bond_part.hpp"
+#include "analysis/ranks/body_part.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
-#include <utility>
-
-#include "analysis/dynamics/bonds/moving_bonds.hpp"
-#include "network/stiffness_members.hpp"
 
 namespace perilink {
 namespace {
 
-/// Visits all that a rank has to know but what follows it in pack(), in one order for sender and
+/// Visits the members of a part that are plain lists and values, in one order for sender and
 /// receiver.
 template <class Part, class Visit>
 void for_each_member(Part& part, Visit visit) {
   auto& network = part.body.network;
-  for_each_stiffness_member(network, visit);
+  visit(network.particles.dim);
   visit(network.particles.volumes);
   visit(network.particles.material);
+  visit(network.torsion);
+  visit(network.bonds.dim);
+  visit(network.bonds.first);
+  visit(network.bonds.second);
+  visit(network.bonds.lengths);
+  visit(network.bonds.directions);
+  visit(network.bonds.kind);
+  visit(network.stiffness);
+  visit(network.bending);
+  visit(network.bending_ratio);
+  visit(network.inflection);
+  visit(network.hinged);
   visit(network.law_of);
   visit(network.critical_stretch);
+  visit(network.support_stiffness);
   visit(network.cut_elements);
   visit(network.first_embedded_slip_spring);
   visit(network.first_bar_element);
@@ -29,28 +39,13 @@ void for_each_member(Part& part, Visit visit) {
   visit(part.body.unknowns.width);
   visit(part.body.unknowns.number);
   visit(part.body.unknowns.prescribed);
-  visit(part.body.loads.forces);
-  visit(part.body.reference);
-  visit(part.component);
-  visit(part.mass);
-  visit(part.stencil.kinds);
-  visit(part.stencil.groups);
-  visit(part.stencil.element);
-  visit(part.stencil.rest);
   visit(part.elements);
   visit(part.first_particle);
+  visit(part.own_begin);
+  visit(part.own_end);
   visit(part.ghosts.places);
   visit(part.ghosts.owners);
   visit(part.ghosts.numbers);
-  visit(part.first_block);
-  visit(part.past_block);
-}
-
-template <class T>
-std::vector<T> slice(const std::vector<T>& all, Index begin, Index end, int width) {
-  if (all.empty()) return {};
-  return {all.begin() + static_cast<std::ptrdiff_t>(begin) * width,
-          all.begin() + static_cast<std::ptrdiff_t>(end) * width};
 }
 
 /// Elements with an end among the own particles.
@@ -64,18 +59,8 @@ std::vector<Index> elements_of(const Network& network, Index begin, Index end) {
   return elements;
 }
 
-/// Numbers of elements in the part, of those that it has.
-std::vector<Index> in_part(const std::vector<Index>& all, const std::vector<Index>& elements) {
-  std::vector<Index> own;
-  for (const Index e : all) {
-    const auto at = std::lower_bound(elements.begin(), elements.end(), e);
-    if (at != elements.end() && *at == e) own.push_back(static_cast<Index>(at - elements.begin()));
-  }
-  return own;
-}
-
-/// Those among the particles that the part numbers. Where it has ties of theirs it numbers the
-/// particles around them, too.
+/// Anchors among the particles [first, past) of a part. A part that has ties of an anchor numbers
+/// the particles around the anchor, too.
 EmbeddedPoints cut_embedded_points(const Network& network, Index first, Index past) {
   EmbeddedPoints own;
   const Index embedded_points = network.first_embedded_point();
@@ -96,7 +81,6 @@ Network cut_network(const Network& network, const std::vector<Index>& elements, 
   own.particles.dim = own.bonds.dim = network.dim();
   own.particles.volumes = slice(network.particles.volumes, first, past, 1);
   own.particles.material = slice(network.particles.material, first, past, 1);
-  own.state_stiffness = slice(network.state_stiffness, first, past, 1);
   own.support_stiffness = slice(network.support_stiffness, first, past, network.width());
   own.torsion = network.torsion;
   own.laws = network.laws;
@@ -125,7 +109,6 @@ Network cut_network(const Network& network, const std::vector<Index>& elements, 
   pick(network.bending_ratio, own.bending_ratio);
   pick(network.inflection, own.inflection);
   pick(network.hinged, own.hinged);
-  pick(network.state_of, own.state_of);
   pick(network.law_of, own.law_of);
   pick(network.critical_stretch, own.critical_stretch);
   own.cut_elements = in_part(network.cut_elements, elements);
@@ -138,35 +121,19 @@ Network cut_network(const Network& network, const std::vector<Index>& elements, 
   return own;
 }
 
-/// Groups of ghosts are empty.
-BondStencil cut_stencil(const BondStencil& stencil, const std::vector<Index>& elements, Index first,
-                        Index own_begin, Index own_end) {
-  BondStencil own;
-  own.rest = in_part(stencil.rest, elements);
-  if (stencil.kinds.empty()) return own;
-  constexpr Index lanes = BondStencil::lanes;
-  own.kinds = stencil.kinds;
-  own.patterns = stencil.patterns;
-  own.patterns.emplace_back();
-  const int nothing = static_cast<int>(stencil.patterns.size());
-  own.groups.assign(static_cast<std::size_t>((own_begin - first) / lanes), {nothing, 0});
-  for (Index g = own_begin / lanes; g * lanes < own_end; ++g) {
-    const auto& [pattern, slot] = stencil.groups[g];
-    own.groups.push_back({pattern, own.element.size()});
-    const std::size_t slots = stencil.patterns[pattern].size() * BondStencil::line_slots;
-    for (std::size_t k = slot; k < slot + slots; ++k) {
-      const Index e = stencil.element[k];
-      const auto at = std::lower_bound(elements.begin(), elements.end(), e);
-      own.element.push_back(e == no_index ? e : static_cast<Index>(at - elements.begin()));
-    }
+}  // namespace
+
+std::vector<Index> in_part(const std::vector<Index>& all, const std::vector<Index>& elements) {
+  std::vector<Index> own;
+  for (const Index e : all) {
+    const auto at = std::lower_bound(elements.begin(), elements.end(), e);
+    if (at != elements.end() && *at == e) own.push_back(static_cast<Index>(at - elements.begin()));
   }
   return own;
 }
 
-}  // namespace
-
-BlockPartition::BlockPartition(const Network& network, int ranks)
-    : blocks(network.particles.size(), network.width()) {
+Partition::Partition(const Network& network, const ParticleBlocks& all_blocks, int ranks)
+    : blocks(all_blocks) {
   for (int rank = 0; rank <= ranks; ++rank) {
     first_block.push_back(static_cast<Index>(std::int64_t{blocks.count()} * rank / ranks));
   }
@@ -186,12 +153,12 @@ BlockPartition::BlockPartition(const Network& network, int ranks)
   }
 }
 
-int BlockPartition::owner(Index particle) const {
+int Partition::owner(Index particle) const {
   const auto next = std::upper_bound(first_block.begin(), first_block.end(), blocks.of(particle));
   return static_cast<int>(next - first_block.begin()) - 1;
 }
 
-Ghosts BlockPartition::ghosts(const Network& network, int rank) const {
+Ghosts Partition::ghosts(const Network& network, int rank) const {
   std::vector<Index> reached;
   const auto is_own = [&](Index p) { return p >= own_begin(rank) && p < own_end(rank); };
   for (Index e = 0; e < network.num_elements(); ++e) {
@@ -213,48 +180,35 @@ Ghosts BlockPartition::ghosts(const Network& network, int rank) const {
   return ghosts;
 }
 
-BondPart cut_part(const LoadedNetwork& body, const std::vector<double>& mass,
-                  const BondStencil& stencil, const BlockPartition& partition, int rank) {
+BodyPart cut_part(const Network& network, const Unknowns& unknowns, const Partition& partition,
+                  int rank) {
   const Index first = partition.first_particle[rank], past = partition.past_particle[rank];
-  const Index begin = partition.own_begin(rank), end = partition.own_end(rank);
-  const int width = body.unknowns.width;
-  BondPart part;
-  part.elements = elements_of(body.network, begin, end);
-  part.body.network = cut_network(body.network, part.elements, first, past);
-  part.body.unknowns.width = width;
-  part.body.unknowns.number = slice(body.unknowns.number, first, past, width);
-  part.body.unknowns.prescribed = slice(body.unknowns.prescribed, first, past, width);
-  part.body.loads.forces = slice(body.loads.forces, first, past, width);
-  part.body.reference = body.reference;
-  part.component = main_component(body);
-  part.mass = slice(mass, first, past, width);
-  part.stencil = cut_stencil(stencil, part.elements, first, begin, end);
+  BodyPart part;
+  part.own_begin = partition.own_begin(rank) - first;
+  part.own_end = partition.own_end(rank) - first;
+  part.elements = elements_of(network, partition.own_begin(rank), partition.own_end(rank));
+  part.body.network = cut_network(network, part.elements, first, past);
+  part.body.unknowns.width = unknowns.width;
+  part.body.unknowns.number = slice(unknowns.number, first, past, unknowns.width);
+  part.body.unknowns.prescribed = slice(unknowns.prescribed, first, past, unknowns.width);
   part.first_particle = first;
-  part.ghosts = partition.ghosts(body.network, rank);
-  part.first_block = partition.first_block[rank] - partition.blocks.of(first);
-  part.past_block = partition.first_block[rank + 1] - partition.blocks.of(first);
+  part.ghosts = partition.ghosts(network, rank);
   return part;
 }
 
-Parcel BondPart::pack() const {
-  Parcel parcel;
+void BodyPart::pack(Parcel& parcel) const {
   const auto put = [&](const auto& member) { parcel.put(member); };
   for_each_member(*this, put);
   parcel.put(body.network.laws.size());
   for (const BondLaw& law : body.network.laws) BondLaw::for_each_member(law, put);
-  parcel.put(stencil.patterns.size());
-  for (const auto& pattern : stencil.patterns) parcel.put(pattern);
-  return parcel;
 }
 
-BondPart BondPart::unpack(Parcel parcel) {
-  BondPart part;
+BodyPart BodyPart::unpack(Parcel& parcel) {
+  BodyPart part;
   const auto get = [&](auto& member) { parcel.get(member); };
   for_each_member(part, get);
   part.body.network.laws.resize(parcel.get<std::size_t>(), BondLaw::brittle());
   for (BondLaw& law : part.body.network.laws) BondLaw::for_each_member(law, get);
-  part.stencil.patterns.resize(parcel.get<std::size_t>());
-  for (auto& pattern : part.stencil.patterns) parcel.get(pattern);
   return part;
 }
 

@@ -1,4 +1,4 @@
-#include "analysis/dynamics/bonds/runs/bond_part.hpp"
+#include "analysis/ranks/body_part.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,36 +11,32 @@ namespace {
 
 using namespace test;
 
-class BondPartTest : public testing::Test {
+class BodyPartTest : public testing::TestWithParam<Index> {
  protected:
   static constexpr int ranks = 3;
-  BondPartTest()
+  BodyPartTest()
       : body_(make_block({.lattice = {"square", Pattern::rectangular, Surface::none},
                           .bar = true,
                           .columns = 30,
                           .scatter = 0.0,
                           .toothed = true,
                           .slipping = true})),
-        stencil_(find_stencil(body_.network)),
-        partition_(body_.network, ranks) {
+        partition_(body_.network, {body_.network.particles.size(), 2, GetParam()}, ranks) {
     body_.network.cut_elements = {40, 41, 2000};
     for (Index e = 0; e < body_.network.num_elements(); ++e) {
       body_.network.hinged.push_back(static_cast<std::uint8_t>(e % 4));
     }
-    for (std::size_t slot = 0; slot < body_.unknowns.number.size(); ++slot) {
-      mass_.push_back(1.0 + static_cast<double>(slot));
-    }
   }
-  BondPart part(int rank) const { return cut_part(body_, mass_, stencil_, partition_, rank); }
+  BodyPart part(int rank) const {
+    return cut_part(body_.network, body_.unknowns, partition_, rank);
+  }
   Index first(int rank) const { return partition_.first_particle[rank]; }
 
   AnalysisBody body_;
-  BondStencil stencil_;
-  BlockPartition partition_;
-  std::vector<double> mass_;
+  Partition partition_;
 };
 
-TEST_F(BondPartTest, EveryParticleHasOneOwner) {
+TEST_P(BodyPartTest, EveryParticleHasOneOwner) {
   EXPECT_EQ(partition_.own_end(ranks - 1), body_.network.particles.size());
   for (int rank = 0; rank < ranks; ++rank) {
     EXPECT_LT(partition_.own_begin(rank), partition_.own_end(rank));
@@ -48,19 +44,19 @@ TEST_F(BondPartTest, EveryParticleHasOneOwner) {
     for (Index p = partition_.own_begin(rank); p < partition_.own_end(rank); ++p) {
       ASSERT_EQ(partition_.owner(p), rank);
     }
-    const BondPart own = part(rank);
-    EXPECT_EQ(partition_.blocks.begin(own.first_block), partition_.own_begin(rank) - first(rank));
+    const BodyPart own = part(rank);
+    EXPECT_EQ(own.first_particle + own.own_begin, partition_.own_begin(rank));
+    EXPECT_EQ(own.owned(), partition_.own_end(rank) - partition_.own_begin(rank));
+    EXPECT_EQ(own.own_begin % GetParam(), 0) << "blocks of a part are those of the body";
   }
 }
 
-TEST_F(BondPartTest, HasTheElementsOfItsParticlesAndTheirOtherEnds) {
+TEST_P(BodyPartTest, HasTheElementsOfItsParticlesAndTheirOtherEnds) {
   for (int rank = 0; rank < ranks; ++rank) {
-    const BondPart own = part(rank);
+    const BodyPart own = part(rank);
     std::vector<bool> is_known(own.body.network.particles.volumes.size(), false);
     const auto is_own = [&](Index p) { return partition_.owner(p) == rank; };
-    for (Index p = partition_.own_begin(rank); p < partition_.own_end(rank); ++p) {
-      is_known[p - first(rank)] = true;
-    }
+    for (Index p = own.own_begin; p < own.own_end; ++p) is_known[p] = true;
     for (std::size_t g = 0; g < own.ghosts.places.size(); ++g) {
       const Index ghost = own.ghosts.places[g] + first(rank);
       EXPECT_EQ(own.ghosts.owners[g], partition_.owner(ghost));
@@ -92,11 +88,12 @@ TEST_F(BondPartTest, HasTheElementsOfItsParticlesAndTheirOtherEnds) {
   }
 }
 
-TEST_F(BondPartTest, KeepsWhatBondsShare) {
-  const BondPart apart = part(1);
+TEST_P(BodyPartTest, KeepsWhatBondsShare) {
+  const BodyPart apart = part(1);
   share_directions(body_.network.bonds);
   ASSERT_FALSE(body_.network.bonds.kind.empty());
-  const Bonds &single = apart.body.network.bonds, &shared = part(1).body.network.bonds;
+  const BodyPart together = part(1);
+  const Bonds &single = apart.body.network.bonds, &shared = together.body.network.bonds;
   ASSERT_EQ(shared.second, single.second);
   for (Index e = 0; e < single.size(); ++e) {
     EXPECT_NEAR(shared.length(e), single.length(e), 1e-12 * single.length(e));
@@ -104,13 +101,18 @@ TEST_F(BondPartTest, KeepsWhatBondsShare) {
   }
 }
 
-TEST_F(BondPartTest, ArrivesAsItWasSent) {
-  const BondPart sent = part(1);
-  const Parcel parcel = sent.pack();
-  const BondPart come = BondPart::unpack(Parcel({parcel.bytes().begin(), parcel.bytes().end()}));
+TEST_P(BodyPartTest, ArrivesAsItWasSent) {
+  const BodyPart sent = part(1);
+  Parcel parcel;
+  sent.pack(parcel);
+  parcel.put(7.5);
+  Parcel message({parcel.bytes().begin(), parcel.bytes().end()});
+  const BodyPart come = BodyPart::unpack(message);
+  EXPECT_EQ(message.get<double>(), 7.5) << "what follows in the message";
   const Network &network = come.body.network, &expected = sent.body.network;
   EXPECT_EQ(network.bonds.first, expected.bonds.first);
   EXPECT_EQ(network.bonds.directions, expected.bonds.directions);
+  EXPECT_EQ(network.stiffness, expected.stiffness);
   EXPECT_EQ(network.critical_stretch, expected.critical_stretch);
   EXPECT_EQ(network.cut_elements, expected.cut_elements);
   EXPECT_EQ(network.hinged, expected.hinged);
@@ -122,13 +124,16 @@ TEST_F(BondPartTest, ArrivesAsItWasSent) {
     EXPECT_EQ(network.laws[0].segment(segment).limit, expected.laws[0].segment(segment).limit);
   }
   EXPECT_EQ(come.body.unknowns.number, sent.body.unknowns.number);
-  EXPECT_EQ(come.mass, sent.mass);
-  EXPECT_EQ(come.stencil.patterns, sent.stencil.patterns);
-  EXPECT_EQ(come.stencil.element, sent.stencil.element);
+  EXPECT_EQ(come.body.unknowns.prescribed, sent.body.unknowns.prescribed);
   EXPECT_EQ(come.elements, sent.elements);
   EXPECT_EQ(come.ghosts.places, sent.ghosts.places);
-  EXPECT_EQ(come.past_block, sent.past_block);
+  EXPECT_EQ(come.ghosts.owners, sent.ghosts.owners);
+  EXPECT_EQ(come.ghosts.numbers, sent.ghosts.numbers);
+  EXPECT_EQ(come.own_begin, sent.own_begin);
+  EXPECT_EQ(come.own_end, sent.own_end);
 }
+
+INSTANTIATE_TEST_SUITE_P(BlocksOf, BodyPartTest, testing::Values(1, 256));
 
 }  // namespace
 }  // namespace perilink

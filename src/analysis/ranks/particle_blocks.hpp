@@ -11,12 +11,14 @@ namespace perilink {
 class ParticleBlocks {
  public:
   /// \param width  components of the motion of a particle
-  ParticleBlocks(Index particles, int width) : particles_(particles), width_(width) {}
+  /// \param size   particles of a block; only the last block may have fewer
+  ParticleBlocks(Index particles, int width, Index size = 256)
+      : particles_(particles), width_(width), size_(size) {}
 
-  Index count() const { return (particles_ + particles_per_block - 1) / particles_per_block; }
-  Index of(Index particle) const { return particle / particles_per_block; }
-  Index begin(Index block) const { return block * particles_per_block; }
-  Index end(Index block) const { return std::min(particles_, begin(block) + particles_per_block); }
+  Index count() const { return (particles_ + size_ - 1) / size_; }
+  Index of(Index particle) const { return particle / size_; }
+  Index begin(Index block) const { return block * size_; }
+  Index end(Index block) const { return std::min(particles_, begin(block) + size_); }
 
   /// Components of the particles of a block: [first_slot, last_slot).
   std::size_t first_slot(Index block) const {
@@ -36,11 +38,11 @@ class ParticleBlocks {
   }
 
  private:
-  static constexpr Index particles_per_block = 256;
   static constexpr Index blocks_per_thread = 4;
 
   Index particles_;
   int width_;
+  Index size_;
 };
 
 }  // namespace perilink
