@@ -20,6 +20,8 @@ const std::map<std::string, std::string>& tested_elsewhere() {
       {"app/commands/run_command.cpp", "a command: tests/cli runs the program"},
       {"analysis/dynamics/bonds/runs/run_share.cpp", "a part of runs: test_bond_analysis.cpp"},
       {"analysis/dynamics/lattice/rows/paper_forces.cpp", "a row kernel: test_row_kernels.cpp"},
+      {"analysis/quasistatic/subdomains/column_cache.cpp",
+       "a part of SubdomainFactor: test_subdomain_factor.cpp"},
       {"analysis/quasistatic/subdomains/subdomain_blocks.cpp",
        "a part of SubdomainSolver: test_subdomain_factor.cpp"},
       {"analysis/quasistatic/ranks/part_solver.cpp", "a part of a team: test_team.cpp"},

@@ -53,7 +53,7 @@ SubdomainMotions::SubdomainMotions(const Network& network, Secants secants,
     : dim_(network.dim()),
       unknowns_(unknowns),
       subdomains_(
-          split_by_cracks(split_into_subdomains(network.particles.positions, network.dim(), most),
+          split_by_cracks(split_into_boxes(network.particles.positions, network.dim(), most),
                           network, secants)),
       subdomain_of_(numbers_of_subdomains(subdomains_, network.particles.size())) {
   find_centres(network.particles);
