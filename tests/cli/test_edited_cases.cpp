@@ -92,8 +92,8 @@ TEST_F(MeshedCase, MeshesOfOtherFormatsAreRefusedWithWhatConvertsThem) {
       {"body.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n",
        "body.msh:2: is in version \"2.2\" of gmsh's format",
        "gmsh \"../body.msh\" -save -format msh41 -o \"../body_41.msh\""},
-      {"body.inp", "*HEADING\n", "body.inp", "is in the format of Abaqus or CalculiX"},
-      {"body.vtk", "# vtk DataFile Version 2.0\n", "is in the format of VTK",
+      {"body.inp", "*HEADING\n", "body.inp", "no mesh of gmsh"},
+      {"body.vtk", "# vtk DataFile Version 2.0\n", "no mesh of gmsh",
        "gmsh \"../body.vtk\" -save -format msh41 -o \"../body_41.msh\""},
   };
   for (const auto& [mesh, text, fault, advice] : meshes) {
@@ -169,7 +169,8 @@ TEST_F(MeshedCase, ScriptsThatRunCommandsNeedTrust) {
   for (const char* command : {"check", "run"}) {
     const auto refused = run("body.geo", {command});
     EXPECT_EQ(refused.exit_status, 2);
-    EXPECT_THAT(refused.err, HasSubstr("body.geo:4: names the command SystemCall, which is not on the list"));
+    EXPECT_THAT(refused.err,
+                HasSubstr("body.geo:4: names the command SystemCall, which is not on the list"));
     EXPECT_THAT(refused.err, HasSubstr("--trust-geometry"));
     EXPECT_FALSE(std::filesystem::exists(directory_ / "work/planted"));
     EXPECT_EQ(run("body.geo", {command, "--trust-geometry"}).exit_status, 0);

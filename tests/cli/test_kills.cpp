@@ -24,21 +24,14 @@ void PrintTo(const Campaign& campaign, std::ostream* stream) { *stream << campai
 
 /// A notched strip in elements that let go of their particles too late: the run begins again and
 /// takes back the files that it has written.
-constexpr const char* late_elements_case = R"([body]
+constexpr const char* late_elements_case = R"(regions = [
+  {name = "strip", x = [0, 80], y = [0, 80]},
+  {name = "bottom", x = [0, 80], y = [0, 8]},
+  {name = "top", x = [0, 80], y = [72, 80]},
+]
+[body]
 spacing = 2.0
 horizon_ratio = 3
-[[regions]]
-name = "strip"
-x = [0, 80]
-y = [0, 80]
-[[regions]]
-name = "bottom"
-x = [0, 80]
-y = [0, 8]
-[[regions]]
-name = "top"
-x = [0, 80]
-y = [72, 80]
 [[materials]]
 region = "strip"
 youngs_modulus = 30000.0

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <tuple>
 
 #include "support/process.hpp"
 #include "support/program_cases.hpp"
@@ -23,11 +25,6 @@ class ProgramRuns : public testing::Test {
   fs::path work() const { return temporary_ / "work"; }
   ProcessEnd run(const std::vector<std::string>& arguments) const {
     return run_program(work(), arguments);
-  }
-  /// Starts a run that lasts for many seconds.
-  ProgramProcess start_long_run() const {
-    write_text(work() / "long.toml", hexagonal_case(86, 1000000));
-    return {work(), {"run", "long.toml", "--out", "r", "--threads", "1"}};
   }
   std::string history(const std::string& directory) const {
     return read_text(work() / directory / "history.csv");
@@ -58,27 +55,42 @@ int expect_whole_rows(const std::string& text) {
   return rows;
 }
 
-std::string name_of_signal(const testing::TestParamInfo<int>& signal) {
-  return signal.param == SIGINT ? "Int" : signal.param == SIGTERM ? "Term" : "Hup";
-}
-
-class StopSignals : public ProgramRuns, public testing::WithParamInterface<int> {};
+/// A signal, and whether the run moves in time.
+class StopSignals : public ProgramRuns,
+                    public testing::WithParamInterface<std::tuple<int, bool>> {};
 
 TEST_P(StopSignals, KeepTheResultsSoFar) {
-  ProgramProcess process = start_long_run();
+  const auto [signal, moves] = GetParam();
+  write_text(work() / "long.toml",
+             moves ? lattice_strip_case(0.02, "safety = 1e-4\n") : hexagonal_case(86, 1000000));
+  ProgramProcess process(work(), {"run", "long.toml", "--out", "r", "--threads", "1"});
   ASSERT_TRUE(process.wait_until([&] { return fs::exists(work() / "r/fields.pvd"); }));
-  process.send(GetParam());
+  process.send(signal);
   const ProcessEnd end = process.wait();
   EXPECT_EQ(end.exit_status, 4) << end.err;
   const auto json = summary("r");
   EXPECT_EQ(json["status"], "interrupted");
-  EXPECT_EQ(expect_whole_rows(history("r")), json["steps"].get<int>());
-  EXPECT_TRUE(fs::exists(work() / "r/fields_000001.vtu")) << "the first field file";
+  const int steps = json["steps"];
+  if (moves) {
+    EXPECT_NE(history("r").find(fmt::format("\n{},", steps)), std::string::npos) << "the last row";
+  } else {
+    EXPECT_EQ(expect_whole_rows(history("r")), steps);
+  }
+  // The first field file of a run by events, the last one of a run in time.
+  EXPECT_TRUE(fs::exists(work() / "r" / fmt::format("fields_{:06}.vtu", moves ? steps : 1)));
   EXPECT_EQ(run({"plot", "r"}).exit_status, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Signals, StopSignals, testing::Values(SIGINT, SIGTERM, SIGHUP),
-                         name_of_signal);
+INSTANTIATE_TEST_SUITE_P(Signals, StopSignals,
+                         testing::Combine(testing::Values(SIGINT, SIGTERM, SIGHUP),
+                                          testing::Bool()),
+                         [](const auto& test) {
+                           const int signal = std::get<0>(test.param);
+                           return std::string(signal == SIGINT    ? "Int"
+                                              : signal == SIGTERM ? "Term"
+                                                                  : "Hup") +
+                                  (std::get<1>(test.param) ? "InTime" : "");
+                         });
 
 /// A run on a terminal of its own, which is closed while progress is drawn on it.
 TEST_F(ProgramRuns, KeepTheirResultsWhenTheirTerminalIsClosed) {
@@ -122,7 +134,8 @@ TEST_F(ProgramRuns, EndWellWhenNobodyReadsTheirOutput) {
 }
 
 TEST_F(ProgramRuns, KilledOnesLeaveAReadableHistory) {
-  ProgramProcess process = start_long_run();
+  write_text(work() / "long.toml", hexagonal_case(86, 1000000));
+  ProgramProcess process(work(), {"run", "long.toml", "--out", "r", "--threads", "1"});
   // Rows reach the file twice a second.
   ASSERT_TRUE(process.wait_until([&] { return history("r").size() > 2000; }));
   process.send(SIGKILL);
@@ -224,26 +237,6 @@ TEST_F(ProgramRuns, NotesAndDoubtsOfALatticeStandInItsLog) {
   EXPECT_THAT(log, testing::HasSubstr("note: 1 particle was in the hole \"hole\""));
   EXPECT_THAT(log, testing::HasSubstr("doubt: the peaks of load and reaction differ by"));
 }
-
-class ExplicitStopSignals : public ProgramRuns, public testing::WithParamInterface<int> {};
-
-TEST_P(ExplicitStopSignals, KeepTheResultsSoFar) {
-  write_text(work() / "long.toml", lattice_strip_case(0.02, "safety = 1e-4\n"));
-  ProgramProcess process(work(), {"run", "long.toml", "--out", "r", "--threads", "1"});
-  ASSERT_TRUE(process.wait_until([&] { return fs::exists(work() / "r/fields.pvd"); }));
-  process.send(GetParam());
-  const ProcessEnd end = process.wait();
-  EXPECT_EQ(end.exit_status, 4) << end.err;
-  const auto json = summary("r");
-  EXPECT_EQ(json["status"], "interrupted");
-  const std::string last = fmt::format("\n{},", json["steps"].get<int>());
-  EXPECT_NE(history("r").find(last), std::string::npos) << "the row of the last step";
-  EXPECT_TRUE(fs::exists(work() / "r" / fmt::format("fields_{:06}.vtu", json["steps"].get<int>())));
-  EXPECT_EQ(run({"plot", "r"}).exit_status, 0);
-}
-
-INSTANTIATE_TEST_SUITE_P(Signals, ExplicitStopSignals, testing::Values(SIGINT, SIGTERM, SIGHUP),
-                         name_of_signal);
 
 struct BarCase {
   const char* pattern;

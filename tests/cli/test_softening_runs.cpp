@@ -125,27 +125,17 @@ TEST_F(SofteningRuns, ExplicitOnesBearTheSame) {
 /// A block of 50 by 100 with a closed crack across it, under a weight of 1000, pushed at its top:
 /// it turns about the particle at (50, 20), with half the width and 80 of height as its arms.
 std::string rocking_block(const std::string& push, const std::string& stages) {
-  return R"([body]
+  return R"(regions = [
+  {name = "block", x = [0, 50], y = [0, 100]},
+  {name = "bottom", x = [0, 50], y = [0, 0]},
+  {name = "top", x = [0, 50], y = [100, 100]},
+  {name = "corner", x = [0, 0], y = [100, 100]},
+]
+[body]
 problem = "plane_stress"
 thickness = 10
 spacing = 5
 horizon_ratio = 3
-[[regions]]
-name = "block"
-x = [0, 50]
-y = [0, 100]
-[[regions]]
-name = "bottom"
-x = [0, 50]
-y = [0, 0]
-[[regions]]
-name = "top"
-x = [0, 50]
-y = [100, 100]
-[[regions]]
-name = "corner"
-x = [0, 0]
-y = [100, 100]
 [[materials]]
 region = "block"
 youngs_modulus = 30000

@@ -128,25 +128,15 @@ TEST_F(Study, TheWrittenStudyRunsAgainToTheSameTable) {
 /// A weak part of a body breaks, and a strong one beside it bears more afterwards.
 TEST_F(Study, APeakAfterCollapseIsTold) {
   write_text(work() / "parts.toml", R"(
+regions = [
+  {name = "weak", x = [0, 40], y = [0, 40]},
+  {name = "strong", x = [50, 60], y = [0, 40]},
+  {name = "lower end", x = [0, 60], y = [0, 5]},
+  {name = "upper end", x = [0, 60], y = [35, 40]},
+]
 [body]
 spacing = 10
 horizon_ratio = 1.5
-[[regions]]
-name = "weak"
-x = [0, 40]
-y = [0, 40]
-[[regions]]
-name = "strong"
-x = [50, 60]
-y = [0, 40]
-[[regions]]
-name = "lower end"
-x = [0, 60]
-y = [0, 5]
-[[regions]]
-name = "upper end"
-x = [0, 60]
-y = [35, 40]
 [[materials]]
 name = "weak"
 region = "weak"

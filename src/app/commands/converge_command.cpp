@@ -18,7 +18,6 @@
 #include "base/error.hpp"
 #include "base/files.hpp"
 #include "base/plain_text.hpp"
-#include "io/case/sections/case_kinds.hpp"
 
 namespace perilink {
 namespace {
@@ -32,7 +31,6 @@ void write_text(const fs::path& path, const std::string& text) {
 /// A study, its combinations and what has been run of them.
 struct Results {
   StudyFile study;
-  int dim = 2;
   std::vector<StudySeries> series;
   std::vector<StudyMember> members;
 };
@@ -60,8 +58,7 @@ void write_pictures(const fs::path& directory, const Results& results) {
   for (std::size_t e = 0; e < results.study.errors.size(); ++e) {
     for (const auto& [cost, name] :
          {std::pair(Cost::unknowns, "unknowns"), std::pair(Cost::seconds, "seconds")}) {
-      draw_convergence(
-          study_picture(results.study, results.series, results.members, e, cost, results.dim))
+      draw_convergence(study_picture(results.study, results.series, results.members, e, cost))
           .save((directory / picture_name(results, e, name)).string());
     }
   }
@@ -123,7 +120,6 @@ int converge(const RunOptions& options) {
   results.study.trust_geometry = options.trust_geometry;
   const CaseFile input = read_case_file(results.study.case_path);
   check_study(results.study, input);
-  results.dim = dimension_of(input.body);
   if (results.study.title.empty()) results.study.title = input.title;
   results.series = study_series(results.study);
   check_members(results.study, results.series);

@@ -61,7 +61,6 @@ bool can_be_drawn(const ConvergenceLine::Point& point) {
 
 struct Axes {
   LogAxis x, y;
-  bool empty = true;
   SvgPoint at(const ConvergenceLine::Point& point) const {
     return {x.map(point.cost), y.map(point.error)};
   }
@@ -76,12 +75,9 @@ Axes axes_of(const ConvergencePlot& plot) {
       high = {std::max(high.cost, point.cost), std::max(high.error, point.error)};
     }
   }
-  Axes axes;
-  axes.empty = !(high.cost > 0.0);
-  if (axes.empty) low = high = {1.0, 1.0};
-  axes.x = make_log_axis(low.cost, high.cost, frame_left, frame_right);
-  axes.y = make_log_axis(low.error, high.error, frame_bottom, convergence_top);
-  return axes;
+  if (!(high.cost > 0.0)) low = high = {1.0, 1.0};  // nothing to draw
+  return {make_log_axis(low.cost, high.cost, frame_left, frame_right),
+          make_log_axis(low.error, high.error, frame_bottom, convergence_top)};
 }
 
 void draw_line(Svg& svg, const Axes& axes, const ConvergenceLine& line, std::size_t number) {
@@ -113,32 +109,6 @@ void draw_legend(Svg& svg, const ConvergencePlot& plot) {
   }
 }
 
-/// Triangles stand in the lower left corner, where errors that fall leave room, and share their
-/// upper corner.
-void draw_triangles(Svg& svg, const Axes& axes, const std::vector<SlopeTriangle>& triangles) {
-  constexpr double width = 70.0;  // [px]
-  constexpr double foot = 18.0;   // distance of the lowest corner above the axis [px]
-  const double pixels_x = (frame_right - frame_left) / std::log(axes.x.high / axes.x.low);
-  const double pixels_y = (frame_bottom - convergence_top) / std::log(axes.y.high / axes.y.low);
-  const auto fall = [&](const SlopeTriangle& triangle) {
-    return -triangle.slope * width / pixels_x * pixels_y;
-  };
-  double deepest = 0.0;
-  for (const SlopeTriangle& triangle : triangles) deepest = std::max(deepest, fall(triangle));
-  // Where errors hardly fall at all a triangle of this slope would leave the frame.
-  const double scale =
-      std::min(1.0, 0.5 * (frame_bottom - convergence_top) / std::max(deepest, 1.0));
-  const SvgPoint corner{frame_left + 16.0, frame_bottom - foot - scale * deepest};
-  for (const SlopeTriangle& triangle : triangles) {
-    const SvgPoint end{corner.x + scale * width, corner.y + scale * fall(triangle)};
-    svg.line(corner, end, "stroke=\"#777\" stroke-width=\"1\"");
-    svg.line({end.x, corner.y}, end, "stroke=\"#777\" stroke-width=\"1\"");
-    svg.text({end.x + 5, end.y + 4.0}, triangle.label, "start", "font-size=\"12\" fill=\"#666\"");
-  }
-  if (triangles.empty()) return;
-  svg.line(corner, {corner.x + scale * width, corner.y}, "stroke=\"#777\" stroke-width=\"1\"");
-}
-
 }  // namespace
 
 Svg draw_convergence(const ConvergencePlot& plot) {
@@ -153,7 +123,6 @@ Svg draw_convergence(const ConvergencePlot& plot) {
            "font-size=\"18\" font-weight=\"bold\" fill=\"#222\"");
   const Axes axes = axes_of(plot);
   draw_axes(svg, axes.x, axes.y, plot.cost_label, plot.error_label);
-  if (!axes.empty) draw_triangles(svg, axes, plot.triangles);
   for (std::size_t k = 0; k < plot.lines.size(); ++k) draw_line(svg, axes, plot.lines[k], k);
   draw_legend(svg, plot);
   return svg;

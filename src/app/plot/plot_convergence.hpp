@@ -19,19 +19,12 @@ struct ConvergenceLine {
   std::optional<double> order;  ///< number in the legend; none: left out
 };
 
-/// A triangle that shows what slope an order of convergence has.
-struct SlopeTriangle {
-  std::string label;
-  double slope = -1.0;  ///< d log(error) / d log(cost), negative
-};
-
 /// Labels and lines of a log-log picture.
 struct ConvergencePlot {
   std::string title;
   std::string cost_label;
   std::string error_label;
   std::vector<ConvergenceLine> lines;
-  std::vector<SlopeTriangle> triangles;
 };
 
 /// Error over cost, both axes logarithmic, one line with its own colour and mark for each

@@ -1,17 +1,12 @@
 #include "app/plot/plot_labels.hpp"
 
 #include "app/results/summary_file.hpp"
+#include "io/text/input_text.hpp"
 
 namespace perilink {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string trim(const std::string& text) {
-  const std::size_t begin = text.find_first_not_of(' ');
-  if (begin == std::string::npos) return "";
-  return text.substr(begin, text.find_last_not_of(' ') - begin + 1);
-}
 
 }  // namespace
 
@@ -39,9 +34,9 @@ PlotLabels read_labels(const fs::path& directory) {
   const std::string units = text("units");  // "kip, in, s": of force, of length, of time
   const std::size_t comma = units.find(',');
   if (comma != std::string::npos) {
-    labels.force = trim(units.substr(0, comma));
+    labels.force = trimmed(units.substr(0, comma));
     const std::size_t end = units.find(',', comma + 1);
-    labels.length = trim(units.substr(comma + 1, end - comma - 1));
+    labels.length = trimmed(units.substr(comma + 1, end - comma - 1));
   }
   return labels;
 }

@@ -7,8 +7,7 @@
 namespace perilink {
 
 ConvergencePlot study_picture(const StudyFile& study, std::span<const StudySeries> series,
-                              std::span<const StudyMember> members, std::size_t error, Cost cost,
-                              int dim) {
+                              std::span<const StudyMember> members, std::size_t error, Cost cost) {
   ConvergencePlot plot;
   plot.title = study.title;
   plot.cost_label = cost == Cost::unknowns ? "unknowns" : "run time (s)";
@@ -21,9 +20,6 @@ ConvergencePlot study_picture(const StudyFile& study, std::span<const StudySerie
     line.points.push_back({at, member.errors[error]});
     // The finest pair with an order speaks for the line.
     if (!std::isnan(member.orders[error])) line.order = member.orders[error];
-  }
-  if (cost == Cost::unknowns) {
-    plot.triangles = {{"order 1", -1.0 / dim}, {"order 2", -2.0 / dim}};
   }
   return plot;
 }

@@ -10,11 +10,10 @@ namespace perilink {
 /// What stands on the lower axis of a picture of a study.
 enum class Cost { unknowns, seconds };
 
-/// The picture of one error of a study, one line per series; errors over unknowns come with
-/// triangles of orders 1 and 2. Members come as compare_members leaves them.
+/// The picture of one error of a study, one line per series. Members come as compare_members leaves
+/// them.
 /// \param error  its number in the study
 ConvergencePlot study_picture(const StudyFile& study, std::span<const StudySeries> series,
-                              std::span<const StudyMember> members, std::size_t error, Cost cost,
-                              int dim);
+                              std::span<const StudyMember> members, std::size_t error, Cost cost);
 
 }  // namespace perilink

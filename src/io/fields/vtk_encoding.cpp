@@ -8,6 +8,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "io/text/input_text.hpp"
+
 namespace perilink {
 namespace {
 
@@ -25,13 +27,6 @@ constexpr std::array<std::int8_t, 256> make_letter_values() {
   return values;
 }
 constexpr std::array<std::int8_t, 256> letter_values = make_letter_values();
-
-std::string_view trim(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r\n";
-  const std::size_t begin = text.find_first_not_of(blanks);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
-}
 
 std::size_t base64_length(std::size_t bytes) { return (bytes + 2) / 3 * 4; }
 
@@ -142,7 +137,7 @@ std::string encode_array(std::span<const std::byte> bytes) {
 }
 
 std::vector<std::byte> decode_array(std::string_view text) {
-  text = trim(text);
+  text = trimmed(text);
   const std::vector<std::uint64_t> start = decode_numbers(text, 3);
   const BlockHeader header{start[0], start[1], start[2]};
   check(header, text.size());

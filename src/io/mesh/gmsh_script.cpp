@@ -55,7 +55,7 @@ struct Token {
   }
 };
 
-[[noreturn]] void refuse(const fs::path& path, int line, const std::string& fault) {
+[[noreturn]] void refuse_script(const fs::path& path, int line, const std::string& fault) {
   throw InputError({path.string(), line, ""}, fault,
                    "a geometry may draw and mesh only. Change the script, mesh it by hand and name "
                    "the .msh file, or give --trust-geometry if you trust whoever wrote it");
@@ -70,7 +70,7 @@ bool may_run(const std::string& hidden, bool behind_code) {
 }
 
 /// Cuts a script between two line breaks as gmsh does; two signs stand before it and five behind.
-std::vector<Token> cut(const std::string& script, const fs::path& path) {
+std::vector<Token> cut_script(const std::string& script, const fs::path& path) {
   std::vector<Token> tokens(2, {";", 0});
   int line = 0;
   for (std::size_t at = 0, end = 1; at < script.size(); at = end, end = at + 1) {
@@ -81,11 +81,12 @@ std::vector<Token> cut(const std::string& script, const fs::path& path) {
     if (sign.is_text()) end = script.find(script[at], end) + 1;
     if (sign.is_word()) end = script.find_first_not_of(letters, at);
     if (sign.is_number()) end = script.find_first_not_of("0123456789.eE", at);
-    if (end <= at) refuse(path, line, "has a text or comment without an end");
+    if (end <= at) refuse_script(path, line, "has a text or comment without an end");
     const Token token{script.substr(at, end - at), line};
     const bool behind_code = token.is_text() || tokens.back().line == line;
     if ((comment || token.is_text()) && may_run(token.text, behind_code)) {
-      refuse(path, line, "has Else, Return, EndIf, EndFor or a line break in a text or comment");
+      refuse_script(path, line,
+                    "has Else, Return, EndIf, EndFor or a line break in a text or comment");
     }
     line += static_cast<int>(std::count(token.text.begin(), token.text.end(), '\n'));
     if (!comment && !token.begins(" \t\r\n")) tokens.push_back(token);
@@ -104,21 +105,21 @@ bool is_command(const Token* word) {
 }
 
 /// Checks a file and all that it reads.
-void check(const fs::path& path, bool included, std::set<std::string>& seen) {
+void check_script(const fs::path& path, bool included, std::set<std::string>& seen) {
   static const std::regex data(".*\\.(step|STEP|stp|STP|brep|iges|IGES|igs|stl|STL)");
   static const std::regex name_within("[\"'][\\w-][\\w+/-]*(\\.[\\w+/-]+)*[\"']");
   const bool is_data = !included && std::regex_match(path.filename().string(), data);
   if (is_data || !seen.insert(path.string()).second) return;
   const std::string text = read_input_text(path.string());
   refuse_large_input(text, path.string());
-  const std::vector<Token> tokens = cut('\n' + text + '\n', path);
+  const std::vector<Token> tokens = cut_script('\n' + text + '\n', path);
   const auto end = std::find(text.rbegin(), text.rend(), '\n');
   const bool cuts = std::count(text.rbegin(), end, ';') > 1;  // gmsh 4.8 takes one of them only
-  if (cuts) refuse(path, tokens.back().line, "ends without a line break");
+  if (cuts) refuse_script(path, tokens.back().line, "ends without a line break");
   bool prints = false;
   for (const Token* token = &tokens[2]; token != &tokens.end()[-5]; ++token) {
     const auto refuse_if = [&](bool fault, const char* what) {
-      if (fault) refuse(path, token->line, fmt::format(fmt::runtime(what), token->text));
+      if (fault) refuse_script(path, token->line, fmt::format(fmt::runtime(what), token->text));
     };
     prints = (prints && !token->begins(";")) || token->is(" Printf Error Warning ");
     refuse_if(prints && token->begins(">"), "prints to a file");
@@ -132,7 +133,7 @@ void check(const fs::path& path, bool included, std::set<std::string>& seen) {
     const fs::path file = path.parent_path() / name.substr(1, name.size() - 2);
     const bool within = std::regex_match(name, name_within) && token[2].begins(";");
     refuse_if(!within || !fs::exists(file), "has {} of no file in its folder or below");
-    check(file, token->is(" Include "), seen);
+    check_script(file, token->is(" Include "), seen);
   }
 }
 
@@ -140,8 +141,8 @@ void check(const fs::path& path, bool included, std::set<std::string>& seen) {
 
 void refuse_unsafe_geometry(const std::string& path) {
   std::set<std::string> seen;
-  check(path, false, seen);
-  if (fs::exists(path + ".opt")) check(path + ".opt", true, seen);
+  check_script(path, false, seen);
+  if (fs::exists(path + ".opt")) check_script(path + ".opt", true, seen);
 }
 
 }  // namespace perilink

@@ -171,8 +171,8 @@ GmshSections read_gmsh_sections(std::string_view bytes, const std::string& path)
       header.remove_suffix(1);
     }
     if (!format_known && header != "$MeshFormat" && header != "$Comments") {
-      const auto [fault, advice] = other_format(bytes, path);
-      file.refuse(fault, advice);
+      file.refuse("does not begin with $MeshFormat, so it is no mesh of gmsh",
+                  conversion_of_others(path));
     }
     if (!header.starts_with('$')) {
       file.refuse(

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
-#include <utility>
 
 namespace perilink {
 
@@ -12,8 +10,7 @@ std::string conversion_to_41(const std::string& path);
 /// Advice that makes a mesh of first order from one of second order.
 std::string conversion_to_first_order(const std::string& path);
 
-/// Fault and advice for a file that does not begin as a mesh of gmsh does. Its format is told by
-/// the ending of its name, otherwise by its first bytes.
-std::pair<std::string, std::string> other_format(std::string_view bytes, const std::string& path);
+/// Advice for a file that is no mesh of gmsh.
+std::string conversion_of_others(const std::string& path);
 
 }  // namespace perilink

@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "base/plain_text.hpp"
+#include "io/text/input_text.hpp"
 
 namespace perilink {
 namespace {
@@ -41,16 +42,9 @@ std::vector<std::string_view> split(std::string_view line) {
   }
 }
 
-std::string_view trim(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r";
-  const std::size_t begin = text.find_first_not_of(blanks);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
-}
-
 /// \param place  file, line and column, for messages
 double parse_number(std::string_view field, const std::string& place) {
-  field = trim(field);
+  field = trimmed(field);
   double value = 0.0;
   const auto [end, status] = std::from_chars(field.data(), field.data() + field.size(), value);
   const bool number = status == std::errc{} && end == field.data() + field.size();
@@ -69,7 +63,7 @@ std::vector<double> parse_row(const std::vector<std::string_view>& fields, const
   std::vector<double> row;
   row.reserve(fields.size());
   for (std::size_t c = 0; c < fields.size(); ++c) {
-    const bool unknown = empty == EmptyCells::unknown && trim(fields[c]).empty();
+    const bool unknown = empty == EmptyCells::unknown && trimmed(fields[c]).empty();
     row.push_back(
         unknown ? std::numeric_limits<double>::quiet_NaN()
                 : parse_number(fields[c], fmt::format("{}: column {}", place, table.columns[c])));
@@ -80,7 +74,7 @@ std::vector<double> parse_row(const std::vector<std::string_view>& fields, const
 void parse_header(const std::vector<std::string_view>& fields, CsvTable& table,
                   const std::string& place) {
   for (const std::string_view field : fields) {
-    std::string name(trim(field));
+    std::string name(trimmed(field));
     if (name.empty() || table.column(name) >= 0) {
       throw FileError(fmt::format("{}: column {} of the header {}", place, table.columns.size() + 1,
                                   name.empty() ? "has no name" : "has the name of another"));
@@ -173,7 +167,7 @@ CsvTable read_csv(const std::string& path, EmptyCells empty) {
       table.cut_off = true;
       break;
     }
-    const std::string_view line = trim(rest.substr(0, end));
+    const std::string_view line = trimmed(rest.substr(0, end));
     rest.remove_prefix(end + 1);
     if (line.empty()) continue;
     const std::string place = path + ":" + std::to_string(number);

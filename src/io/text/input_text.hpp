@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 /// \file
 /// The text of files that people write: cases and studies.
@@ -15,5 +16,8 @@ std::string read_input_text(const std::string& path);
 /// \param path  only named in the message
 /// \throws InputError
 void refuse_large_input(const std::string& text, const std::string& path);
+
+/// Text without the blanks and line ends around it.
+std::string_view trimmed(std::string_view text);
 
 }  // namespace perilink

@@ -210,11 +210,10 @@ Comparison compare(const std::string& name, const fs::path& work, std::size_t mo
 }
 
 void draw(const Comparison& comparison, const fs::path& directory) {
-  const int dim = static_cast<int>(comparison.study.errors.front().displacement.size());
   for (const auto& [cost, name] :
        {std::pair(Cost::seconds, "seconds"), std::pair(Cost::unknowns, "unknowns")}) {
     draw_convergence(
-        study_picture(comparison.study, comparison.series, comparison.members, 0, cost, dim))
+        study_picture(comparison.study, comparison.series, comparison.members, 0, cost))
         .save((directory / fmt::format("{}_{}.svg", comparison.name, name)).string());
   }
 }

@@ -1,16 +1,15 @@
 #include "app/commands/plot_command.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <pugixml.hpp>
-#include <sstream>
 
 #include "app/results/history_file.hpp"
 #include "base/error.hpp"
 #include "support/cracked_field.hpp"
+#include "support/temporary_directory.hpp"
 
 namespace perilink {
 namespace {
@@ -19,9 +18,7 @@ namespace fs = std::filesystem;
 
 class Plot : public ::testing::Test {
  protected:
-  Plot()
-      : directory_(fs::path(testing::TempDir()) / ("perilink_plot_" + std::to_string(::getpid()))) {
-    fs::create_directories(directory_);
+  Plot() {
     HistoryFile history(directory_.string(), {});
     for (int k = 0; k < 5; ++k) {
       StepRecord record;
@@ -31,7 +28,6 @@ class Plot : public ::testing::Test {
       history.append(record);
     }
   }
-  ~Plot() override { fs::remove_all(directory_); }
 
   void write_fields() const {
     VtuGrid grid = test::make_cracked_field({}, true);
@@ -40,14 +36,10 @@ class Plot : public ::testing::Test {
     write_vtu((directory_ / "b.vtu").string(), grid);
     write_pvd((directory_ / "fields.pvd").string(), {{5.0, "a.vtu"}, {6.0, "b.vtu"}});
   }
-  std::string text(const std::string& name) const {
-    std::ifstream file(directory_ / name);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-  }
+  std::string text(const std::string& name) const { return test::read_text(directory_ / name); }
 
-  fs::path directory_;
+  test::TemporaryDirectory temporary_;
+  fs::path directory_ = temporary_.path();
 };
 
 TEST_F(Plot, DrawsCurveAndFields) {

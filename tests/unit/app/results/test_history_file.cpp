@@ -1,25 +1,20 @@
 #include "app/results/history_file.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 
 #include "base/error.hpp"
+#include "support/temporary_directory.hpp"
 
 namespace perilink {
 namespace {
 
 class HistoryFileTest : public ::testing::Test {
  protected:
-  HistoryFileTest()
-      : directory_(testing::TempDir() + "perilink_history_" + std::to_string(::getpid())) {
-    std::filesystem::create_directories(directory_);
-  }
-  ~HistoryFileTest() override { std::filesystem::remove_all(directory_); }
-
-  std::string directory_;
+  test::TemporaryDirectory temporary_;
+  std::string directory_ = temporary_.path().string();
 };
 
 std::vector<StepRecord> read_history(const std::string& path) {

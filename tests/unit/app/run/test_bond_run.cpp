@@ -16,21 +16,14 @@ namespace perilink {
 namespace {
 
 /// A block that is pulled until it breaks, with a gauge of its elongation.
-constexpr const char* pulled_block = R"([body]
+constexpr const char* pulled_block = R"(regions = [
+  {name = "block", x = [0, 1], y = [0, 1]},
+  {name = "bottom", x = [0, 1], y = [0, 0]},
+  {name = "top", x = [0, 1], y = [1, 1]},
+]
+[body]
 spacing = 0.1
 horizon_ratio = 3
-[[regions]]
-name = "block"
-x = [0, 1]
-y = [0, 1]
-[[regions]]
-name = "bottom"
-x = [0, 1]
-y = [0, 0]
-[[regions]]
-name = "top"
-x = [0, 1]
-y = [1, 1]
 [[materials]]
 region = "block"
 youngs_modulus = 30

@@ -131,21 +131,14 @@ TEST(RegionForces, OfLoadsAreTheirForcesAtTheLoadFactor) {
 /// Round-off across the pull is shown as zero.
 TEST(RegionForces, OfDrivenPlacesHaveNoRoundOffAcrossThePull) {
   const Model model = build_model(parse_case(R"(
+regions = [
+  {name = "block", x = [0, 10], y = [0, 20]},
+  {name = "lower", x = [0, 10], y = [0, 0]},
+  {name = "upper", x = [0, 10], y = [20, 20]},
+]
 [body]
 spacing = 1
 horizon_ratio = 3
-[[regions]]
-name = "block"
-x = [0, 10]
-y = [0, 20]
-[[regions]]
-name = "lower"
-x = [0, 10]
-y = [0, 0]
-[[regions]]
-name = "upper"
-x = [0, 10]
-y = [20, 20]
 [[materials]]
 region = "block"
 youngs_modulus = 3

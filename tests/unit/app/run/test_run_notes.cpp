@@ -38,16 +38,22 @@ TEST(PeakWarning, IsSilentWhereTheFirstPeakIsTheHighest) {
       << "it never fell below half";
 }
 
-/// The lower end is held, the upper one pulled by a force.
-TEST(ClampNote, CountsBondsThatBreakAtParticlesWithPrescribedDisplacements) {
-  const Model model = build_model(test::strip_case());
-  const Bonds& bonds = model.network.bonds;
-  std::vector<Index> at_clamp, elsewhere;
-  for (Index b = 0; b < bonds.size(); ++b) {
-    const double lower = std::min(model.network.particles.position(bonds.first[b])[1],
-                                  model.network.particles.position(bonds.second[b])[1]);
-    (lower <= 20.0 ? at_clamp : elsewhere).push_back(b);
+/// A strip whose lower end is held and whose upper one is pulled by a force.
+struct HeldStrip {
+  HeldStrip() {
+    const Bonds& bonds = model.network.bonds;
+    for (Index b = 0; b < bonds.size(); ++b) {
+      const double lower = std::min(model.network.particles.position(bonds.first[b])[1],
+                                    model.network.particles.position(bonds.second[b])[1]);
+      (lower <= 20.0 ? at_clamp : elsewhere).push_back(b);
+    }
   }
+  Model model = build_model(test::strip_case());
+  std::vector<Index> at_clamp, elsewhere;
+};
+
+TEST(ClampNote, CountsBondsThatBreakAtParticlesWithPrescribedDisplacements) {
+  const auto [model, at_clamp, elsewhere] = HeldStrip();
   EXPECT_EQ(note_of_clamps(model, {}), std::nullopt);
   EXPECT_EQ(note_of_clamps(model, elsewhere), std::nullopt);
   const std::vector<Index> broken = {elsewhere[0], at_clamp[0], elsewhere[1], at_clamp[1]};
@@ -55,16 +61,9 @@ TEST(ClampNote, CountsBondsThatBreakAtParticlesWithPrescribedDisplacements) {
               HasSubstr("2 of 4 broken bonds end at particles of [[supports]]"));
 }
 
-/// The lower end of the strip is held; only bonds that broke after the body gave way count.
+/// Only bonds that broke after the body gave way count.
 TEST(PeakWarning, CountsLaterBondsAtGrips) {
-  const Model model = build_model(test::strip_case());
-  const Bonds& bonds = model.network.bonds;
-  std::vector<Index> at_clamp, elsewhere;
-  for (Index b = 0; b < bonds.size(); ++b) {
-    const double lower = std::min(model.network.particles.position(bonds.first[b])[1],
-                                  model.network.particles.position(bonds.second[b])[1]);
-    (lower <= 20.0 ? at_clamp : elsewhere).push_back(b);
-  }
+  const auto [model, at_clamp, elsewhere] = HeldStrip();
   DamageResult result = result_of({{0.1, 3320}, {0.2, 900}, {5.0, 11314}});
   result.broken_as_gave_way = 2;
   const std::vector<Index> torn = {at_clamp[0], elsewhere[0], at_clamp[1], at_clamp[2],

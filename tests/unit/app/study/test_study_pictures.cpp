@@ -35,7 +35,7 @@ TEST(StudyPictures, ALinePerSeriesWithTheFinestOrder) {
   sample.members.push_back(member(1, 0, 0.0, none));
   sample.members.back().failure = "no";
   const ConvergencePlot plot =
-      study_picture(sample.study, sample.series, sample.members, 0, Cost::unknowns, 2);
+      study_picture(sample.study, sample.series, sample.members, 0, Cost::unknowns);
   ASSERT_EQ(plot.lines.size(), 2u);
   EXPECT_EQ(plot.lines[0].name, "first");
   ASSERT_EQ(plot.lines[0].points.size(), 3u);
@@ -47,23 +47,11 @@ TEST(StudyPictures, ALinePerSeriesWithTheFinestOrder) {
   EXPECT_EQ(plot.title, "T");
 }
 
-TEST(StudyPictures, SlopesOverUnknownsDependOnTheDimension) {
-  const Sample sample;
-  for (const int dim : {2, 3}) {
-    const ConvergencePlot plot =
-        study_picture(sample.study, sample.series, sample.members, 0, Cost::unknowns, dim);
-    ASSERT_EQ(plot.triangles.size(), 2u);
-    // unknowns ~ spacing^-dim
-    EXPECT_DOUBLE_EQ(plot.triangles[1].slope, -2.0 / dim);
-  }
-}
-
 TEST(StudyPictures, SecondsAreThoseOfTheWholeMember) {
   const Sample sample;
   const ConvergencePlot plot =
-      study_picture(sample.study, sample.series, sample.members, 0, Cost::seconds, 2);
+      study_picture(sample.study, sample.series, sample.members, 0, Cost::seconds);
   EXPECT_EQ(plot.lines[0].points[0].cost, 6.0);
-  EXPECT_TRUE(plot.triangles.empty());
 }
 
 }  // namespace

@@ -58,31 +58,32 @@ class StudyRun : public testing::Test {
     study.case_path = (directory_ / "strip.toml").string();
     return study;
   }
+  StudyMember run(const StudyFile& file, const TomlValue& key) const {
+    return run_member(file, study_series(file).front(), key, 1);
+  }
+  Model model(double spacing) const {
+    return build_model(
+        read_case_file((directory_ / "strip.toml").string(),
+                       {body_key("horizon_ratio", 2.0), body_key("spacing", spacing)}));
+  }
   test::TemporaryDirectory directory_;
 };
 
 TEST_F(StudyRun, AMemberIsTheCaseWithItsKeys) {
   const StudyFile file = study(energy + "1\n");
-  const StudyMember member =
-      run_member(file, study_series(file).front(), body_key("spacing", 5.0), 1);
+  const StudyMember member = run(file, body_key("spacing", 5.0));
   ASSERT_FALSE(member.failed()) << member.failure;
   EXPECT_EQ(member.spacing, 5.0);
   EXPECT_EQ(member.horizon, 10.0);
   EXPECT_EQ(member.particles, 9 * 17);
   EXPECT_EQ(member.surface, "calibrated");
-
-  const CaseFile input =
-      read_case_file(file.case_path, {body_key("horizon_ratio", 2.0), body_key("spacing", 5.0)});
-  const Model model = build_model(input);
-  const ElasticResult elastic = run_elastic_analysis(model);
-  EXPECT_EQ(member.values, std::vector<double>{elastic.strain_energy});
+  EXPECT_EQ(member.values, std::vector<double>{run_elastic_analysis(model(5.0)).strain_energy});
 }
 
 TEST_F(StudyRun, PhasesAreTimed) {
   StudyFile file = study(energy + "1\n");
   file.repeats = 2;
-  const StudyMember member =
-      run_member(file, study_series(file).front(), body_key("spacing", 5.0), 1);
+  const StudyMember member = run(file, body_key("spacing", 5.0));
   EXPECT_GT(member.seconds.set_up, 0.0);
   EXPECT_GT(member.seconds.factorization, 0.0);
   const MemberSeconds& s = member.seconds;
@@ -93,23 +94,20 @@ TEST_F(StudyRun, PhasesAreTimed) {
 
 TEST_F(StudyRun, AMemberThatFailsSaysWhy) {
   const StudyFile file = study(energy + "1\n");
-  const StudyMember member =
-      run_member(file, study_series(file).front(), body_key("mesh", std::string("a.msh")), 1);
+  const StudyMember member = run(file, body_key("mesh", std::string("a.msh")));
   EXPECT_TRUE(member.bad_input);
   EXPECT_NE(member.failure.find("body.mesh"), std::string::npos) << member.failure;
 }
 
 TEST_F(StudyRun, TheErrorOfAFieldIsMeasuredAgainstItsFormulas) {
   const StudyFile file = study("[error]\ndisplacement = [\"3\", \"4*1\"]\n");
-  const auto series = study_series(file);
-  const StudyMember member = run_member(file, series.front(), body_key("spacing", 10.0), 1);
+  const StudyMember member = run(file, body_key("spacing", 10.0));
   ASSERT_FALSE(member.failed()) << member.failure;
-  const Model model = build_model(
-      read_case_file(file.case_path, {body_key("horizon_ratio", 2.0), body_key("spacing", 10.0)}));
-  const ElasticResult elastic = run_elastic_analysis(model);
+  const Model strip = model(10.0);
+  const ElasticResult elastic = run_elastic_analysis(strip);
   double square = 0.0, volume = 0.0;
-  for (Index i = 0; i < model.network.particles.size(); ++i) {
-    const double v = model.network.particles.volumes[i];
+  for (Index i = 0; i < strip.network.particles.size(); ++i) {
+    const double v = strip.network.particles.volumes[i];
     square += v * (std::pow(elastic.displacement[2 * i] - 3.0, 2) +
                    std::pow(elastic.displacement[2 * i + 1] - 4.0, 2));
     volume += v;
@@ -119,8 +117,7 @@ TEST_F(StudyRun, TheErrorOfAFieldIsMeasuredAgainstItsFormulas) {
 
 TEST_F(StudyRun, AFormulaThatIsNotFiniteFailsTheMember) {
   const StudyFile file = study("[error]\ndisplacement = [\"1/x\", \"0\"]\n");
-  const StudyMember member =
-      run_member(file, study_series(file).front(), body_key("spacing", 10.0), 1);
+  const StudyMember member = run(file, body_key("spacing", 10.0));
   EXPECT_NE(member.failure.find("gives inf at the particle at (0, 0)"), std::string::npos)
       << member.failure;
 }
@@ -132,16 +129,12 @@ TEST_F(StudyRun, GaugesAreValues) {
                            "[analysis]\ntype = \"elastic\"\n";
   test::write_text(directory_ / "strip.toml", text);
   const StudyFile file = study("[error]\ngauge = \"top\"\nreference = 1\n");
-  const StudyMember member =
-      run_member(file, study_series(file).front(), body_key("spacing", 10.0), 1);
+  const StudyMember member = run(file, body_key("spacing", 10.0));
   ASSERT_TRUE(member.failure.empty()) << member.failure;
-  const CaseFile input =
-      read_case_file(file.case_path, {body_key("spacing", 10.0), body_key("horizon_ratio", 2.0)});
-  const Model model = build_model(input);
-  const ElasticResult elastic = run_elastic_analysis(model);
+  const double energy_stored = run_elastic_analysis(model(10.0)).strain_energy;
   // The load acts on the region in proportion to the volumes, so its work is that of the mean.
-  EXPECT_NEAR(member.values[0], 2.0 * elastic.strain_energy / 12.0, 1e-12 * member.values[0]);
-  EXPECT_NO_THROW(check_study(file, input));
+  EXPECT_NEAR(member.values[0], 2.0 * energy_stored / 12.0, 1e-12 * member.values[0]);
+  EXPECT_NO_THROW(check_study(file, read_case_file(file.case_path)));
 }
 
 void expect_check_refused(const StudyFile& file, const std::string& key, const std::string& says) {

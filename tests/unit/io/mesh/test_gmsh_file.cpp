@@ -263,7 +263,6 @@ INSTANTIATE_TEST_SUITE_P(
               "new file: gmsh \"body.msh\" -save -format msh41 -o \"body_41.msh\""},
         Fault{"numbersOf4Bytes", "4.1 0 8", "4.1 0 4", "numbers of 4 bytes"},
         Fault{"kind", "4.1 0 8", "4.1 3 8", "neither text nor binary"},
-        Fault{"otherFile", "$MeshFormat", "solid", "is in the format of STL"},
         Fault{"noFormat", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n", "",
               "does not begin with $MeshFormat"},
         Fault{"manyNodes", "0 1 0 1\n10", "0 1 0 9999999\n10", "announces 9999999 nodes"},

@@ -41,5 +41,10 @@ TEST(InputText, IsReadNoFurtherThanTheLimit) {
 
 TEST(InputText, DevicesAreNotWaitedFor) { EXPECT_THROW(read_input_text("/dev/zero"), FileError); }
 
+TEST(InputText, IsTrimmedAtBothEnds) {
+  EXPECT_EQ(trimmed(" \t a b\r\n"), "a b");
+  EXPECT_EQ(trimmed(" \n"), "");
+}
+
 }  // namespace
 }  // namespace perilink

@@ -16,21 +16,14 @@ namespace {
 /// A plate of 16 by 8 with particles one apart; its elements are four by four.
 Model plate(const std::string& more, const std::string& keys = "",
             const std::string& size = "spacings = 4\n") {
-  const std::string text = R"([body]
+  const std::string text = R"(regions = [
+  {name = "plate", x = [0, 16], y = [0, 8]},
+  {name = "left", x = [0, 0], y = [0, 8]},
+  {name = "corner", x = [13, 16], y = [0, 2]},
+]
+[body]
 spacing = 1.0
 horizon_ratio = 3
-[[regions]]
-name = "plate"
-x = [0, 16]
-y = [0, 8]
-[[regions]]
-name = "left"
-x = [0, 0]
-y = [0, 8]
-[[regions]]
-name = "corner"
-x = [13, 16]
-y = [0, 2]
 [[materials]]
 region = "plate"
 youngs_modulus = 10.0
@@ -95,13 +88,10 @@ TEST(HostModel, FlatElementsDoNotCarryHoweverManyParticlesTheyHold) {
     mesh.cells.insert(mesh.cells.end(), {a, a + 1, a + 3, a, a + 3, a + 2});
   }
   std::ofstream(work / "flat.msh") << test::gmsh_text(mesh, {1, 1, 1}, {0, 0, 0});
-  std::string text = R"([body]
+  std::string text = R"(regions = [{name = "plate", x = [0, 64], y = [0, 8]}]
+[body]
 spacing = 1.0
 horizon_ratio = 3
-[[regions]]
-name = "plate"
-x = [0, 64]
-y = [0, 8]
 [[materials]]
 region = "plate"
 youngs_modulus = 10.0
@@ -145,13 +135,10 @@ TEST(HostModel, PreCracksInCoarsePartsOfAMeshCountToo) {
   }
   std::ofstream(work / "body.msh") << test::gmsh_text(mesh, {1, 1, 1}, {0, 0, 0});
   const auto model = [&](const std::string& crack) {
-    return build_model(parse_case(R"([body]
+    return build_model(parse_case(R"(regions = [{name = "plate", x = [0, 20], y = [0, 8]}]
+[body]
 mesh = "body.msh"
 horizon = 6.1
-[[regions]]
-name = "plate"
-x = [0, 20]
-y = [0, 8]
 [[materials]]
 region = "plate"
 youngs_modulus = 10.0

@@ -30,23 +30,15 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr const char* case_text = R"([body]
+constexpr const char* case_text = R"(regions = [
+  {name = "solid", group = "plate"},
+  {name = "base", group = "lower"},
+  {name = "right", x = [2, 2], y = [0, 2]},
+]
+[body]
 mesh = "body.msh"
 horizon_ratio = 3
 surface = "none"
-
-[[regions]]
-name = "solid"
-group = "plate"
-
-[[regions]]
-name = "base"
-group = "lower"
-
-[[regions]]
-name = "right"
-x = [2, 2]
-y = [0, 2]
 
 [[materials]]
 region = "solid"
@@ -106,7 +98,7 @@ TEST_F(MeshInput, RegionsAreGroupsOrBoxes) {
 
 TEST_F(MeshInput, BoxesHoldMaterialsToo) {
   std::vector<std::string> notes;
-  const CaseFile input = parse("group = \"plate\"", "x = [0, 1]\ny = [0, 2]");
+  const CaseFile input = parse("group = \"plate\"", "x = [0, 1], y = [0, 2]");
   const Body body = read_mesh_body(input, 2, notes);
   EXPECT_EQ(body.cells.size(), 3);  // the centre of the right triangle is at 1.5
   EXPECT_THAT(body.particles.material, Each(0));
@@ -167,25 +159,15 @@ TEST_F(MeshInput, MarksUnusedNodesAndNamesChangeNothing) {
                                 replaced(clean, "\"lower and left\"", "\"lower\"")};
   for (const std::string& mesh : meshes) {
     test::write_text(directory_ / "body.msh", mesh);
-    const CaseFile input = parse_case(R"([body]
+    const CaseFile input = parse_case(R"(regions = [
+  {name = "plate", x = [0, 2], y = [0, 2]},
+  {name = "left", x = [0, 0], y = [0, 2]},
+  {name = "right", x = [2, 2], y = [0, 2]},
+  {name = "corner", x = [0, 0], y = [0, 0]},
+]
+[body]
 mesh = "body.msh"
 method = "linear_elements"
-[[regions]]
-name = "plate"
-x = [0, 2]
-y = [0, 2]
-[[regions]]
-name = "left"
-x = [0, 0]
-y = [0, 2]
-[[regions]]
-name = "right"
-x = [2, 2]
-y = [0, 2]
-[[regions]]
-name = "corner"
-x = [0, 0]
-y = [0, 0]
 [[materials]]
 region = "plate"
 youngs_modulus = 30000

@@ -18,31 +18,18 @@ using testing::HasSubstr;
 
 /// A bar in tension, unbreakable at its ends.
 std::string bar_case(const std::string& analysis, double pull = 0.002) {
-  return R"([body]
+  return R"(regions = [
+  {name = "bar", x = [0, 1], y = [0, 2]},
+  {name = "bottom", x = [0, 1], y = [0, 0]},
+  {name = "left", x = [0, 0], y = [0, 0]},
+  {name = "top", x = [0, 1], y = [2, 2]},
+  {name = "ends", x = [0, 1], y = [1.7, 2]},
+]
+[body]
 model = "particles"
 pattern = "hexagonal"
 spacing = 0.1
 thickness = 0.5
-[[regions]]
-name = "bar"
-x = [0, 1]
-y = [0, 2]
-[[regions]]
-name = "bottom"
-x = [0, 1]
-y = [0, 0]
-[[regions]]
-name = "left"
-x = [0, 0]
-y = [0, 0]
-[[regions]]
-name = "top"
-x = [0, 1]
-y = [2, 2]
-[[regions]]
-name = "ends"
-x = [0, 1]
-y = [1.7, 2]
 [[materials]]
 region = "bar"
 youngs_modulus = 30

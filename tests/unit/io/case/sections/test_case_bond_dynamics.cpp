@@ -81,7 +81,6 @@ TEST(CaseMovingBonds, IsWrittenSoThatItReadsBack) {
 
 TEST(CaseMovingBonds, RefusesWhatRelaxationHasNot) {
   const std::string type = "type = \"relaxation\"\n";
-  EXPECT_THAT(dynamics_refusal(with_analysis(type + "tolerance = 1")), HasSubstr("less than 1"));
   EXPECT_THAT(dynamics_refusal(with_analysis(type + "tolerance = 1e-14")), HasSubstr("round-off"));
   EXPECT_THAT(dynamics_refusal(with_analysis(type + "iterations = 0")), HasSubstr("iterations"));
   EXPECT_THAT(dynamics_refusal(with_analysis(type + "load_factors = [0, 0]")),
@@ -107,12 +106,7 @@ TEST(CaseMovingBonds, VelocitiesAreOfExplicitBonds) {
   const auto with_velocity = [](const std::string& text) {
     return replaced(text, "[analysis]", velocity + std::string("[analysis]"));
   };
-  EXPECT_THAT(dynamics_refusal(with_velocity(with_analysis("type = \"elastic\""))),
-              HasSubstr("knows no time"));
   EXPECT_THAT(dynamics_refusal(with_velocity(lattice_case)), HasSubstr("only regions of bonds"));
-  EXPECT_THAT(dynamics_refusal(with_velocity(explicit_case("")) +
-                               "[[displacements]]\nregion = \"block\"\nx = 1\n"),
-              HasSubstr("drive all regions by one of the two"));
   EXPECT_THAT(dynamics_refusal(with_velocity(explicit_case("")) +
                                "[[displacements]]\nregion = \"block\"\nx = 0\n"),
               testing::StrEq("accepted"));

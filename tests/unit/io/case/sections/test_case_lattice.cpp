@@ -188,8 +188,7 @@ TEST(CaseLattice, RefusesBodiesThatHaveNoLattice) {
 TEST(CaseLattice, RefusesMaterials) {
   expect_refusals(
       lattice_case,
-      {{"density = 2.5\n", "", {"materials[1].density", "missing"}},
-       {"poissons_ratio = 0.2\n", "", {"materials[1].poissons_ratio", "missing"}},
+      {{"poissons_ratio = 0.2\n", "", {"materials[1].poissons_ratio", "missing"}},
        {"poissons_ratio = 0.2", "poissons_ratio = 0.5", {"below 1/2"}},
        {"tensile_strength = 0.003\n", "", {"materials[1].tensile_strength", "missing"}},
        {"fracture_energy = 1e-5\n", "", {"fracture_energy", "critical_opening"}},
@@ -209,12 +208,6 @@ TEST(CaseLattice, RefusesMaterials) {
                     "tensile_strength = 1\ndensity",
                     {"materials[1].tensile_strength", "is unbreakable"}},
                    {"density", "boundary_factor = 1\ndensity", {"is unbreakable"}}});
-  const char* in_space = "tensile_strength = 0.1\nfracture_energy = 1";
-  expect_refusals(
-      space_case(),
-      {{"fracture_energy = \"infinite\"",
-        in_space,
-        {"materials[1].fracture_energy", "the rules of 2018 have no damage in space"}}});
   expect_refusals(small_case, {{"fracture_energy",
                                 "compression_ratio = 1\nfracture_energy",
                                 {"materials[1].compression_ratio", "model = \"lattice\""}}});
@@ -228,14 +221,10 @@ TEST(CaseLattice, RefusesAnalyses) {
        {"time_step", "safety = 0.5\ntime_step", {"analysis.safety", "beside `time_step`"}},
        {"time_step = 0.001", "safety = 1.01", {"analysis.safety", "unstable"}},
        {"time_step", "rigid_body_modes = \"pin\"\ntime_step", {"analysis.rigid_body_modes"}},
-       {"time_step", "damping_rate = 1\ntime_step", {"analysis.damping_rate", "lattice"}},
        {"time_step", "masses = \"uniform\"\ntime_step", {"analysis.masses", "lattice"}},
        {"fields_times = [0.5, 4]", "fields_times = [2, 1]", {"has 1 after 2"}},
        {"fields_times = [0.5, 4]", "fields_times = [0]", {"has 0 after 0"}}});
   const std::string elastic = replaced(lattice_case, "[output]\nfields_times = [0.5, 4]", "");
-  expect_refusals(elastic, {{"type = \"explicit\"\nduration = 4\ntime_step = 0.001",
-                             "type = \"damage\"",
-                             {"body.model", "analysis.type is \"damage\""}}});
   EXPECT_EQ(message_of(replaced(elastic, "type = \"explicit\"\nduration = 4\ntime_step = 0.001",
                                 "type = \"elastic\"")),
             "accepted");

@@ -1,6 +1,5 @@
 #include "io/case/sections/laws/case_softening.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,10 +7,10 @@
 
 #include "support/case_texts.hpp"
 
+// The refusals are data: tests/cli/malformed/text/softening.txt.
+
 namespace perilink {
 namespace {
-
-using testing::HasSubstr;
 
 const std::string energy = "fracture_energy = 0.1";
 
@@ -22,15 +21,6 @@ CaseFile with(const std::string& lines, bool keeps_energy = true) {
 
 SofteningMaterial material_of(const std::string& lines, bool keeps_energy = true) {
   return with(lines, keeps_energy).materials.front().softening;
-}
-
-void expect_message(const std::string& lines, const std::string& text, bool keeps_energy = true) {
-  try {
-    with(lines, keeps_energy);
-    ADD_FAILURE() << "accepted: " << lines;
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr(text)) << lines;
-  }
 }
 
 TEST(CaseSoftening, IsBrittleWhereNothingIsSaid) {
@@ -126,18 +116,6 @@ TEST(CaseSoftening, WritesWhatItReads) {
     EXPECT_EQ(a.error, b.error);
     EXPECT_EQ(input.materials[0].fracture_energy, again.materials[0].fracture_energy);
   }
-}
-
-TEST(CaseSoftening, SaysWhatItRefuses) {
-  expect_message("softening = \"cubic\"\ntensile_strength = 3", "softening: is \"cubic\"");
-  expect_message("softening = \"linear\"", "tensile_strength");
-  expect_message("tensile_strength = -3", "must be greater than zero");
-  expect_message("tensile_strength = 3\nsoftening_error = 1", "must be less than 1");
-  expect_message("softening = \"brittle\"\ntensile_strength = 3", "but the bonds are brittle");
-  expect_message("softening_error = 0.1", "but the bonds are brittle");
-  expect_message("softening_stretches = [1e-4, 1e-3]", "is given beside `softening_stretches`");
-  expect_message("softening_stretches = [1e-3, 1e-4]", "must be two stretches that rise", false);
-  expect_message("softening_stretches = [1e-3]", "must be two stretches that rise", false);
 }
 
 }  // namespace
