@@ -52,10 +52,8 @@ double memory_without_factor(const Network& network, bool events) {
   }
   const double boxes = 50e6 + bonds * (moments ? 580.0 : 145.0);
   if (!events) return boxes;
-  const bool defers = network.num_elements() >= SubdomainSolverOptions().fewest_to_defer &&
-                      !moments && !network.has_closing();
   const double unknowns = particles * network.width();
-  const std::size_t columns = 64 + columns_of_window(static_cast<std::size_t>(unknowns), defers);
+  const std::size_t columns = 64 + columns_of_window(static_cast<std::size_t>(unknowns));
   return boxes + 8.0 * unknowns * static_cast<double>(columns);
 }
 
@@ -256,8 +254,8 @@ int check_case(const std::string& case_path, bool trust_geometry) {
   const Network& network = model.network;
   std::optional<FactorStatistics> factor;
   const bool by_boxes = input.analysis.type == AnalysisType::damage
-                            ? is_followed_by_boxes(model, damage_options(input, 1).engine)
-                            : is_for_boxes(model, input.analysis.solver);
+                            ? is_followed_by_subdomains(model, damage_options(input, 1).engine)
+                            : is_for_subdomains(model, input.analysis.solver);
   if (model.elements || !by_boxes) {
     factor =
         estimate_factor(assemble_stiffness(network, {}, model.unknowns), model.unknowns.owners());

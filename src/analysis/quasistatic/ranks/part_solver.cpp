@@ -116,7 +116,7 @@ PreconditionedPart cut_part(const Network& network, Secants secants, const Unkno
   const Index begin = partition.own_begin(rank), end = partition.own_end(rank);
   own.blocks = slice(stiffness.blocks, begin, end, width * width);
   for (Index p = begin; p < end; ++p) {
-    own.subdomains.push_back(motions.box_of(p));
+    own.subdomains.push_back(motions.subdomain_of(p));
     for (int a = 0; a < width; ++a) own.rows.push_back(motions.row(p, a));
   }
   own.coarse = stiffness.coarse;

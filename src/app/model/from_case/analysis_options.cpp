@@ -25,8 +25,8 @@ DamageOptions damage_options(const CaseFile& input, int threads) {
   options.engine.threads = threads;
   options.engine.route = input.analysis.factor;
   options.engine.solver = input.analysis.solver;
-  options.engine.boxes.edge = input.analysis.coarse_box.value_or(0);
-  options.engine.boxes.ranks = ranks();
+  options.engine.subdomains.edge = input.analysis.coarse_box.value_or(0);
+  options.engine.subdomains.ranks = ranks();
   options.engine.event_tolerance = event_tolerance_of(input);
   const bool steps = input.analysis.control == LoadControl::steps;
   if (steps) options.load_factors = input.analysis.load_factors;
@@ -45,9 +45,9 @@ ElasticOptions elastic_options(const CaseFile& input, int threads) {
   ElasticOptions options;
   options.threads = threads;
   options.solver = input.analysis.solver;
-  options.boxes.edge = input.analysis.coarse_box.value_or(0);
-  options.boxes.ranks = ranks();
-  options.boxes.tolerance = input.analysis.tolerance.value_or(options.boxes.tolerance);
+  options.subdomains.edge = input.analysis.coarse_box.value_or(0);
+  options.subdomains.ranks = ranks();
+  options.subdomains.tolerance = input.analysis.tolerance.value_or(options.subdomains.tolerance);
   return options;
 }
 

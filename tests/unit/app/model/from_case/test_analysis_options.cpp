@@ -28,11 +28,11 @@ TEST(AnalysisOptions, OfDamageFollowTheCase) {
   EXPECT_EQ(options.load_factors, (std::vector<double>{0.5, 1.0}));
   EXPECT_EQ(options.engine.route, FactorRoute::refactorize);
   EXPECT_EQ(options.engine.solver, LinearSolver::automatic);
-  EXPECT_EQ(options.engine.boxes.edge, 0);
+  EXPECT_EQ(options.engine.subdomains.edge, 0);
   input.analysis.solver = LinearSolver::iterative;
   input.analysis.coarse_box = 5;
   EXPECT_EQ(damage_options(input, 1).engine.solver, LinearSolver::iterative);
-  EXPECT_EQ(damage_options(input, 1).engine.boxes.edge, 5);
+  EXPECT_EQ(damage_options(input, 1).engine.subdomains.edge, 5);
   input.analysis.factor = FactorRoute::cholmod_updown;
   EXPECT_EQ(damage_options(input, 1).engine.route, FactorRoute::cholmod_updown);
 }
@@ -66,8 +66,8 @@ TEST(AnalysisOptions, OfElasticAnswersFollowTheCase) {
   input.analysis.coarse_box = 5;
   const ElasticOptions options = elastic_options(input, 1);
   EXPECT_EQ(options.solver, LinearSolver::iterative);
-  EXPECT_EQ(options.boxes.tolerance, 1e-6);
-  EXPECT_EQ(options.boxes.edge, 5);
+  EXPECT_EQ(options.subdomains.tolerance, 1e-6);
+  EXPECT_EQ(options.subdomains.edge, 5);
 }
 
 }  // namespace
