@@ -20,7 +20,7 @@ using namespace test;
 
 /// A body of boxes in the plane, unit spacing, bonds of two spacings, held at x = 0 and pulled
 /// across at its right end.
-AnalysisBody make_subdomains(std::vector<Subdomain> solid, double right) {
+AnalysisBody make_subdomains(std::vector<Box> solid, double right) {
   LatticeInput input;
   input.pattern = Pattern::rectangular;
   input.spacing = 1.0;

@@ -1,0 +1,88 @@
+// Classes stay small enough to be understood: limits on what they hold, beside those on lines.
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+
+#include "quality/class_extents.hpp"
+#include "quality/source_tree.hpp"
+
+namespace perilink::quality {
+namespace {
+
+constexpr int most_members = 25, most_functions = 30, most_booleans = 3;
+
+/// Classes above a limit, with what they may have until they are divided. Numbers only fall.
+const std::map<std::string, ClassExtent>& exceptions() {
+  static const std::map<std::string, ClassExtent> table = {
+      {"Decision", {25, 30, 4}},          {"ExplicitState", {28, 30, 3}},
+      {"Equilibrium", {54, 122, 10}},     {"EventRun", {28, 36, 3}},
+      {"SingleEventEngine", {25, 32, 3}}, {"SubdomainFactor", {25, 35, 3}},
+      {"NormalEquations", {25, 30, 5}},   {"CalibrationEquations", {25, 37, 3}},
+      {"CalibrationSolver", {25, 30, 9}}, {"CaseFile", {26, 30, 3}},
+      {"RebarSection", {25, 30, 4}},      {"CaseTable", {25, 31, 3}},
+      {"Network", {29, 30, 3}},           {"NetworkInput", {25, 30, 5}},
+      {"InPlaceFactor", {25, 34, 3}},
+  };
+  return table;
+}
+
+std::string whole(const std::filesystem::path& file) {
+  std::string text;
+  for (const std::string& line : read_lines(file)) text += line + '\n';
+  return text;
+}
+
+TEST(Classes, AreWithinTheLimitsOnState) {
+  std::map<std::string, ClassExtent> seen;
+  for (const auto& file : cpp_files("src")) {
+    if (file.extension() != ".hpp") continue;
+    const ClassScanner scanner(whole(file));
+    for (const auto& [name, extent] : scanner.classes()) {
+      seen[name] = extent;
+      const auto found = exceptions().find(name);
+      const ClassExtent most = found == exceptions().end()
+                                   ? ClassExtent{most_members, most_functions, most_booleans}
+                                   : found->second;
+      EXPECT_LE(extent.members, most.members) << shown(file) << ": members of " << name;
+      EXPECT_LE(extent.functions, most.functions) << shown(file) << ": functions of " << name;
+      EXPECT_LE(extent.booleans, most.booleans) << shown(file) << ": booleans of " << name;
+    }
+  }
+  EXPECT_GT(seen.size(), 100u) << "the scanner has lost the classes";
+  for (const auto& [name, most] : exceptions()) {
+    const ClassExtent& extent = seen[name];
+    EXPECT_TRUE(extent.members > most_members || extent.functions > most_functions ||
+                extent.booleans > most_booleans)
+        << name << " is within the limits: take it off the list";
+  }
+}
+
+TEST(Classes, ScannerCountsDeclarations) {
+  const ClassScanner scanner(
+      "namespace n {\n"
+      "class A : public B {\n"
+      " public:\n"
+      "  A(int a, int b = {});\n"
+      "  bool is() const { return x_ > 0; }\n"
+      "  struct Part {\n    double y = 0.0, z{1.0};\n  };\n"
+      "  static constexpr int most = 3;\n"
+      "  using Map = std::map<int, int>;\n"
+      " private:\n"
+      "  std::map<int, std::vector<int>> map_;\n"
+      "  bool first_ = false, second_ = true;\n"
+      "  double d_[2] = {1.0, 2.0};\n"
+      "};\n"
+      "template <class T>\nvoid f(T) {}\n"
+      "}\n");
+  const std::map<std::string, ClassExtent>& classes = scanner.classes();
+  ASSERT_EQ(classes.count("A"), 1u);
+  EXPECT_EQ(classes.at("A").functions, 2);
+  EXPECT_EQ(classes.at("A").booleans, 2);
+  EXPECT_EQ(classes.at("A").members, 4);
+  EXPECT_EQ(classes.at("Part").members, 2);
+}
+
+}  // namespace
+}  // namespace perilink::quality
