@@ -31,7 +31,7 @@ bool is_result_file(const std::string& name) {
   if (name.starts_with("error_")) return name.ends_with(".svg");
   if (name.starts_with("bars_") || name.starts_with("reactions_")) return name.ends_with(".csv");
   if (!name.starts_with("fields_")) return false;
-  return name.ends_with(".vtu") || name.ends_with(".pvtu") || name.ends_with(".svg");
+  return name.ends_with(".vtu") || name.ends_with(".svg");
 }
 
 /// Where a file stands in the order of removal: first what speaks of others, lest a removal that is
@@ -39,7 +39,7 @@ bool is_result_file(const std::string& name) {
 int rank_of_removal(const fs::path& file) {
   const std::string name = file.filename().string();
   if (name == "summary.json" || name == "fields.pvd") return name == "fields.pvd" ? 1 : 0;
-  return name.ends_with(".pvtu") ? 2 : 3;
+  return 2;
 }
 
 /// What a run that was killed left half written.

@@ -19,9 +19,6 @@
 namespace perilink {
 namespace {
 
-/// Attribute of a .pvtu that only this program reads.
-constexpr const char* num_pieces = "NumberOfPieces";
-
 static_assert(std::endian::native == std::endian::little, "the files say byte_order LittleEndian");
 
 const VtuArray* find(const std::vector<VtuArray>& arrays, const std::string& name) {
@@ -238,84 +235,7 @@ void write_vtu(const std::string& path, const VtuGrid& grid) {
   save(path, document);
 }
 
-std::string piece_of_vtu(const std::string& stem, int piece) {
-  return fmt::format("{}_{:04}.vtu", stem, piece);
-}
-
-void write_pvtu(const std::string& stem, const VtuGrid& like, int pieces) {
-  pugi::xml_document document;
-  pugi::xml_node file = append_file_node(document, "PUnstructuredGrid");
-  file.append_attribute("compressor") = "vtkZLibDataCompressor";
-  pugi::xml_node body = file.append_child("PUnstructuredGrid");
-  body.append_attribute("GhostLevel") = 0;
-  body.append_attribute(num_pieces) = pieces;
-  const auto describe = [](pugi::xml_node parent, const std::string& name, int components) {
-    pugi::xml_node node = parent.append_child("PDataArray");
-    node.append_attribute("type") = "Float64";
-    node.append_attribute("Name") = name.c_str();
-    node.append_attribute("NumberOfComponents") = components;
-  };
-  pugi::xml_node points = body.append_child("PPointData"), cells = body.append_child("PCellData");
-  for (const VtuArray& array : like.point_data) describe(points, array.name, array.components);
-  for (const VtuArray& array : like.cell_data) describe(cells, array.name, array.components);
-  describe(body.append_child("PPoints"), "Points", 3);
-  const std::string name = std::filesystem::path(stem).filename().string();
-  for (int piece = 0; piece < pieces; ++piece) {
-    body.append_child("Piece").append_attribute("Source") = piece_of_vtu(name, piece).c_str();
-  }
-  save(stem + ".pvtu", document);
-}
-
-namespace {
-
-/// Appends arrays of one more piece.
-void append_rows(const VtuReader& reader, const std::vector<VtuArray>& more,
-                 std::vector<VtuArray>& arrays) {
-  if (more.size() != arrays.size()) reader.fail("has pieces with unlike arrays");
-  for (std::size_t k = 0; k < more.size(); ++k) {
-    if (more[k].name != arrays[k].name || more[k].components != arrays[k].components) {
-      reader.fail("has pieces with unlike arrays");
-    }
-    arrays[k].values.insert(arrays[k].values.end(), more[k].values.begin(), more[k].values.end());
-  }
-}
-
-void append_piece(const VtuReader& reader, const VtuGrid& piece, VtuGrid& grid) {
-  if (grid.points.empty()) {
-    grid = piece;
-    return;
-  }
-  const auto points = static_cast<std::int32_t>(grid.points.size() / 3);
-  const auto end = static_cast<std::int32_t>(grid.connectivity.size());
-  grid.points.insert(grid.points.end(), piece.points.begin(), piece.points.end());
-  grid.types.insert(grid.types.end(), piece.types.begin(), piece.types.end());
-  for (const std::int32_t point : piece.connectivity) grid.connectivity.push_back(points + point);
-  for (const std::int32_t offset : piece.offsets) grid.offsets.push_back(end + offset);
-  append_rows(reader, piece.point_data, grid.point_data);
-  append_rows(reader, piece.cell_data, grid.cell_data);
-}
-
-VtuGrid read_pieces(const std::string& path) {
-  const VtuReader reader(path, "PUnstructuredGrid");
-  const std::filesystem::path stem = std::filesystem::path(path).replace_extension();
-  const pugi::xml_node body = reader.file().child("PUnstructuredGrid");
-  VtuGrid grid;
-  pugi::xml_node node = body.child("Piece");
-  const int count = body.attribute(num_pieces).as_int();
-  for (int piece = 0; piece < count || node; ++piece, node = node.next_sibling("Piece")) {
-    const std::string name = piece_of_vtu(stem.filename().string(), piece);
-    if (node.attribute("Source").as_string() != name) {
-      reader.fail("does not name its piece '" + name + "': the file is damaged");
-    }
-    append_piece(reader, read_vtu(piece_of_vtu(stem.string(), piece)), grid);
-  }
-  return grid;
-}
-
-}  // namespace
-
 VtuGrid read_vtu(const std::string& path) {
-  if (path.ends_with(".pvtu")) return read_pieces(path);
   const VtuReader reader(path, "UnstructuredGrid");
   if (reader.file().attribute("compressor").as_string() != std::string("vtkZLibDataCompressor") ||
       reader.file().attribute("header_type").as_string() != std::string("UInt64")) {

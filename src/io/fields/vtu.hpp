@@ -6,9 +6,8 @@
 #include <vector>
 
 /// \file
-/// VTK unstructured grids (.vtu, XML, zlib-compressed inline binary), files that name the pieces of
-/// one (.pvtu) and time series (.pvd), as ParaView opens them, and the reading back of files that
-/// this program wrote.
+/// Writes VTK unstructured grids (.vtu, XML, zlib-compressed inline binary) and time series (.pvd),
+/// as ParaView opens them, and reads files that this program wrote.
 
 namespace perilink {
 
@@ -47,16 +46,7 @@ struct VtuGrid {
 /// \throws FileError
 void write_vtu(const std::string& path, const VtuGrid& grid);
 
-/// File of a piece of the grid that STEM.pvtu names: STEM_0000.vtu and so on.
-std::string piece_of_vtu(const std::string& stem, int piece);
-
-/// Writes STEM.pvtu, which names the pieces of one grid that lie beside it (piece_of_vtu()).
-/// \param like  with the arrays of all pieces
-/// \throws FileError
-void write_pvtu(const std::string& stem, const VtuGrid& like, int pieces);
-
-/// Reads a file written by write_vtu, or where it is called .pvtu all pieces that it names, one
-/// after the other.
+/// Reads a file written by write_vtu.
 /// \throws FileError naming the file and what is wrong with it
 VtuGrid read_vtu(const std::string& path);
 

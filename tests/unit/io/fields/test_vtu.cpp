@@ -132,39 +132,6 @@ TEST_F(Vtu, SeriesDoNotLeaveTheirFolder) {
   }
 }
 
-TEST_F(Vtu, PiecesComeBackAsOneGrid) {
-  const test::TemporaryDirectory folder;
-  const std::string stem = (folder / "a").string(), whole = stem + ".pvtu";
-  VtuGrid grid = make_grid(2);
-  write_vtu(piece_of_vtu(stem, 0), grid);
-  write_vtu(piece_of_vtu(stem, 1), make_grid(1));
-  write_pvtu(stem, grid, 2);
-  const VtuGrid back = read_vtu(whole);
-  EXPECT_EQ(back.points.size(), 3u * 9u);
-  EXPECT_EQ(back.field_data, grid.field_data);
-  EXPECT_EQ(back.types.size(), 7u + 4u);
-  EXPECT_EQ(back.offsets[7], grid.offsets.back() + 1);
-  // The line of the second piece, between its own points.
-  EXPECT_EQ(back.connectivity[back.connectivity.size() - 2], 6);
-  EXPECT_EQ(back.connectivity.back(), 8);
-  EXPECT_EQ(back.find_point_data("damage")->values.size(), 9u);
-
-  const std::string text = test::read_text(whole), second = "<Piece Source=\"a_0001.vtu\" />";
-  for (const char* other :
-       {"", "<Piece Source=\"../a_0001.vtu\" />", "<Piece />", "<Piece Source=\"a.pvtu\" />"}) {
-    test::write_text(whole, replaced(text, second, other));
-    EXPECT_THROW(read_vtu(whole), FileError) << other;
-  }
-  test::write_text(whole, replaced(text, second, second + "<Piece Source=\"x.vtu\" />"));
-  EXPECT_THROW(read_vtu(whole), FileError);
-  write_pvtu(stem, grid, 3);  // one is absent
-  EXPECT_THROW(read_vtu(whole), FileError);
-  grid.point_data.pop_back();
-  write_vtu(piece_of_vtu(stem, 1), grid);
-  write_pvtu(stem, grid, 2);
-  EXPECT_THROW(read_vtu(whole), FileError);
-}
-
 TEST_F(Vtu, NumbersThatAreNotFiniteAreRefused) {
   for (const double value : {HUGE_VAL, std::nan("")}) {
     VtuGrid grid;
