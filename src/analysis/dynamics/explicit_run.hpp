@@ -10,31 +10,33 @@ namespace perilink {
 class Ranks;
 
 /// \file
-/// How explicit runs are asked for and what they tell, whatever they move.
+/// Options, rows and results of explicit runs of bonds and lattices.
 
-/// Load factor over time: (1 - cos(pi t / ramp)) / 2 up to `ramp`, then one.
+/// Returns the load factor: (1 - cos(pi t / ramp)) / 2 up to `ramp`, then one.
 double ramped_load_factor(double time, double ramp);
 
-/// How an explicit run goes through time.
+/// Time stepping of an explicit run.
 struct ExplicitOptions {
   double duration = 0.0;   ///< [time]
   double ramp = 0.0;       ///< time in which the load factor rises from zero to one [time]
   double time_step = 0.0;  ///< zero: `safety` times the critical one [time]
   double safety = 0.9;
-  int rows = 500;  ///< about how many the history gets
-  /// Displacement of the driven particles at load factor 1 [length]; where nothing is driven
-  /// (`driven` is false) the load there [force].
+  int rows = 500;  ///< approximate number of rows of the history
+  /// Displacement of the driven particles at load factor 1 [length]. Without prescribed
+  /// displacements (`driven` is false): the load at load factor 1 [force].
   double reference = 1.0;
   bool driven = true;
   int threads = 1;
-  Ranks* ranks = nullptr;       ///< that share the work of bonds, each by one thread; null: none do
-  bool refuse_unstable = true;  ///< false: a step beyond the critical one runs until it is noticed
+  /// communicator of explicit bonds, one thread per rank; null: one process
+  Ranks* ranks = nullptr;
+  /// false: a step beyond the critical one runs until the energy grows
+  bool refuse_unstable = true;
 
-  /// Where the time step is given.
+  /// Returns the number of steps; needs a positive `time_step`.
   Index steps() const { return static_cast<Index>(std::ceil(duration / time_step)); }
 };
 
-/// Where the energy is [force length].
+/// Energies of an explicit run [force length].
 struct EnergyBalance {
   double kinetic = 0.0;
   double stored = 0.0;
@@ -44,7 +46,7 @@ struct EnergyBalance {
   double external_work = 0.0;
   double plastic = 0.0;
 
-  /// Energy that appeared (+) or vanished.
+  /// Returns the energy that appeared (+) or vanished (-) [force length].
   double surplus() const {
     return kinetic + stored + internal_damping + external_damping + fractured + plastic -
            external_work;
@@ -68,21 +70,23 @@ struct ExplicitRecord {
   friend bool operator==(const ExplicitRecord&, const ExplicitRecord&) = default;
 };
 
-/// Watches a run over time; the state is valid during the call only. By itself it looks at nothing.
+/// Observer of a run over time; the state is valid during the call only. Every function does
+/// nothing by default.
 template <class State>
 class RunObserver {
  public:
   virtual ~RunObserver() = default;
   virtual void on_row(const ExplicitRecord& /*record*/, const State& /*state*/) {}
-  /// Once, after the last row.
+  /// Called once, after the last row.
   virtual void on_end(const ExplicitRecord& /*last*/, const State& /*state*/) {}
-  /// Every few hundred iterations of a dynamic relaxation.
+  /// Called every few hundred iterations of a dynamic relaxation.
   virtual void on_iteration(Index /*load_step*/, Index /*iteration*/, double /*residual*/) {}
-  /// Asked before every row and every few hundred steps; after a yes comes one more row.
+  /// Returns whether the run is to stop. Called before every row and every few hundred steps; a
+  /// stopped run writes one more row.
   virtual bool stop_requested() { return false; }
 };
 
-/// How an explicit run ended.
+/// Result of an explicit run.
 struct ExplicitResult {
   Termination termination = Termination::completed;
   std::string reason;
@@ -90,9 +94,9 @@ struct ExplicitResult {
   double time_step = 0.0;           ///< [time]
   double critical_time_step = 0.0;  ///< [time]
   double peak_load = 0.0;           ///< largest support reaction in magnitude [force]
-  double peak_displacement = 0.0;  ///< displacement of the driven particles at that moment [length]
-  double largest_surplus = 0.0;    ///< over the external work at the end [-]
-  int ranks = 1;                   ///< that shared the work
+  double peak_displacement = 0.0;   ///< displacement of driven particles at the peak [length]
+  double largest_surplus = 0.0;  ///< largest energy surplus over the external work at the end [-]
+  int ranks = 1;                 ///< number of processes that shared the work
   ExplicitRecord last;
 };
 

@@ -19,15 +19,16 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr int most_period_steps = 2000;
-constexpr double force_round_off = 1e-16;  ///< relative, in forces; very slender bodies multiply it
-/// Energy that the residual could still set free, over that of the vibration: a tenth of the error
-/// of the square of the frequency, or more.
+/// relative round-off of forces; very slender bodies multiply it
+constexpr double force_round_off = 1e-16;
+/// Energy that the residual could still release, over the energy of the vibration. The relative
+/// error of the squared frequency is at most about ten times as large.
 constexpr double tolerance = 1e-8;
-/// Below this part of the fastest stiffness over mass round-off of the forces takes the third digit
-/// of the period.
+/// Below this fraction of the largest stiffness over mass, round-off of forces changes the third
+/// digit of the period.
 constexpr double least_stiffness = 1e-13;
 
-/// The slowest vibration: a motion of unit kinetic form, orthogonal to what nothing resists.
+/// Slowest vibration: a motion of unit kinetic form, orthogonal to the free motions.
 class Vibration {
  public:
   Vibration(const Network& network, const Unknowns& unknowns, const Inertia& inertia,
@@ -45,7 +46,7 @@ class Vibration {
     }
   }
 
-  /// \return the square of its circular frequency [1/time^2]
+  /// Iterates to convergence. \return the square of the circular frequency [1/time^2]
   double settle();
 
  private:
@@ -85,13 +86,13 @@ class Vibration {
   const Unknowns& unknowns_;
   VectorXd mass_;
   SubdomainPreconditioner inverse_;
-  double fastest_;  ///< about the square of the fastest frequency [1/time^2]
+  double fastest_;  ///< estimated square of the highest circular frequency [1/time^2]
   std::vector<VectorXd> free_;
   InternalForce inner_;
-  std::vector<Direction> basis_;  ///< orthonormal; the present motion is the first one
+  std::vector<Direction> basis_;  ///< orthonormal; the present motion is the first
 };
 
-/// The same every time, with a part of every vibration, mostly of the slow ones.
+/// Returns a start vector from a fixed seed: it contains every vibration, mostly slow ones.
 VectorXd Vibration::random_start() const {
   std::mt19937 random(1);
   VectorXd push(mass_.size());
@@ -101,12 +102,12 @@ VectorXd Vibration::random_start() const {
   return u;
 }
 
-/// Makes a direction orthonormal to the basis. \return false where nothing of it is left
+/// Adds a direction, made orthonormal to the basis. \return false where only round-off is left
 bool Vibration::append(Direction direction) {
   const double whole = std::sqrt(product(direction.u, direction.u));
   if (!(whole > 0.0)) return false;
-  constexpr double least_part = 1e-10;    // less is round-off
-  for (int pass = 0; pass < 2; ++pass) {  // once leaves too much round-off
+  constexpr double least_part = 1e-10;    // smaller parts are round-off
+  for (int pass = 0; pass < 2; ++pass) {  // one pass leaves too much round-off
     make_orthogonal(direction.u, free_);  // no force acts along free motions
     for (const Direction& other : basis_) {
       const double part = product(other.u, direction.u);
@@ -122,8 +123,8 @@ bool Vibration::append(Direction direction) {
   return true;
 }
 
-/// The slowest motion of the basis takes the first place of the next one.
-/// \param last  what the others add to it
+/// Starts the next basis with the slowest motion of the present one.
+/// \param last  becomes the contribution of the other directions to that motion
 void Vibration::improve(Direction& last) {
   const auto count = static_cast<Eigen::Index>(basis_.size());
   Eigen::MatrixXd matrix(count, count);
@@ -153,15 +154,17 @@ double Vibration::settle() {
     const Direction& now = basis_.front();
     const double square = now.u.dot(now.force);
     if (!(square > least_stiffness * fastest_)) {
-      throw SolverError("parts of the body can move freely, or it is too slender to tell");
+      throw SolverError(
+          "the fundamental period cannot be computed: parts of the body move freely, or it is too "
+          "slender");
     }
     const VectorXd residual = now.force - square * mass_.cwiseProduct(now.u);
     VectorXd step = inverse_.times(residual);
     make_orthogonal(step, free_);
     const double noise = force_round_off * fastest_ / square;
-    const double left = residual.dot(step);  // below zero it is round-off and says nothing
+    const double left = residual.dot(step);  // negative values are round-off
     if (left >= 0.0 && left <= std::max(tolerance, noise * noise) * square) {
-      force_of(now.u);  // the energy is a sum of squares, which round-off hardly touches
+      force_of(now.u);  // round-off hardly changes the energy, a sum of squares
       return 2.0 * inner_.energy / product(now.u, now.u);
     }
     VectorXd resistance = force_of(step);
@@ -169,8 +172,8 @@ double Vibration::settle() {
     if (last.u.size() > 0) append(last);
     improve(last);
   }
-  throw SolverError(
-      fmt::format("the fundamental period is not settled after {} iterations", most_period_steps));
+  throw SolverError(fmt::format("the fundamental period has not converged after {} iterations",
+                                most_period_steps));
 }
 
 }  // namespace

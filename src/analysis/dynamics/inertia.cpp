@@ -14,8 +14,8 @@ template <int Width>
 using Blocks = std::vector<Eigen::Matrix<double, Width, Width>,
                            Eigen::aligned_allocator<Eigen::Matrix<double, Width, Width>>>;
 
-/// Stiffness of bonds alone that stores at least as much as bonds and states: a sum of n extensions
-/// squares to at most n times the sum of their squares.
+/// Returns stiffnesses of bonds that store at least as much energy as bonds and states together. A
+/// sum of n extensions squares to at most n times the sum of their squares.
 std::vector<double> bounding_stiffness(const Network& network) {
   if (!network.has_states()) return network.stiffness;
   std::vector<double> count(network.state_stiffness.size(), 0.0);
@@ -33,8 +33,8 @@ std::vector<double> bounding_stiffness(const Network& network) {
   return stiffness;
 }
 
-/// Sum of k b b' of all modes that end at each particle; with Green strains of what the tangents
-/// k ((1 + 2 g) n n' + g I) of bonds become before they break.
+/// Returns the sum of k b b' of all modes that end at each particle. With Green strains the terms
+/// are bounds of the tangents k ((1 + 2 g) n n' + g I) before the bond breaks.
 template <int Dim>
 Blocks<Dim> own_trusses(const Network& network, Strain strain) {
   Blocks<Dim> blocks(static_cast<std::size_t>(network.particles.size()),
@@ -44,7 +44,7 @@ Blocks<Dim> own_trusses(const Network& network, Strain strain) {
     const Eigen::Map<const Eigen::Matrix<double, Dim, 1>> n(network.bonds.direction(e).data());
     Eigen::Matrix<double, Dim, Dim> part = stiffness[e] * n * n.transpose();
     if (strain == Strain::green && network.can_break(e)) {
-      double along = 0.0, across = 0.0;  // largest of all teeth
+      double along = 0.0, across = 0.0;  // largest of all segments
       for (int k = 0; network.law(e).segment(k).secant > 0.0; ++k) {
         const Segment segment = network.law(e).segment(k);
         const double g = network.critical_stretch[e] * segment.limit;
@@ -103,7 +103,7 @@ std::vector<double> masses_of_volumes(const Network& network, std::span<const do
   return mass;
 }
 
-/// Masses with which all own stiffnesses vibrate alike.
+/// Sets masses with which all own stiffnesses vibrate at one frequency.
 void scale_masses(const std::vector<double>& stiffness, std::vector<double>& mass) {
   double total = 0.0, sum = 0.0;
   for (std::size_t i = 0; i < mass.size(); ++i) {
@@ -113,7 +113,7 @@ void scale_masses(const std::vector<double>& stiffness, std::vector<double>& mas
   for (std::size_t i = 0; i < mass.size(); ++i) mass[i] = total * stiffness[i] / sum;
 }
 
-/// Particles without volume or material: ghosts and bars.
+/// Sets masses of particles without volume or material: ghosts and bars.
 void complete_masses(const std::vector<double>& stiffness, std::vector<double>& mass) {
   double fastest = 0.0, heaviest = 0.0;
   for (std::size_t i = 0; i < mass.size(); ++i) {
@@ -140,7 +140,7 @@ template <int Dim, int Width>
 Inertia inertia_of(const Network& network, const Blocks<Width>& blocks,
                    std::span<const double> density, MassScaling scaling) {
   std::vector<double> mass = masses_of_volumes(network, density);
-  std::vector<double> moving, turning;  // stiffness against displacements and rotations
+  std::vector<double> moving, turning;  // stiffness of displacements and of rotations
   for (const auto& block : blocks) {
     moving.push_back(largest_eigenvalue(block.template topLeftCorner<Dim, Dim>()));
     if constexpr (Width > Dim) {

@@ -13,8 +13,9 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr int most_coarse = 600;  ///< unknowns of a dense matrix that costs less than the iteration
-/// Pivots below this part of the diagonal are nothing but round-off.
+/// unknowns; a dense matrix of this size costs less than the iteration
+constexpr int most_coarse = 600;
+/// Pivots below this fraction of the diagonal are round-off.
 constexpr double floor_of_pivots = 1e-13;
 
 template <int Dim, class Visit>
@@ -28,7 +29,7 @@ void visit_modes(const Network& network, Index element, std::array<EnergyPart, 2
   }
 }
 
-/// visit(k, parts) for the squares of bonds and springs.
+/// Calls visit(k, parts) for the squares of bonds and springs.
 template <class Visit>
 void visit_elements(const Network& network, Visit visit) {
   const int dim = network.dim(), width = network.width();
@@ -53,7 +54,7 @@ void visit_elements(const Network& network, Visit visit) {
   }
 }
 
-/// visit(k, parts) for the squares of sums of extensions.
+/// Calls visit(k, parts) for the squares of sums of extensions.
 template <class Visit>
 void visit_states(const Network& network, Visit visit) {
   if (!network.has_states()) return;
@@ -98,7 +99,7 @@ SubdomainPreconditioner::SubdomainPreconditioner(const Network& network, const U
   invert_blocks();
 }
 
-/// As many cubes, side by side, as the dense matrix allows.
+/// Divides the body into as many cubes as the size of the dense matrix allows.
 void SubdomainPreconditioner::number_subdomains(const Particles& particles) {
   const Index count = particles.size();
   Vector3 lower{}, upper{};
@@ -147,7 +148,8 @@ void SubdomainPreconditioner::set_arms(const Particles& particles) {
   }
 }
 
-/// A force (and moment) on a particle as force and moment on its box, moments over its side.
+/// Returns a force (and moment) on a particle as force and moment on its subdomain; moments are
+/// over the edge length.
 SubdomainPreconditioner::Motion SubdomainPreconditioner::on_subdomain(Index particle,
                                                                       const double* b) const {
   const double* r = arm_.data() + static_cast<std::size_t>(particle) * dim_;
@@ -210,7 +212,8 @@ void SubdomainPreconditioner::invert_blocks() {
   }
 }
 
-/// What a motion of its box makes of a particle, the transpose of on_box().
+/// Returns the motion of a particle in a rigid motion of its subdomain; the transpose of
+/// on_subdomain().
 SubdomainPreconditioner::Motion SubdomainPreconditioner::of_subdomain(
     Index particle, const double* subdomain) const {
   const double* r = arm_.data() + static_cast<std::size_t>(particle) * dim_;

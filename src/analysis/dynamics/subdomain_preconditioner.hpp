@@ -11,28 +11,30 @@
 
 namespace perilink {
 
-/// What a particle adds to the deformation of a square of the energy, k (sum of b . q)^2 / 2.
+/// Contribution of a particle to the deformation in a square of the energy, k (sum of b . q)^2 / 2.
 struct EnergyPart {
   Index particle = 0;
-  std::array<double, 6> b{};  ///< as many as its motion q has components
+  std::array<double, 6> b{};  ///< one per component of the motion q
 };
 
-/// Approximates the inverse of the intact stiffness, prescribed components held, without
-/// factorising it: the inverse of every particle's own block, plus the inverse for a body whose
-/// boxes of particles move rigidly (a small dense matrix). Conjugate gradients then take as many
-/// iterations as a box has particles across, however large the body is.
+/// Approximate inverse of the intact stiffness with prescribed components fixed, without a factor
+/// of the stiffness. It is the sum of the inverse of every particle's own block and a coarse
+/// inverse. The coarse matrix, small and dense, belongs to rigid motions of subdomains. The number
+/// of conjugate-gradient iterations grows with the particles along an edge of a subdomain, not with
+/// the size of the body.
 class SubdomainPreconditioner {
  public:
-  /// \param unknowns  have to outlive this
+  /// \param unknowns  must outlive this object
   SubdomainPreconditioner(const Network& network, const Unknowns& unknowns);
 
-  /// \param residual  and the result: shape (particles, width), zero at what is held
+  /// Applies the approximate inverse.
+  /// \param residual  shape (particles, width), like the result; zero at prescribed components
   Eigen::VectorXd times(const Eigen::VectorXd& residual) const;
-  /// Largest own stiffness of a component over its mass [1/time^2].
+  /// Returns the largest own stiffness of a component over its mass [1/time^2].
   double fastest(const std::vector<double>& mass) const;
 
  private:
-  using Motion = std::array<double, 6>;  ///< components of a particle or a box, as many as it has
+  using Motion = std::array<double, 6>;  ///< components of the motion of a particle or a subdomain
 
   void number_subdomains(const Particles& particles);
   void set_arms(const Particles& particles);
@@ -46,12 +48,13 @@ class SubdomainPreconditioner {
   Index subdomains_ = 0;
   double side_ = 1.0;
   std::vector<Index> subdomain_of_;
-  std::vector<double> arm_;     ///< from the middle of the box, over its side, (particles, dim)
+  /// from the centre of the subdomain, over its edge length, (particles, dim)
+  std::vector<double> arm_;
   std::vector<double> blocks_;  ///< own stiffness, then its inverse, (particles, width, width)
   std::vector<double> diagonal_;
   Eigen::MatrixXd coarse_;
   Eigen::LDLT<Eigen::MatrixXd> inverse_;
-  /// Boxes that one square of the energy involves.
+  /// Subdomains in one square of the energy.
   std::vector<std::pair<Index, Motion>> on_subdomains_;
 };
 

@@ -9,7 +9,7 @@
 namespace perilink {
 namespace {
 
-constexpr double smallest = 1e-290;  // keeps bodies at rest from dividing by zero
+constexpr double smallest = 1e-290;  // prevents division by zero for bodies at rest
 
 }  // namespace
 
@@ -23,9 +23,9 @@ ExplicitLoop::ExplicitLoop(const ExplicitOptions& options, double critical_time_
   const double step =
       options.time_step > 0.0 ? options.time_step : options.safety * critical_time_step;
   if (step > critical_time_step && options.refuse_unstable) {
-    throw std::invalid_argument(
-        fmt::format("the time step {:.4g} is larger than the critical one, {:.4g}; take less", step,
-                    critical_time_step));
+    throw std::invalid_argument(fmt::format(
+        "the time step {:.4g} exceeds the critical time step {:.4g}; choose a smaller one", step,
+        critical_time_step));
   }
   steps_ = static_cast<Index>(std::ceil(options.duration / step));
   between_rows_ = std::max<Index>(1, steps_ / std::max(1, options.rows));
@@ -56,14 +56,15 @@ std::string ExplicitLoop::why() const {
       critical);
 }
 
-/// Only work from outside can raise kinetic and stored energy.
+/// Ends the run where kinetic and stored energy exceed the external work.
 void ExplicitLoop::check_growth(Index step, const EnergyBalance& energy) {
   const double held = energy.kinetic + energy.stored;
   if (step == 0) initial_ = held;
   supplied_ = std::max(supplied_, initial_ + std::abs(energy.external_work));
-  // Stored energy between two steps can be negative: a linear motion that grows keeps the sum. The
-  // kinetic part alone of one that does not is at most 1 / (1 - (omega dt / 2)^2) of it, fifty at
-  // 0.99 of the critical step. Both are false for NaN.
+  // Stored energy between two steps can be negative, and an unstable linear motion keeps the sum of
+  // both energies. So kinetic energy has its own limit. In a stable motion it is at most 1 / (1 -
+  // (omega dt / 2)^2) of the sum, fifty at 0.99 of the critical step. Both comparisons are false
+  // for NaN.
   constexpr double most_kinetic = 100.0;
   const double most = 2.0 * supplied_ + smallest;
   if (std::abs(held) <= most && energy.kinetic <= most_kinetic * supplied_ + smallest) {

@@ -11,26 +11,26 @@
 
 namespace perilink {
 
-/// The frame of every explicit run: how long its steps are, when rows come and how it ends. What a
-/// step does is the caller's.
+/// Time loop of explicit runs: length of steps, times of rows, and termination. The caller computes
+/// the steps.
 class ExplicitLoop {
  public:
   /// \throws std::invalid_argument where the time step exceeds the critical one (unless
-  /// refuse_unstable is off) or the duration is not positive
+  ///     refuse_unstable is off) or the duration is not positive
   ExplicitLoop(const ExplicitOptions& options, double critical_time_step);
 
   double time_step() const { return result_.time_step; }
   double load_factor(Index step) const;
   bool is_done() const { return done_; }
-  /// Ends the run where another process has looked at it.
+  /// Ends the run on a worker when the root has ended it.
   void leave() { done_ = true; }
-  /// So far; what run() returns has that of the steps it knew of.
+  /// Returns the result so far, including steps noted after run() has returned.
   const ExplicitResult& result() const { return result_; }
-  /// Whether look() has to be called at a step.
+  /// Returns whether look() must be called at a step.
   bool is_looked_at(Index step) const { return is_row(step) || step % steps_between_checks == 0; }
 
-  /// Calls one_step(step) for every step, each by all threads of the round.
-  /// What an observer throws ends the run as failed.
+  /// Calls one_step(step) for every step by all threads of the round. An exception of an observer
+  /// ends the run as failed.
   template <class OneStep>
   ExplicitResult run(int most_threads, OneStep one_step) {
     ThreadChoice choice(most_threads);
@@ -45,10 +45,10 @@ class ExplicitLoop {
     return result_;
   }
 
-  /// To be called by one thread, between barriers: ends runs whose energy grows, asks the observer
-  /// whether to stop, and tells it of rows. Where energies are no numbers any more there is no row.
-  /// \param record    has the energies of this step, and the reactions of the last
-  /// \param complete  fills in what else a row of this body has
+  /// Ends runs whose energy grows, asks the observer whether to stop, and passes rows to it.
+  /// Without finite energies there is no row. Called by one thread, between barriers.
+  /// \param record    has the energies of this step and the reactions of the last
+  /// \param complete  fills in the other values of a row
   template <class Observer, class State, class Complete>
   void look(Index step, ExplicitRecord& record, Observer& observer, const State& state,
             Complete complete) {
@@ -70,9 +70,10 @@ class ExplicitLoop {
     });
   }
 
-  /// \param displacement  at the driven particles in this step [length]
+  /// \param supports      reaction of supports [force]
+  /// \param displacement  of the driven particles in this step [length]
   void note_reaction(double supports, double displacement) {
-    if (!(std::abs(supports) > std::abs(result_.peak_load))) return;  // nor for what is no number
+    if (!(std::abs(supports) > std::abs(result_.peak_load))) return;  // also false for NaN
     result_.peak_load = supports;
     result_.peak_displacement = displacement;
   }
@@ -81,18 +82,19 @@ class ExplicitLoop {
   static constexpr Index steps_between_checks = 200, steps_of_a_round = 2;
 
   bool is_row(Index step) const { return step % between_rows_ == 0 || step == steps_; }
-  /// Whether a round has no row, whose files take longer than steps, or most rounds have one.
+  /// Returns whether a round has no row, or most rounds have one: writing a row takes longer than
+  /// steps.
   bool tells_of_steps(Index begin) const {
     const Index next_row = (begin + between_rows_ - 1) / between_rows_ * between_rows_;
     return next_row >= begin + steps_of_a_round || between_rows_ < 4 * steps_of_a_round;
   }
   void end(Termination termination, const std::string& reason);
-  /// Why the motion may have grown.
+  /// Returns a possible cause of the growth of energy.
   std::string why() const;
   void check_growth(Index step, const EnergyBalance& energy);
   void note_row(const ExplicitRecord& record);
 
-  /// Exceptions must not leave a parallel region.
+  /// Stores exceptions, which must not leave a parallel region.
   template <class Action>
   void guarded(const Action& action) {
     try {
@@ -107,7 +109,7 @@ class ExplicitLoop {
   Index steps_ = 0, between_rows_ = 1;
   double initial_ = 0.0, supplied_ = 0.0, largest_surplus_ = 0.0;  ///< energies
   bool done_ = false, overflowed_ = false;
-  std::string failure_;  ///< what an observer failed with
+  std::string failure_;  ///< message of an observer's exception
   ExplicitResult result_;
 };
 

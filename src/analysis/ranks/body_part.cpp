@@ -7,8 +7,7 @@
 namespace perilink {
 namespace {
 
-/// Visits the members of a part that are plain lists and values, in one order for sender and
-/// receiver.
+/// Visits the plain lists and values of a part, in one order for sender and receiver.
 template <class Part, class Visit>
 void for_each_member(Part& part, Visit visit) {
   auto& network = part.body.network;
@@ -48,7 +47,7 @@ void for_each_member(Part& part, Visit visit) {
   visit(part.ghosts.numbers);
 }
 
-/// Elements with an end among the own particles.
+/// Returns the elements with an end among the particles [begin, end).
 std::vector<Index> elements_of(const Network& network, Index begin, Index end) {
   std::vector<Index> elements;
   for (Index e = 0; e < network.num_elements(); ++e) {
@@ -59,8 +58,8 @@ std::vector<Index> elements_of(const Network& network, Index begin, Index end) {
   return elements;
 }
 
-/// Anchors among the particles [first, past) of a part. A part that has ties of an anchor numbers
-/// the particles around the anchor, too.
+/// Returns the embedded points among the particles [first, past) of a part. A part with slip
+/// springs of an embedded point also numbers the particles around that point.
 EmbeddedPoints cut_embedded_points(const Network& network, Index first, Index past) {
   EmbeddedPoints own;
   const Index embedded_points = network.first_embedded_point();

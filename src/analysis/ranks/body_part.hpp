@@ -9,10 +9,10 @@
 
 namespace perilink {
 
-/// Which particles each rank owns: consecutive blocks of consecutive numbers, about equally many. A
-/// rank numbers the particles between the first and the last one that its elements reach, from the
-/// first whole block on. It knows the motion of its own particles and of those that its elements
-/// reach.
+/// Assignment of particles to ranks: consecutive blocks of consecutive numbers, about equally many.
+/// The part of a rank spans the particles between the first and the last one that its elements
+/// reach, from the first whole block on. A rank has the motion of its own particles and of those
+/// that its elements reach.
 struct Partition {
   /// \param blocks  all particles of the network; at least one block for each rank
   Partition(const Network& network, const ParticleBlocks& blocks, int ranks);
@@ -23,15 +23,15 @@ struct Partition {
   Ghosts ghosts(const Network& network, int rank) const;
 
   ParticleBlocks blocks;
-  std::vector<Index> first_block;     ///< per rank, and an end
-  std::vector<Index> first_particle;  ///< per rank: the particle that has number zero in its part
-  std::vector<Index> past_particle;   ///< per rank: behind the last particle that it numbers
+  std::vector<Index> first_block;     ///< first block per rank, and the end; size ranks + 1
+  std::vector<Index> first_particle;  ///< per rank: particle with number zero in the part
+  std::vector<Index> past_particle;   ///< per rank: one past the last particle of the part
 };
 
-/// The part of a body that a rank knows. Particles, elements and blocks have numbers of the part.
+/// Part of a body on one rank. Particles, elements and blocks have numbers of the part.
 struct BodyPart {
-  /// Elements with an own end, also around an anchor. There are no positions, and unknowns have the
-  /// numbers of the whole body.
+  /// Elements with an own end, also those around an embedded point. Positions are absent. Unknowns
+  /// have the numbers of the whole body.
   LoadedNetwork body;
   std::vector<Index> elements;  ///< numbers in the whole body, ascending
   Index first_particle = 0;     ///< number of particle zero in the whole body
@@ -47,8 +47,8 @@ struct BodyPart {
 BodyPart cut_part(const Network& network, const Unknowns& unknowns, const Partition& partition,
                   int rank);
 
-/// Values of the particles [begin, end) of a field of shape (particles, width), or none of an empty
-/// one.
+/// Returns the values of the particles [begin, end) of a field of shape (particles, width); an
+/// empty field gives an empty result.
 template <class T>
 std::vector<T> slice(const std::vector<T>& field, Index begin, Index end, int width) {
   if (field.empty()) return {};
@@ -56,7 +56,7 @@ std::vector<T> slice(const std::vector<T>& field, Index begin, Index end, int wi
           field.begin() + static_cast<std::ptrdiff_t>(end) * width};
 }
 
-/// Numbers in the part of those elements of the whole body that it has.
+/// Returns the numbers within the part of those elements of `all` that the part has.
 /// \param elements  BodyPart::elements
 std::vector<Index> in_part(const std::vector<Index>& all, const std::vector<Index>& elements);
 

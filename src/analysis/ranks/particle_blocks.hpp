@@ -7,11 +7,11 @@
 
 namespace perilink {
 
-/// Particles in blocks of a fixed size: sums over blocks do not depend on the number of threads.
+/// Blocks of particles of a fixed size. Sums over blocks do not depend on the number of threads.
 class ParticleBlocks {
  public:
   /// \param width  components of the motion of a particle
-  /// \param size   particles of a block; only the last block may have fewer
+  /// \param size   particles of a block; the last block may have fewer
   ParticleBlocks(Index particles, int width, Index size = 256)
       : particles_(particles), width_(width), size_(size) {}
 
@@ -20,18 +20,18 @@ class ParticleBlocks {
   Index begin(Index block) const { return block * size_; }
   Index end(Index block) const { return std::min(particles_, begin(block) + size_); }
 
-  /// Components of the particles of a block: [first_slot, last_slot).
+  /// First component of the particles of a block; last_slot() is one past the last component.
   std::size_t first_slot(Index block) const {
     return static_cast<std::size_t>(begin(block)) * width_;
   }
   std::size_t last_slot(Index block) const { return static_cast<std::size_t>(end(block)) * width_; }
 
-  /// As many threads as are wanted and have something to do.
+  /// Returns the number of threads to use: at most `wanted`, and one per four blocks.
   int threads(int wanted) const {
     return std::min<Index>(wanted, std::max<Index>(1, count() / blocks_per_thread));
   }
 
-  /// visit(slot) for every component of every particle of a block.
+  /// Calls visit(slot) for every component of every particle of a block.
   template <class Visit>
   void for_slots(Index block, Visit visit) const {
     for (std::size_t slot = first_slot(block); slot < last_slot(block); ++slot) visit(slot);

@@ -15,13 +15,13 @@
 namespace perilink {
 namespace {
 
-/// MPI counts in int.
+/// Messages are cut into pieces because MPI counts in int.
 constexpr std::size_t largest_message = 1 << 30;
 
 class MpiRanks final : public Ranks {
  public:
   MpiRanks() {
-    // Ranks that wait leave the processors to other programs, unless the user says otherwise.
+    // Waiting ranks yield the processor unless the user sets the variable.
     setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
     if (MPI_Init(nullptr, nullptr) != MPI_SUCCESS) throw SolverError("MPI does not start");
     MPI_Comm_size(MPI_COMM_WORLD, &count_);
@@ -91,7 +91,8 @@ class MpiRanks final : public Ranks {
   }
 
  private:
-  /// MPI itself waits at full speed, while the first rank sets up for minutes.
+  /// Sleeps between probes: MPI_Recv would use a whole processor while the root sets up for
+  /// minutes.
   void wait_for(int from) const {
     using namespace std::chrono_literals;
     constexpr auto longest_nap = 2000us;

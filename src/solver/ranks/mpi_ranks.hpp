@@ -6,8 +6,8 @@
 
 namespace perilink {
 
-/// The processes that mpiexec has started. Each process makes one object, before anything else, and
-/// destroys it last.
+/// Starts MPI and returns the communicator of all processes of mpiexec. Call it first in a process,
+/// and destroy the result last.
 /// \throws SolverError where MPI does not start
 std::unique_ptr<Ranks> start_mpi_ranks();
 

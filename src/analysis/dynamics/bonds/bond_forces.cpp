@@ -14,12 +14,12 @@
 namespace perilink {
 namespace {
 
-/// What can happen to the elements of a network.
+/// Events that the elements of a network can have.
 enum class Limits {
   none,
   pulled,    ///< events come in tension only
   strained,  ///< events of some elements come in compression as well
-  closing,   ///< the same, and damaged elements may close
+  closing,   ///< as `strained`, and cracks of damaged elements may close
 };
 
 /// \tparam Half  TrussHalf, GreenHalf or FrameHalf
@@ -52,8 +52,8 @@ class Halves final : public ExplicitBonds {
   std::vector<std::size_t> offsets_;
   std::vector<Half> halves_;
   std::vector<Index> element_;
-  std::vector<double> limit_;   ///< an intact bond fails where Half::demand() exceeds this
-  std::vector<double> secant_;  ///< present, over the intact stiffness
+  std::vector<double> limit_;   ///< limit of Half::demand() of the present segment
+  std::vector<double> secant_;  ///< secant stiffness ratio
   std::vector<int> segment_;
   std::vector<std::uint8_t> both_;  ///< Sense::both
 };
@@ -79,7 +79,8 @@ Halves<Half>::Halves(const Network& network, const std::vector<Index>& elements)
   if (network.has_closing()) limits_ = Limits::closing;
 }
 
-/// What a damaged element resists more where it is compressed.
+/// Returns whether an element is damaged and regains axial stiffness in compression (crack
+/// closure).
 template <class Half>
 bool Halves<Half>::may_close(std::size_t half) const {
   return secant_[half] < 1.0 && network_.law(element_[half]).closes();
@@ -104,7 +105,7 @@ void Halves<Half>::add(const Network& network, Index element, bool first) {
   secant_.back() = 0.0;
 }
 
-/// That ends the tooth, in units of Half::demand().
+/// Returns the limit of a segment in units of Half::demand().
 template <class Half>
 double Halves<Half>::limit_of(Index element, int segment) const {
   return Half::limit_of_demand(
@@ -118,7 +119,7 @@ void Halves<Half>::before(const double* now, const double* speed, double time_st
   for (int c = 0; c < width; ++c) past[c] = now[c] - time_step * speed[c];
 }
 
-/// The element falls to the tooth on which it holds, or breaks.
+/// Moves the element to the segment that resists the demand, or breaks it.
 template <class Half>
 void Halves<Half>::give_way(std::size_t half, double demand, const double* own,
                             const double* own_speed, const BondMotion& motion, double time_step,
@@ -214,7 +215,7 @@ std::vector<double> Halves<Half>::secants() const {
   std::vector<double> result(static_cast<std::size_t>(network_.num_elements()), 1.0);
   for (std::size_t half = 0; half < halves_.size(); ++half) {
     double& secant = result[element_[half]];
-    secant = std::min(secant, secant_[half]);  // only one of its halves may be moved
+    secant = std::min(secant, secant_[half]);  // the other half may belong to another rank
   }
   return result;
 }
@@ -230,7 +231,7 @@ std::unique_ptr<ExplicitBonds> make_halves(const Network& network,
 
 std::unique_ptr<ExplicitBonds> make_explicit_halves(const Network& network, Strain strain) {
   if (network.has_states()) {
-    throw std::invalid_argument("state-based particles are not a network of bonds alone");
+    throw std::invalid_argument("state-based particles need make_explicit_particles()");
   }
   std::vector<Index> all(static_cast<std::size_t>(network.num_elements()));
   std::iota(all.begin(), all.end(), 0);
@@ -240,7 +241,7 @@ std::unique_ptr<ExplicitBonds> make_explicit_halves(const Network& network, Stra
   };
   if (network.carries_moments()) {
     if (strain == Strain::green) {
-      throw std::invalid_argument("bonds that carry moments know small strains only");
+      throw std::invalid_argument("bonds that carry moments support small strains only");
     }
     return complete(make_halves<FrameHalf>(network, all));
   }

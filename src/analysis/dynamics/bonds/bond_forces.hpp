@@ -9,22 +9,24 @@
 
 namespace perilink {
 
-/// Truss bonds of small strains that recur throughout a body are held together
-/// (analysis/dynamics/bonds/stencil_bonds.hpp), all others one by one.
-/// \param network  has to outlive the result
+/// Returns the explicit bonds of a network. Truss bonds of small strains that recur throughout a
+/// body share a stencil (analysis/dynamics/bonds/stencil_bonds.hpp). All others are stored one by
+/// one.
+/// \param network  must outlive the result
 /// \throws std::invalid_argument for Green strains of bonds that carry moments, and for networks
-/// with states (make_explicit_particles)
+///     with states (make_explicit_particles)
 std::unique_ptr<ExplicitBonds> make_explicit_bonds(const Network& network,
                                                    Strain strain = Strain::small);
 
-/// The stencil of these; without kinds where all bonds are held one by one.
+/// Returns the stencil for make_explicit_bonds(); without kinds where all bonds are stored one by
+/// one.
 BondStencil stencil_for(const Network& network, Strain strain);
 
-/// make_explicit_bonds() where the stencil is known.
+/// Returns the explicit bonds of a network for a given stencil.
 std::unique_ptr<ExplicitBonds> make_explicit_bonds(const Network& network, Strain strain,
                                                    BondStencil stencil);
 
-/// The same with every half of a bond by itself, whatever the body.
+/// Returns the explicit bonds of a network with every directed bond stored one by one.
 std::unique_ptr<ExplicitBonds> make_explicit_halves(const Network& network,
                                                     Strain strain = Strain::small);
 

@@ -10,11 +10,12 @@
 namespace perilink {
 namespace {
 
-/// Far more than the inside of a lattice has: surfaces may add some of which most are dropped.
+/// Limit far above the number of kinds inside a lattice; surfaces may add kinds, most of which are
+/// dropped.
 constexpr std::size_t most_kinds = 1 << 16;
-/// Bonds per kind below which a body with so many kinds has no order.
+/// Bodies with fewer bonds per kind are unstructured.
 constexpr std::size_t least_repeats = 2;
-/// Halves of bonds that a line must hold on average: it costs as much as so many single ones.
+/// Least average number of directed bonds in a line, which costs as much as this many single ones.
 constexpr double least_fill = 3.0;
 /// Round-off of positions, relative to the shortest distances between them.
 constexpr double same = 1e-11;
@@ -29,11 +30,12 @@ bool alike(const BondKind& a, const BondKind& b) {
   return result;
 }
 
-/// Sorts elements into kinds by cells far wider than round-off and far narrower than what differs.
+/// Sorts elements into kinds by cells that are far wider than round-off and far narrower than real
+/// differences.
 class Kinds {
  public:
-  /// Number of the kind of an element; no_kind where a cell holds bonds that differ, and for new
-  /// ones where there are too many.
+  /// Returns the kind of an element. Returns no_kind where a cell holds different bonds, and for
+  /// new kinds beyond the limit.
   int find(const Network& network, Index element) {
     const BondKind kind = kind_of(network, element);
     if (!(std::isfinite(kind.modulus) && kind.modulus > 0.0 && kind.limit > 0.0)) return no_kind;
@@ -79,7 +81,7 @@ class Kinds {
   std::map<Cell, int> number_;
 };
 
-/// Half of a bond on the stencil, at one of the particles of a group.
+/// Directed bond on the stencil, at one of the particles of a group.
 struct Half {
   int kind;
   bool incoming;
@@ -96,7 +98,7 @@ struct Half {
 
 using HalvesOfGroups = std::vector<std::vector<Half>>;
 
-/// Halves of the elements that have a kind, sorted by lines.
+/// Returns the directed bonds of elements with a kind, sorted by lines.
 HalvesOfGroups sort_halves(const Network& network, const std::vector<int>& kind) {
   constexpr int lanes = BondStencil::lanes;
   HalvesOfGroups groups((network.particles.size() + lanes - 1) / lanes);
@@ -110,7 +112,7 @@ HalvesOfGroups sort_halves(const Network& network, const std::vector<int>& kind)
   return groups;
 }
 
-/// Takes out kinds whose halves lie too far apart, and all but one of bonds side by side.
+/// Removes kinds that fill their lines too thinly, and all but one of parallel bonds.
 void drop_thin_kinds(const HalvesOfGroups& groups, std::size_t kinds, std::vector<int>& kind) {
   std::vector<double> halves(kinds, 0.0), lines(kinds, 0.0);
   std::vector<std::array<int, 2>> sides(kinds);  // lines of outgoing and incoming halves
@@ -134,7 +136,8 @@ void drop_thin_kinds(const HalvesOfGroups& groups, std::size_t kinds, std::vecto
   }
 }
 
-/// Lines of a group, outgoing and incoming bonds of a kind side by side, and its elements.
+/// Returns the lines of a group, with outgoing and incoming bonds of a kind in one line, and
+/// appends its elements.
 std::vector<StencilLine> make_lines(const std::vector<Half>& halves, std::vector<Index>& element) {
   constexpr int lanes = BondStencil::lanes;
   std::vector<StencilLine> lines;

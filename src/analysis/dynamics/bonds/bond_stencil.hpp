@@ -6,17 +6,17 @@
 
 namespace perilink {
 
-/// What the bonds of a regular body have in common with many others, to round-off.
+/// Translation class of bonds in a regular body: values that many bonds share, to round-off.
 struct BondKind {
   Vector3 direction{};   ///< unit vector from the first end to the second
   double length = 0.0;   ///< [length]
   double modulus = 0.0;  ///< k / (V_i V_j) [force/length^7]
-  double limit = 0.0;    ///< extension at which it breaks [length]; infinity: it cannot break
+  double limit = 0.0;    ///< extension at which the bond breaks [length]; infinity: unbreakable
 };
 
-/// Two bonds of one kind of each particle of a group: one to the particle `out` numbers further on,
-/// of which it is the first end, and one to the particle `in` numbers back, of which it is the
-/// second.
+/// Two bonds of one kind of each particle of a group. In the bond to the particle `out` numbers
+/// further on, the particle is the first end. In the bond to the particle `in` numbers back, it is
+/// the second end.
 struct StencilLine {
   int kind = 0;
   Index out = 0, in = 0;
@@ -24,9 +24,9 @@ struct StencilLine {
   friend auto operator<=>(const StencilLine&, const StencilLine&) = default;
 };
 
-/// The bonds of a network whose particles are numbered row after row: particles in groups of
-/// `lanes`, the halves of their bonds in lines that reach equally far. Bonds that do not recur are
-/// left to others.
+/// Bonds of a network whose particles are numbered row after row. Particles form groups of `lanes`.
+/// A line holds the directed bonds of a group that reach equally far. Bonds that do not recur are
+/// in `rest`.
 struct BondStencil {
   static constexpr int lanes = 8;
   /// Slots of a line: outgoing bonds of all lanes, then incoming ones.
@@ -38,14 +38,16 @@ struct BondStencil {
     std::size_t first_slot = 0;
   };
 
-  std::vector<BondKind> kinds;                     ///< empty: no bond is on the stencil
-  std::vector<std::vector<StencilLine>> patterns;  ///< lines of a group, as many groups have them
-  std::vector<Group> groups;                       ///< particles lanes * g and the next
+  std::vector<BondKind> kinds;  ///< empty: no bond is on the stencil
+  /// lines of a group; many groups share one pattern
+  std::vector<std::vector<StencilLine>> patterns;
+  std::vector<Group> groups;   ///< group g: particles lanes * g to lanes * (g + 1) - 1
   std::vector<Index> element;  ///< per slot (group, line, side, lane); no_index: none
   std::vector<Index> rest;     ///< elements off the stencil, ascending
 };
 
-/// Bonds that can yield, and those of kinds that fill their lines too thinly, are off the stencil.
+/// Returns the stencil of a network. Bonds that can yield, and bonds of kinds that fill their lines
+/// too thinly, are off the stencil.
 BondStencil find_stencil(const Network& network);
 
 }  // namespace perilink

@@ -8,11 +8,11 @@
 
 namespace perilink {
 
-/// The order in which bonds break, or particles crack, in a run whose blocks of particles are
-/// worked on at once. Steps in which nothing breaks cost nothing.
+/// Order in which bonds break, or particles crack, in a run that computes blocks of particles in
+/// parallel. Steps in which nothing breaks take no time.
 class BreakOrder {
  public:
-  /// Whatever is numbered, and when it broke; in the order that counts.
+  /// Number of a bond or particle and its step; ordered by step, then by number.
   struct Break {
     Index step, number;
 
@@ -21,19 +21,19 @@ class BreakOrder {
 
   explicit BreakOrder(Index blocks) : of_blocks_(static_cast<std::size_t>(blocks)) {}
 
-  /// Adds what broke in a block, in the step of its last call or a later one. What breaks again,
-  /// such as the other half of a bond, counts once, even in a later step. Calls for different
-  /// blocks may run at once.
+  /// Adds the numbers that broke in a block, in the step of its last call or a later one. A number
+  /// that breaks again, such as the other half of a bond, counts once. Calls for different blocks
+  /// may run in parallel.
   void add(Index block, Index step, std::span<const Index> broken) {
     for (const Index each : broken) of_blocks_[block].push_back({step, each});
   }
 
-  /// All that broke so far, first ones first, those of one step in the order of their numbers. To
-  /// be called by one thread between two steps.
+  /// Returns all numbers that broke so far, by step and then by number. Called by one thread
+  /// between two steps.
   const std::vector<Index>& so_far();
 
-  /// All that was added since so_far() or this was called last, in their order, what broke again
-  /// included. Called as so_far() is.
+  /// Returns the breaks added since the last call of so_far() or take_latest(), in their order,
+  /// repeated ones included. Called by one thread between two steps.
   std::vector<Break> take_latest();
 
  private:

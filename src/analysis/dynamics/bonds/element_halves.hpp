@@ -5,13 +5,13 @@
 #include "network/frame.hpp"
 
 /// \file
-/// Half of an element, as the particle at one of its ends sees it: `own` and `far` are the motions
-/// of that particle and of the one at the other end. Everything is measured from the first end to
-/// the second, so that both halves of an element see the same numbers.
+/// Directed bonds: half of an element at one of its ends. `own` and `far` are the motions of the
+/// particle at this end and of the particle at the other end. Both halves measure deformation from
+/// the first end to the second, so that both find identical numbers.
 
 namespace perilink {
 
-/// An element that stretches only.
+/// Half of an element with axial stiffness only, for small strains.
 template <int Dim>
 struct TrussHalf {
   static constexpr int width = Dim;
@@ -43,7 +43,7 @@ struct TrussHalf {
     return e;
   }
 
-  /// Measure of yielding of a bar, the same in tension and compression.
+  /// Returns the measure of yielding of a bar, equal in tension and compression.
   double size(const double* own, const double* far) const { return std::abs(extension(own, far)); }
 
   /// q' K q_now / 2 of the whole element between two motions [force length].
@@ -57,7 +57,7 @@ struct TrussHalf {
   bool is_compressed(const double* own, const double* far) const {
     return extension(own, far) < 0.0;
   }
-  /// The same with another axial stiffness and no other.
+  /// Returns the half with another axial stiffness and no other stiffness.
   TrussHalf axial_part(double stiffness) const {
     TrussHalf part = *this;
     part.k = stiffness;
@@ -65,10 +65,10 @@ struct TrussHalf {
   }
 };
 
-/// An element that stretches by any amount and turns by any angle: with its present vector x, from
-/// the own end to the other, and X before loading the energy k |X|^2 g^2 / 2 of the Green–Lagrange
-/// stretch g = (x.x - X.X) / (2 X.X) = s + s^2 / 2 (Miranda, Williams & Orr 2016, Eqs. 6 and 7),
-/// whose derivative is the force k g x.
+/// Half of an element for finite stretches and rotations. X is the vector from the own end to the
+/// other before loading, and x the present one. The energy is k |X|^2 g^2 / 2 of the Green–Lagrange
+/// stretch g = (x.x - X.X) / (2 X.X) = s + s^2 / 2 (Miranda, Williams & Orr 2016, Eqs. 6 and 7).
+/// Its derivative is the force k g x.
 template <int Dim>
 struct GreenHalf {
   static constexpr int width = Dim;
@@ -90,7 +90,8 @@ struct GreenHalf {
 
   static double limit_of_demand(double stretch, double /*length*/) { return stretch; }
 
-  /// From the relative displacement d = x - X: differences of lengths would cancel.
+  /// Returns g from the relative displacement d = x - X, because differences of lengths would
+  /// cancel.
   double stretch(const double* own, const double* far) const {
     double sum = 0.0;
     for (int a = 0; a < Dim; ++a) {
@@ -109,8 +110,8 @@ struct GreenHalf {
 
   double size(const double* own, const double* far) const { return std::abs(stretch(own, far)); }
 
-  /// k |X|^2 g_before g_now / 2 [force length]: between two motions what Euler–Cromer keeps but for
-  /// a part of the kinetic energy as small as the stretches.
+  /// Returns k |X|^2 g_before g_now / 2 between two motions [force length]. Euler–Cromer conserves
+  /// it up to a fraction of the kinetic energy as small as the stretches.
   double energy(const double* own_before, const double* far_before, const double* own,
                 const double* far) const {
     return 0.5 * k / flexibility * stretch(own_before, far_before) * stretch(own, far);
@@ -126,20 +127,20 @@ struct GreenHalf {
   }
 };
 
-/// A micropolar bond: a frame element with the modes of network/frame.hpp, and the equivalent
-/// stretch of analysis/quasistatic/events/frame_limit_search.hpp.
+/// Half of a micropolar bond: a frame element with the modes of network/frame.hpp and the
+/// equivalent stretch of analysis/quasistatic/events/frame_limit_search.hpp.
 template <int Dim>
 struct FrameHalf {
   static constexpr int width = Dim == 2 ? 3 : 6;
 
   double n[Dim];                   ///< unit vector from the first end to the second
   double first_arm, second_arm;    ///< from the ends to the inflection [length]
-  double k, kb, rotational;        ///< axial, transverse; of relative rotations [force length]
+  double k, kb, rotational;        ///< stiffness: axial, transverse; rotational [force length]
   double twisting;                 ///< stiffness against relative rotations about n; in space
   double shear_share, bend_share;  ///< factors of squares in the equivalent stretch
   double twist_share;
   Index other;
-  bool first;  ///< the own end is the first one
+  bool first;  ///< the own end is the first end
 
   FrameHalf(const Network& network, Index element, bool at_first)
       : k(network.stiffness[element]),
@@ -166,7 +167,8 @@ struct FrameHalf {
     return {n, first_arm, second_arm, first ? own : far, first ? far : own};
   }
 
-  /// Square of the equivalent stretch times the length; of bars that of the extension.
+  /// Returns the square of equivalent stretch times length [length^2]; of bars, the square of the
+  /// extension.
   static double square(const Deformation& d, double shear_share, double bend_share,
                        double twist_share) {
     double shear = 0.0, bend = 0.0;
@@ -176,9 +178,9 @@ struct FrameHalf {
            twist_share * d.twist * d.twist;
   }
 
-  /// \return the square above, zero where the bond is not in tension
+  /// Adds `sign` times the internal force at the own end. \return square() in tension, else zero
   double add_force(const double* own, const double* far, double* sum, double sign = 1.0) const {
-    /// A bond of which symmetry keeps the length must not break by round-off.
+    /// Without this threshold round-off would break bonds whose length symmetry preserves.
     constexpr double least_tension = 1e-12;
     const Deformation d = deformation(own, far);
     const double side = first ? -sign : sign;

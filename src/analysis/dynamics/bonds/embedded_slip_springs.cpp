@@ -86,7 +86,7 @@ class EmbeddedSlipSprings final : public ExplicitBonds {
     std::vector<double> secants =
         others_ ? others_->secants()
                 : std::vector<double>(static_cast<std::size_t>(network_.num_elements()));
-    // The node's counts, here and where ranks put theirs together: nodes have the last numbers.
+    // The node's share decides, also where ranks merge secants: nodes have the last numbers.
     for (const Share& share : shares_) {
       secants[network_.first_embedded_slip_spring + share.tie] = share.secant;
     }
@@ -94,13 +94,13 @@ class EmbeddedSlipSprings final : public ExplicitBonds {
   }
 
  private:
-  /// A tie as one of the particles at its ends sees it; all see the same.
+  /// Slip spring at one of the particles of its ends; all shares have identical states.
   struct Share {
     Index tie;
-    double weight;  ///< by which the particle counts in the extension
+    double weight;  ///< weight of the particle in the extension
     bool at_node;   ///< the particle is the node, which counts the energy
     int segment;
-    double secant;  ///< present, over the intact stiffness
+    double secant;  ///< secant stiffness ratio
     double limit;   ///< extension of the next event [length]
   };
 
@@ -121,7 +121,7 @@ class EmbeddedSlipSprings final : public ExplicitBonds {
     return sum;
   }
 
-  /// Half of the product of the forces of the intact tie and extensions of two steps.
+  /// Returns half of intact force times extension between two steps [force length].
   double whole_energy(Index tie, double time_step, const BondMotion& motion) const {
     const double now = extension(tie, motion.displacement);
     const double before = now - time_step * extension(tie, motion.velocity);
@@ -145,9 +145,10 @@ class EmbeddedSlipSprings final : public ExplicitBonds {
   const Network& network_;
   std::unique_ptr<ExplicitBonds> others_;
   std::size_t dim_, width_;
-  EmbeddedPoints ends_;  ///< per tie: its node, then the particles of its anchor
+  /// per slip spring: its node, then the particles around its embedded point
+  EmbeddedPoints ends_;
   std::vector<Index> offsets_;
-  std::vector<Share> shares_;  ///< particle after particle
+  std::vector<Share> shares_;  ///< ordered by particle
 };
 
 }  // namespace

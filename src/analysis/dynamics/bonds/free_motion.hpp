@@ -4,14 +4,14 @@
 
 namespace perilink {
 
-/// A step of Euler–Cromer with damping in proportion to the mass.
+/// Step of Euler–Cromer with mass-proportional damping.
 struct MotionStep {
   double time_step = 0.0;
   double load_factor = 0.0;
   double damping_rate = 0.0;  ///< c [1/time]
 };
 
-/// Work during the step, with the mean of the old and the new velocity [force length].
+/// Work during a step, with the mean of the old and the new velocity [force length].
 struct MotionWork {
   double external = 0.0;
   double damping = 0.0;

@@ -7,7 +7,7 @@
 #include "base/lanes.hpp"
 
 /// \file
-/// Numbers of particles that follow each other, as many as a register holds and eight at most.
+/// Vector registers: values of consecutive particles, one register full and eight at most.
 
 namespace perilink {
 
@@ -20,13 +20,13 @@ inline void load(const double* from, Doubles& to) {
   to = *reinterpret_cast<const LanesInMemory<double, num_lanes>*>(from);
 }
 
-/// 1, 2, 4 and so on.
+/// Returns 1, 2, 4 and so on, one bit per lane.
 template <std::size_t... Lane>
 constexpr Words bits_of_lanes(std::index_sequence<Lane...> /*lanes*/) {
   return Words{(std::int64_t{1} << Lane)...};
 }
 
-/// Zeros in lanes whose bit is not set.
+/// Sets lanes whose bit is not set to zero.
 inline void keep_lanes(std::uint8_t bits, Doubles& values) {
   constexpr Words bit = bits_of_lanes(AllLanes{});
   const Words kept = (Words{} + std::int64_t{bits}) & bit;
@@ -37,7 +37,7 @@ inline void keep_larger(const Doubles& values, Doubles& largest) {
   largest = values > largest ? values : largest;
 }
 
-/// A component of vectors of `Dim` that lie one after the other in a, b and, in space, c.
+/// Returns one component of vectors of `Dim` stored consecutively in a, b and, in space, c.
 template <int Dim, int Component, std::size_t... Lane>
 inline Doubles component(const Doubles& a, const Doubles& b, const Doubles& c,
                          std::index_sequence<Lane...> /*lanes*/) {
@@ -48,7 +48,7 @@ inline Doubles component(const Doubles& a, const Doubles& b, const Doubles& c,
   return __builtin_shufflevector(of_two, c, (at(Lane) < two ? Lane : at(Lane) - num_lanes)...);
 }
 
-/// Vectors of `Dim` components one after the other in memory, component by component.
+/// Loads vectors of `Dim` components, consecutive in memory, and separates the components.
 template <int Dim>
 inline void load_vectors(const double* from, Doubles* to) {
   static_assert(1 <= Dim && Dim <= 3);

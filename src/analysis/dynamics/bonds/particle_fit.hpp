@@ -12,13 +12,12 @@
 
 namespace perilink {
 
-/// Strains of particles from the extensions of their neighbours' bonds, by least squares of the
-/// stretches.
+/// Strains of particles by a least-squares fit to the stretches of their neighbours' bonds.
 template <int Dim>
 class ParticleStrains {
  public:
-  /// Appends a particle.
-  /// \param halves   its bonds: direction, element, and whether they lead to neighbours (mine)
+  /// \param halves  bonds of the particle: direction, element, and whether they lead to neighbours
+  ///                (mine)
   template <class Half>
   void add(std::span<const Half> halves, const Bonds& bonds) {
     Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(static_cast<Index>(halves.size()), entries);
@@ -48,7 +47,8 @@ class ParticleStrains {
     offsets_.push_back(inverse_.size());
   }
 
-  /// \param extension  takes k: that of the k-th bond of the particle [length]
+  /// Returns the fitted strain of a particle.
+  /// \param extension  takes k and returns the extension of the k-th bond of the particle [length]
   template <class Half, class Extension>
   SymmetricTensor fit(Index particle, std::span<const Half> halves,
                       const Extension& extension) const {
@@ -62,13 +62,13 @@ class ParticleStrains {
     return strain;
   }
 
-  /// Bound of principal strains and of the trace over the largest extension [1/length]: Dim times
-  /// that of an entry.
+  /// Returns a bound of principal strains and of the trace over the largest extension [1/length]:
+  /// Dim times the bound of an entry.
   double largest_strain(Index particle) const { return Dim * largest_[particle]; }
 
  private:
   static constexpr int entries = Dim == 2 ? 3 : 6;
-  static constexpr std::array<int, 6> place =  // in a SymmetricTensor
+  static constexpr std::array<int, 6> place =  // entry in a SymmetricTensor
       Dim == 2 ? std::array<int, 6>{0, 1, 3, 0, 0, 0} : std::array<int, 6>{0, 1, 2, 3, 4, 5};
   static constexpr std::array<std::array<int, 2>, 6> axes =
       Dim == 2

@@ -17,7 +17,7 @@
 namespace perilink {
 namespace {
 
-/// A bond as one of its ends sees it.
+/// Directed bond at one of its ends.
 template <int Dim>
 struct StateHalf : TrussHalf<Dim> {
   Index element;
@@ -37,8 +37,8 @@ struct StateHalf : TrussHalf<Dim> {
   }
 };
 
-/// What damage leaves of a bond: of its own force, and as weights of its extension in the sums of
-/// this end and of the other one (half_bond_weight).
+/// Damage factors of a bond: of its own force, and of its extension in the sums of this end and of
+/// the other end (half_bond_weight).
 struct HalfFactors {
   double bond = 1.0, mine = 1.0, other = 1.0;
 
@@ -51,13 +51,13 @@ struct HalfFactors {
   bool operator==(const HalfFactors&) const = default;
 };
 
-/// The same by the sign of the bond's extension.
+/// Damage factors by the sign of the bond's extension.
 struct SignedFactors {
   HalfFactors tension, compression;
   const HalfFactors& of(double extension) const { return extension >= 0.0 ? tension : compression; }
 };
 
-/// Width of a square or cube as large as the particle [length].
+/// Returns the width of a square or cube with the particle's volume [length].
 double band_of(const Particles& particles, Index i, double thickness) {
   const double volume = particles.volumes[i];
   return particles.dim == 2 ? std::sqrt(volume / thickness) : std::cbrt(volume);
@@ -108,12 +108,12 @@ class StateParticles final : public ExplicitBonds {
   std::vector<StateHalf<Dim>> halves_;
   /// Per particle: sum of the weakened extensions of its neighbours' bonds.
   std::vector<double> sum_;
-  std::vector<double> extension_;       ///< per half, where bonds can break
-  std::vector<SignedFactors> factors_;  ///< the same
+  std::vector<double> extension_;       ///< per directed bond; empty where bonds cannot break
+  std::vector<SignedFactors> factors_;  ///< per directed bond; empty where bonds cannot break
   std::vector<double> damage_, next_;
   std::vector<double> band_;  ///< width of the crack band [length]
   std::vector<std::uint8_t> cracked_;
-  std::vector<double> calm_;  ///< extension below which no crack can begin [length]
+  std::vector<double> calm_;  ///< extension below which a crack cannot begin [length]
   ParticleStrains<Dim> strains_;
 };
 
@@ -146,13 +146,14 @@ StateParticles<Dim>::StateParticles(const Network& network, Problem problem,
     band_.push_back(band_of(network.particles, i, thickness));
     strains_.add(halves_of(i), bonds);
     const HookeConstants& hooke = hooke_of(i);
-    // Neighbours' damage at most doubles a share.
+    // Damage of neighbours at most doubles a share.
     calm_.push_back(material(i).softening.strength /
                     (2.0 * (std::abs(hooke.lambda) + 2.0 * hooke.mu) * strains_.largest_strain(i)));
   }
 }
 
-/// Takes over the damage that its ends have now. \return whether a factor changed
+/// Updates the factors of a particle's bonds from the damage of their ends. \return whether a
+/// factor changed
 template <int Dim>
 bool StateParticles<Dim>::weaken(Index i) {
   bool any = false;
@@ -167,7 +168,7 @@ bool StateParticles<Dim>::weaken(Index i) {
   return any;
 }
 
-/// u_(n-1)' K u_n / 2 of a particle's half of its bonds and its state.
+/// Returns u_(n-1)' K u_n / 2 of a particle's directed bonds and its state [force length].
 template <int Dim>
 double StateParticles<Dim>::half_energy(Index i, double time_step, const BondMotion& motion) const {
   double energy = 0.0, now = 0.0, before = 0.0;
@@ -196,7 +197,7 @@ SymmetricTensor StateParticles<Dim>::strain(Index i) const {
   });
 }
 
-/// Whether the extensions are too small for any crack to begin.
+/// Returns whether all extensions are too small for a crack to begin.
 template <int Dim>
 bool StateParticles<Dim>::is_calm(Index i) const {
   if (cracked_[i] != 0) return false;
@@ -287,7 +288,7 @@ double StateParticles<Dim>::stored(Index begin, Index end, double time_step,
   return energy;
 }
 
-/// Factors differ between the ends by round-off. The factor at the upper end counts.
+/// The upper end gives the factor, because the ends differ by round-off.
 template <int Dim>
 std::vector<double> StateParticles<Dim>::secants() const {
   std::vector<double> secants(static_cast<std::size_t>(network_.num_elements()), 1.0);
@@ -307,7 +308,7 @@ void check_bands(const Particles& particles, std::span<const StateMaterial> mate
     const double limit = max_band_width(own.softening, own.youngs_modulus);
     if (band < limit) continue;
     throw std::invalid_argument(
-        fmt::format("the particle at ({}) stands for a band {:.4g} wide, too wide for the "
+        fmt::format("the particle at ({}) has a crack band {:.4g} wide, too wide for the "
                     "softening: a crack would release more energy than its opening dissipates; "
                     "place particles less than {:.4g} apart",
                     joined(particles.position(i)), band, limit));

@@ -11,13 +11,13 @@ namespace perilink {
 namespace {
 
 constexpr int lanes = BondStencil::lanes;
-static_assert(lanes % num_lanes == 0);  // registers hold a group or a part of it
+static_assert(lanes % num_lanes == 0);  // a register holds a group or a part of it
 
-/// Limit of bonds that cannot break [-]: a group that reaches it is looked at in vain.
+/// Limit of unbreakable bonds [-]. A group that reaches it costs one needless check.
 constexpr double stretch_of_unbreakable = 1e6;
 
-/// A line as the loop over its lanes wants it. The demand e of a bond is its extension over its
-/// limit; its force V_i V_j pull e.
+/// Constants of a line for the loop over its lanes. The demand e of a bond is its extension over
+/// its limit; its force is V_i V_j pull e.
 template <int Dim>
 struct Line {
   double demand[Dim];  ///< direction over limit [1/length]
@@ -25,7 +25,7 @@ struct Line {
   std::ptrdiff_t out, in;
 };
 
-/// What losses need to know about a kind of bonds.
+/// Constants for the losses of a kind of bonds.
 struct KindConstants {
   double stiffness;  ///< factor of the demand, k limit^2 / (V_i V_j) [force/length^5]
   bool breaks;
@@ -42,7 +42,7 @@ class StencilBonds final : public ExplicitBonds {
   std::vector<double> secants() const override;
 
  private:
-  /// A half that a group's particle has.
+  /// Directed bond of a particle of a group.
   struct Half {
     const Line<Dim>* line;
     const KindConstants* kind;
@@ -78,8 +78,8 @@ class StencilBonds final : public ExplicitBonds {
   std::vector<std::vector<KindConstants>> kinds_;  ///< per pattern, one for each of its lines
   std::vector<BondStencil::Group> groups_;
   std::vector<Index> element_;
-  std::vector<std::uint8_t> intact_;   ///< a bit of each slot; none where there is no bond
-  std::vector<std::uint8_t> is_safe_;  ///< all lanes of all lines of a group are particles
+  std::vector<std::uint8_t> intact_;   ///< one bit per slot: the bond exists and is intact
+  std::vector<std::uint8_t> is_safe_;  ///< all lanes of all lines of a group lead to particles
 };
 
 template <int Dim>
@@ -123,8 +123,8 @@ StencilBonds<Dim>::StencilBonds(const Network& network, BondStencil stencil,
   }
 }
 
-/// Components of the particle and of the next ones; unless that is safe, of the first or last one
-/// where there is none: no bond leads there.
+/// Returns the components of the particle and of the next ones. If not Safe, positions outside the
+/// body take the first or last particle; no bond leads to them.
 template <int Dim>
 template <bool Safe, int Components>
 [[gnu::always_inline]] inline void StencilBonds<Dim>::take(const double* from,
@@ -142,10 +142,10 @@ template <bool Safe, int Components>
   for (int c = 0; c < Components; ++c) load(picked[c], to[c]);
 }
 
-/// Demands of a line's outgoing and incoming bonds, zero where there is none: from the same end,
-/// so that both halves of a bond find the same number.
-/// \param first  particle of the part, at this place of its group
-/// \param u      motion, of which `own` are the particles of the part
+/// Computes the demands of a line's outgoing and incoming bonds, zero for absent bonds. Both are
+/// measured from the first end, so that both halves of a bond find one number.
+/// \param first  first particle of the part, at this position in its group
+/// \param u      motion of all particles; `own` holds the particles of the part
 template <int Dim>
 template <bool Safe>
 [[gnu::always_inline]] inline void StencilBonds<Dim>::demands(const Line<Dim>& line,
@@ -166,8 +166,8 @@ template <bool Safe>
   keep_lanes(static_cast<std::uint8_t>(intact[1] >> part), in);
 }
 
-/// Forces of the bonds of a part of the group, but for the own volume.
-/// \return whether one demands too much
+/// Computes the forces of the bonds of a part of the group, not yet times the own volume.
+/// \return whether a bond exceeds its limit
 template <int Dim>
 template <bool Safe>
 bool StencilBonds<Dim>::add_lines(std::size_t group, int part, const double* u,
@@ -194,7 +194,7 @@ bool StencilBonds<Dim>::add_lines(std::size_t group, int part, const double* u,
   return exceeds;
 }
 
-/// visit(half) for every intact half at the particles [begin, end) of a group.
+/// Calls visit(half) for every intact directed bond at the particles [begin, end) of a group.
 template <int Dim>
 template <class Visit>
 void StencilBonds<Dim>::for_halves(std::size_t group, Index begin, Index end, Visit visit) const {
@@ -214,7 +214,7 @@ void StencilBonds<Dim>::for_halves(std::size_t group, Index begin, Index end, Vi
   }
 }
 
-/// The very number of add_lines(), since nothing is fused there.
+/// Returns bit for bit the demand of add_lines(): no operations are fused there.
 template <int Dim>
 double StencilBonds<Dim>::demand(const Half& half, const double* u) const {
   const double* first = u + static_cast<std::size_t>(half.first) * Dim;
@@ -224,7 +224,7 @@ double StencilBonds<Dim>::demand(const Half& half, const double* u) const {
   return sum;
 }
 
-/// Energy of the half, between the displacements a step ago and now.
+/// Returns the energy of a directed bond between the displacements a step ago and now.
 template <int Dim>
 double StencilBonds<Dim>::energy(const Half& half, double time_step,
                                  const BondMotion& motion) const {
@@ -279,7 +279,8 @@ BondLosses StencilBonds<Dim>::forces(Index begin, Index end, double time_step,
   return losses;
 }
 
-/// Energies of the halves of each particle in a part of the group, as energy() of single ones.
+/// Adds the energies of the directed bonds of each particle in a part of the group, equal to
+/// energy() of each.
 template <int Dim>
 void StencilBonds<Dim>::add_energies(std::size_t group, int part, double time_step,
                                      const BondMotion& motion, Doubles& sum) const {
@@ -328,7 +329,7 @@ std::vector<double> StencilBonds<Dim>::secants() const {
     }
   };
   set(1.0, [](std::size_t) { return true; });
-  set(0.0, [&](std::size_t slot) { return !is_intact(slot); });  // one half does
+  set(0.0, [&](std::size_t slot) { return !is_intact(slot); });  // one broken half is enough
   return result;
 }
 

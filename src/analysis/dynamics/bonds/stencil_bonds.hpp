@@ -7,10 +7,10 @@
 
 namespace perilink {
 
-/// Truss bonds of small strains on a stencil, computed for whole groups of particles at a time;
-/// nothing is stored of half a bond but whether it exists.
-/// \param network  has to outlive the result
-/// \param rest     the elements off the stencil; null: there are none
+/// Returns truss bonds of small strains on a stencil, computed for whole groups of particles. The
+/// only data stored per directed bond is whether it exists.
+/// \param network  must outlive the result
+/// \param rest     elements off the stencil; null: none
 std::unique_ptr<ExplicitBonds> make_stencil_bonds(const Network& network, BondStencil stencil,
                                                   std::unique_ptr<ExplicitBonds> rest);
 

@@ -64,7 +64,8 @@ void for_each_row(Part& part, Visit visit) {
   visit(part.changes);
 }
 
-/// Unknowns of the own particles from zero on, and none of ghosts. Numbers rise with particles.
+/// Numbers the unknowns of the own particles from zero, and removes the numbers of ghosts. Numbers
+/// rise with particles.
 void renumber(BodyPart& part) {
   Unknowns& unknowns = part.body.unknowns;
   const auto begin = unknowns.number.begin() + std::ptrdiff_t{part.own_begin} * unknowns.width;
@@ -137,7 +138,8 @@ PartSolver::PartSolver(Ranks& ranks, PreconditionedPart part)
     coarse_sums_.resize(coarse_.size() * block_width);
     coarse_columns_.resize(coarse_sums_.size());
   }
-  // Last: where one rank alone has no memory for the factor the others wait in nothing.
+  // Last, after all collective calls: a rank without memory for the factor then leaves no rank
+  // waiting.
   std::vector<Index> groups(coarse_.size());
   for (std::size_t k = 0; k < groups.size(); ++k) {
     groups[k] = static_cast<Index>(k) / own_.motions;
@@ -191,7 +193,7 @@ GradientsReport PartSolver::search_block(std::span<double> right, std::span<doub
       enough, most_iterations, {}, [&](std::span<double> parts) { ranks_.sum(parts); });
 }
 
-/// The own rows of K q: owners of ghosts find the forces on them.
+/// Finds the own rows of K q; the owners of ghosts find the forces on them.
 void PartSolver::multiply(std::span<const double> q, std::span<double> result) {
   const std::vector<Index>& number = unknowns().number;
   for (std::size_t slot = 0; slot < number.size(); ++slot) {
@@ -250,7 +252,7 @@ void PartSolver::precondition(std::span<const double> residual, std::span<double
   });
 }
 
-/// The factor wants its right sides one after the other.
+/// The factor takes its right sides column by column.
 void PartSolver::solve_coarse_block() {
   const auto size = static_cast<Eigen::Index>(coarse_.size());
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, block_width, Eigen::RowMajor>;

@@ -18,7 +18,7 @@ namespace perilink {
 struct BodyChanges {
   std::vector<Index> elements;       ///< numbers in the whole body, ascending
   std::vector<double> axial, other;  ///< new secants of these elements
-  std::vector<double> ground;        ///< springs that hold unknowns; empty: as before
+  std::vector<double> ground;        ///< stiffness of ground springs per unknown; empty: unchanged
 
   void pack(Parcel& parcel) const;
   static BodyChanges unpack(Parcel& parcel);
@@ -26,13 +26,13 @@ struct BodyChanges {
 
 /// A part of a body with its rows of the two-level preconditioner.
 struct PreconditionedPart {
-  BodyPart part;  ///< unknowns have the numbers of the part: own particles have some, ghosts none
-  std::vector<double> axial, other;  ///< secants of the elements
+  BodyPart part;  ///< unknowns of the own particles only, with numbers of the part
+  std::vector<double> axial, other;  ///< secant stiffness ratios of the elements
   std::vector<double> blocks;     ///< inverse stiffness of each own particle, (owned, width, width)
   SparseMatrix coarse;            ///< P'K P of the whole body, lower triangle
   std::vector<Index> subdomains;  ///< per own particle
   std::vector<std::array<double, 6>> rows;  ///< rows of P, shape (owned, width)
-  int motions = 3;                          ///< number of motions of a box
+  int motions = 3;                          ///< number of rigid-body motions of a subdomain
   bool changes = false;                     ///< secants change, and search_block() is called
 
   Secants secants() const { return {other, axial}; }
@@ -45,33 +45,32 @@ PreconditionedPart cut_part(const Network& network, Secants secants, const Unkno
                             const SubdomainMotions& motions, const SubdomainStiffness& stiffness,
                             const Partition& partition, int rank);
 
-/// The work of one rank in conjugate gradients with the two-level preconditioner
-/// (docs/theory/large_bodies.md). Every rank has a factor of the coarse matrix, which is small
-/// beside the parts.
+/// Conjugate gradients of one rank with the two-level preconditioner (docs/theory/large_bodies.md).
+/// Every rank has a factor of the coarse matrix, which is small compared with the parts.
 class PartSolver {
  public:
-  /// \throws SolverError where the boxes' matrix is not positive definite, on all ranks
+  /// \throws SolverError on all ranks where the coarse matrix is not positive definite
   PartSolver(Ranks& ranks, PreconditionedPart part);
 
-  /// Elements of the whole body, of which this part has some; springs of its own unknowns.
+  /// Applies changes of the whole body to the elements and ground springs of this part.
   void follow(const BodyChanges& changes);
 
-  /// Collective. Vectors are those of the part.
+  /// Collective: solves with conjugate_gradients(). Vectors have the unknowns of the part.
   GradientsReport search(std::span<const double> right, std::span<double> solution, double enough,
                          double scale, int most_iterations);
 
-  /// Collective: block_conjugate_gradients() of vectors of shape (owned, width, block_width), zero
-  /// where something is held.
+  /// Collective: solves with block_conjugate_gradients(). Vectors have shape (owned, width,
+  /// block_width) and are zero at prescribed components.
   GradientsReport search_block(std::span<double> right, std::span<double> solution,
                                const BlockRow& sizes, double enough, int most_iterations);
 
  private:
   const Unknowns& unknowns() const { return own_.part.body.unknowns; }
-  /// Number of the first own component in fields of the part, shape (particles, width).
+  /// First own component in fields of the part, shape (particles, width).
   std::size_t first_slot() const {
     return static_cast<std::size_t>(own_.part.own_begin) * unknowns().width;
   }
-  /// A map of vectors whose exceptions end all ranks: other ranks would wait for this one.
+  /// Returns `map` with exceptions that end all ranks, because other ranks wait for this one.
   template <class Map>
   auto guarded(Map map);
   void multiply(std::span<const double> q, std::span<double> result);
@@ -82,14 +81,14 @@ class PartSolver {
 
   Ranks& ranks_;
   PreconditionedPart own_;
-  std::vector<double> ground_;  ///< springs of the own unknowns, or empty
+  std::vector<double> ground_;  ///< stiffness of ground springs of the own unknowns, or empty
   std::unique_ptr<Factor> factor_;
   GhostLayer layer_;
-  std::vector<double> motion_;  ///< shape (particles, width), zero where it is prescribed
-  std::vector<double> coarse_;  ///< residual or motion of the boxes, shape (boxes, motions)
+  std::vector<double> motion_;  ///< shape (particles, width), zero where prescribed
+  std::vector<double> coarse_;  ///< residual or motion of subdomains, shape (subdomains, motions)
   InternalForce forces_;
 
-  // Each number of the above block_width times.
+  // The fields above for block_width vectors at once.
   std::vector<double> motions_, block_forces_, coarse_sums_, coarse_columns_;
 };
 

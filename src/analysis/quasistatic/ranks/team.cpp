@@ -33,7 +33,7 @@ std::vector<double> copy_of(std::span<const double> values) {
   return {values.begin(), values.end()};
 }
 
-/// A search of a rank that is not the first.
+/// Solves on a worker and sends the solution to the root.
 template <class Order, class Search>
 void search_along(Ranks& ranks, Parcel& parcel, Search search) {
   const auto order = parcel.get<Order>();
@@ -43,7 +43,7 @@ void search_along(Ranks& ranks, Parcel& parcel, Search search) {
   try {
     search(order, right, solution);
   } catch (const SolverError&) {
-    return;  // the same in all ranks: the first one reports it
+    return;  // all ranks fail together, and the root reports it
   }
   Parcel answer;
   answer.put(solution);
@@ -91,7 +91,7 @@ Team::Team(Ranks& ranks, const Network& network, const Unknowns& unknowns, Secan
   for (Index e = 0; e < network.num_elements(); ++e) sent_axial_.push_back(secants.axial(e));
 }
 
-/// To look at all elements takes no time beside a search.
+/// Comparing all elements takes negligible time compared with a solve.
 void Team::send_changes() {
   BodyChanges changes;
   for (std::size_t k = 0; k < sent_other_.size(); ++k) {
@@ -113,7 +113,7 @@ void Team::send_changes() {
   }
 }
 
-/// \param search  search(own part of the right side, own part of the solution)
+/// \param search  called as search(own part of the right side, own part of the solution)
 template <class Order, class Search>
 GradientsReport Team::search_with_all(const Order& order, const Share& share,
                                       std::span<const double> right, std::span<double> solution,

@@ -9,37 +9,37 @@
 
 namespace perilink {
 
-/// Whether ranks share the work on a network: there are several, a particle at least for each, and
-/// their parts have nothing but bonds and springs.
-/// \param ranks  null: this process is alone
+/// Returns whether ranks can share a network: there are several ranks, at least one particle for
+/// each, and the network has only bonds and springs.
+/// \param ranks  null: one process
 bool can_be_shared(const Network& network, const Unknowns& unknowns, const Ranks* ranks);
 
-/// All ranks at work on one body, seen from the first rank. The other ranks serve one team at a
-/// time.
+/// Communicator of all ranks for one body, used by the root. Workers serve one Team at a time.
 class Team {
  public:
   /// Cuts the body into parts and sends them.
-  /// \param stiffness  its blocks inverted
-  /// \param ground     springs that hold unknowns, size n, or empty until there are some, and
-  ///                   never again; null: neither these nor the secants change. Both are kept by
-  ///                   reference, and every search takes their present values
+  /// \param stiffness  with inverted blocks
+  /// \param ground     stiffness of ground springs per unknown, size n; empty until the first
+  ///                   spring, then never empty again. null: neither springs nor secants change.
+  ///                   `ground` and `secants` are kept by reference, and every solve uses their
+  ///                   present values.
   Team(Ranks& ranks, const Network& network, const Unknowns& unknowns, Secants secants,
        const SubdomainMotions& motions, const SubdomainStiffness& stiffness,
        const std::vector<double>* ground = nullptr);
 
-  /// conjugate_gradients() of the whole body; vectors have all its unknowns.
+  /// Solves for the whole body with conjugate_gradients(); vectors have all its unknowns.
   GradientsReport search(std::span<const double> right, std::span<double> solution, double enough,
                          double scale, int most_iterations);
 
-  /// block_conjugate_gradients() of vectors of shape (particles, width, block_width), where secants
-  /// may change.
+  /// Solves with block_conjugate_gradients() where secants may change. Vectors have shape
+  /// (particles, width, block_width).
   GradientsReport search_block(std::span<const double> right, std::span<double> solution,
                                const BlockRow& sizes, double enough, int most_iterations);
 
  private:
-  /// Shares of a field of shape (particles, width) or of the unknowns.
+  /// Divides a field of shape (particles, width), or the unknowns, among the ranks.
   struct Share {
-    std::vector<std::size_t> first;  ///< per rank, and an end
+    std::vector<std::size_t> first;  ///< first row per rank, and the end; size ranks + 1
     std::size_t width = 1;
     template <class Values>
     auto of(int rank, Values values) const {
@@ -57,15 +57,16 @@ class Team {
   Share unknowns_, blocks_;
   Secants secants_;
   const std::vector<double>* ground_ = nullptr;
-  std::vector<double> sent_axial_, sent_other_, sent_ground_;  ///< known to the parts
+  std::vector<double> sent_axial_, sent_other_, sent_ground_;  ///< values last sent to the parts
   std::unique_ptr<PartSolver> own_;
 };
 
-/// The work of another rank for a team.
+/// Solver of a worker for a Team.
 class TeamMember {
  public:
   explicit TeamMember(Ranks& ranks) : ranks_(ranks) {}
-  /// \param order  the team's, its Service read
+  /// Carries out one request of the root.
+  /// \param order  message buffer behind its Service
   void obey(Parcel& order);
 
  private:

@@ -48,7 +48,7 @@ class BondRun {
   MovingBonds& body() { return body_; }
 
  private:
-  /// Part of the prescribed displacements that is reached.
+  /// Returns the fraction of the prescribed displacements reached.
   double motion_factor(Index step) const {
     return motion_end_ > 0.0 ? step * body_.time_step / motion_end_ : loop_.load_factor(step);
   }
@@ -57,7 +57,7 @@ class BondRun {
   void one_step(Index step) {
     const double factor = loop_.load_factor(step);
     const double increment = motion_factor(step + 1) - motion_factor(step);
-    if (shares_.own()) shares_.own()->update_ghosts(body_.motion);  // by one thread
+    if (shares_.own()) shares_.own()->update_ghosts(body_.motion);  // called by one thread
     if (body_.bonds->has_states()) {
 #pragma omp for schedule(static)
       for (Index b = first_block_; b < past_block_; ++b) body_.prepare(b, step);
@@ -66,7 +66,7 @@ class BondRun {
     for (Index b = first_block_; b < past_block_; ++b) body_.find_forces(b, step);
     if (body_.bonds->has_states()) {
 #pragma omp single nowait
-      body_.bonds->finish_step();  // read again behind the next barrier only
+      body_.bonds->finish_step();  // next read after the next barrier
     }
     if (loop_.is_looked_at(step)) {
 #pragma omp for schedule(static)
@@ -76,7 +76,7 @@ class BondRun {
     }
 #pragma omp for schedule(static)
     for (Index b = first_block_; b < past_block_; ++b) advance(b, factor, increment);
-      // Nobody waits for this: what it reads and writes is used again behind the next barrier only.
+      // No barrier: its data are next used after the next barrier.
 #pragma omp single nowait
     note_reactions(step);
   }
@@ -140,7 +140,7 @@ class BondRun {
     loop_.note_reaction(supports, reference.driven ? motion_factor(step) * reference.value : 0.0);
   }
 
-  /// What note_reactions() does, for the steps in which the other ranks went by themselves.
+  /// Does the work of note_reactions() for the steps since the last synchronisation.
   void look_back() {
     for (const double supports : shares_.leading->collect(body_)) note_peak(noted_++, supports);
     if (noted_ > 0) {
@@ -173,15 +173,15 @@ class BondRun {
   ExplicitLoop loop_;
   MovingBonds body_;
   Shares shares_;
-  Index first_block_, past_block_;  ///< that this process moves
-  Index noted_ = 0;                 ///< steps that look_back() has seen
+  Index first_block_, past_block_;  ///< blocks that this process moves
+  Index noted_ = 0;                 ///< steps recorded by look_back()
   std::vector<std::size_t> held_;   ///< prescribed components, ascending
-  double motion_end_;               ///< when constant velocities end [time]; zero: there are none
+  double motion_end_;               ///< end of constant velocities [time]; zero: none
   double rate_;
   ExplicitRecord record_;
 };
 
-/// Rules and options of a run for another rank.
+/// Rules and options of a run, sent to a worker.
 struct RunOrder {
   double damping_rate;
   Strain strain;
@@ -190,7 +190,7 @@ struct RunOrder {
   ExplicitOptions options;
 };
 
-/// Sends the other ranks their parts of the body, and runs that of the first.
+/// Sends the workers their parts of the body and runs the part of the root.
 ExplicitResult run_with_ranks(const LoadedNetwork& problem, const Inertia& inertia,
                               const BondRunRules& rules, const ExplicitOptions& options,
                               BondRunObserver& observer) {

@@ -7,47 +7,47 @@
 
 namespace perilink {
 
-/// What a network with states is made of.
+/// Material of a network of state-based particles.
 struct StateBody {
   Problem problem = Problem::plane_stress;
   double thickness = 1.0;  ///< two-dimensional bodies only [length]
   std::vector<StateMaterial> materials;
 };
 
-/// What moves the bonds of a run and how.
+/// Rules of motion of a run.
 struct BondRunRules {
   double damping_rate = 0.0;  ///< [1/time]
   Strain strain = Strain::small;
-  /// Prescribed displacements are those at the end of the duration, reached at constant velocity;
-  /// else they follow the load factor.
+  /// true: prescribed displacements are reached at the end of the duration at constant velocity;
+  /// false: they follow the load factor.
   bool constant_velocity = false;
-  StateBody states{};  ///< looked at where the network has states
+  StateBody states{};  ///< used where the network has states
 };
 
-/// Runs a network of bonds, truss or frame, from rest by Euler–Cromer: forces at step n change
-/// velocities, those the displacements. Loads and prescribed displacements are those of the
-/// implicit analyses times the load factor over time, ramped_load_factor(); so are the bonds and
-/// where they break. With the ramp many times the fundamental period (fundamental_period.hpp) long
-/// the run is quasistatic but for the moments in which bonds break.
+/// Runs a network of truss or frame bonds from rest by Euler–Cromer: forces at step n change
+/// velocities, and these the displacements. Loads and prescribed displacements of the implicit
+/// analyses are multiplied by ramped_load_factor() over time. Bonds and their limits are those of
+/// the implicit analyses. With a ramp of many fundamental periods (fundamental_period.hpp) the run
+/// is quasistatic except while bonds break.
 ///
-/// Damping is in proportion to the mass: force = rate times mass times velocity, at the middle of
-/// the step, so that it costs nothing of the critical time step.
+/// Damping forces are rate times mass times velocity at the middle of the step. They do not reduce
+/// the critical time step.
 ///
-/// The energies of a row balance to round-off, since every force works over the mean of the old and
-/// the new velocity, the stored energy is u_(n-1)' K u_n / 2, and a bond that breaks at step n
-/// loses its own part of that. Of Green strains they balance but for a part of the kinetic energy
-/// as small as the stretches, docs/theory/explicit_bonds.md, section 5.
-/// \param options  `reference` is not looked at. Ranks share the work where there are blocks of
-///                 particles for all of them; every sum is the same as without them
+/// The energies of a row balance to round-off. Every force works over the mean of the old and the
+/// new velocity. The stored energy is u_(n-1)' K u_n / 2, and a bond that breaks at step n loses
+/// its own part of it. With Green strains they balance up to a fraction of the kinetic energy as
+/// small as the stretches (docs/theory/explicit_bonds.md, section 5).
+/// \param options  `reference` is not used. Ranks share the work where each has at least one block
+///                 of particles; every sum is the same as on one process
 /// \throws std::invalid_argument where the time step exceeds the critical one (unless
-/// refuse_unstable is off) or the duration is not positive
-/// \returns ending = failed where energy grows from nothing; peak_displacement is zero where loads
-/// drive the body
+///     refuse_unstable is off) or the duration is not positive
+/// \returns termination = failed where energy grows without external work; peak_displacement is
+///          zero in runs under loads
 ExplicitResult run_explicit_bonds(const LoadedNetwork& problem, const Inertia& inertia,
                                   const BondRunRules& rules, const ExplicitOptions& options,
                                   BondRunObserver& observer);
 
-/// The work of another rank in a run that ranks share.
+/// Runs the part of a worker in a shared run.
 void move_bonds_along(Ranks& ranks, Parcel& order);
 
 }  // namespace perilink

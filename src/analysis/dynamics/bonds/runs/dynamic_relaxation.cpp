@@ -20,7 +20,7 @@ namespace {
 
 constexpr Index iterations_between_checks = 200;
 
-/// By the same number of threads.
+/// Iterations with one number of threads.
 constexpr int iterations_of_a_round = 4;
 
 class Relaxation {
@@ -38,7 +38,7 @@ class Relaxation {
         separation_(problem),
         threads_(body_.blocks.threads(options.threads)) {
     for (std::size_t slot = 0; slot < body_.force.size(); ++slot) {
-      // Moments become forces of like energy.
+      // Converts moments to forces of equal energy.
       const std::size_t own = slot - slot % body_.unknowns.width;
       weight_.push_back(body_.mass[own] / body_.mass[slot]);
     }
@@ -58,7 +58,7 @@ class Relaxation {
   }
 
  private:
-  /// Where the body is in proportion to the last equilibrium, at rest.
+  /// Starts from rest at the last equilibrium, scaled by the load factor.
   void start(double factor) {
     const double growth = factor_ != 0.0 ? factor / factor_ : 0.0;
     factor_ = factor;
@@ -126,7 +126,7 @@ class Relaxation {
     ++result_.iterations;
   }
 
-  /// Is the body at rest, and how is it damped?
+  /// Decides whether the body is at rest and how it is damped.
   void judge(const RestSums& all) {
     const double rest = std::sqrt(all.residual);
     most_held_ = std::max(most_held_, all.held);
@@ -137,7 +137,8 @@ class Relaxation {
     fractured_ = all.fractured;
     next_.restart = iteration_ == 0 || gave_way;
     damp(all);
-    // The way left, r'K^-2 r, over the way itself: no vibration is much slower than the damped one.
+    // Estimates the remaining displacement r'K^-2 r over the displacement: no vibration is much
+    // slower than the damped one.
     const bool moves = all.push > 0.0 && !separation_.is_unstrained();
     result_.error = moves ? std::sqrt(all.push / all.size) / square_ : 0.0;
     next_.at_rest = !gave_way && std::max(result_.residual, result_.error) <= options_.tolerance;
@@ -151,7 +152,7 @@ class Relaxation {
     if (grows || (ends && !is_due)) {
       end(Termination::failed,
           fmt::format("load step {} (load factor {}): {} after {} iterations; the residual force "
-                      "is {:.2e} of the loads and reactions, what is left of the way {:.2e}; the "
+                      "is {:.2e} of the loads and reactions, the estimated error {:.2e}; the "
                       "tolerance of both is {:.2e}",
                       step_ + 1, factor_, grows ? "the motion grows" : "not at rest",
                       std::min(iteration_, options_.most_iterations), result_.residual,
@@ -179,7 +180,7 @@ class Relaxation {
         fmt::format("load step {} (load factor {}): {}", step_ + 1, factor_, how));
   }
 
-  /// What an observer throws ends the run with all that was found so far; nothing may leave a
+  /// Ends the run with the results so far when an observer throws. Exceptions must not leave a
   /// parallel region.
   template <class Action>
   void observe(const Action& action) {
@@ -231,7 +232,7 @@ class Relaxation {
     });
   }
 
-  /// The end of a load step.
+  /// Ends a load step.
   void rest() {
     std::fill(body_.motion.velocity.begin(), body_.motion.velocity.end(), 0.0);
     for (Index b = 0; b < body_.blocks.count(); ++b) {
@@ -288,9 +289,10 @@ class Relaxation {
   const RelaxationOptions& options_;
   BondRunObserver& observer_;
   MovingBonds body_;
-  std::vector<double> before_;               ///< internal forces an iteration ago
-  std::vector<double> first_, first_force_;  ///< where the damping began to be measured
-  std::vector<double> weight_;  ///< factors of squares of forces and moments, per component
+  std::vector<double> before_;  ///< internal forces of the last iteration
+  std::vector<double> first_,
+      first_force_;             ///< displacement and force where measuring the damping began
+  std::vector<double> weight_;  ///< factors of squared forces and moments, per component
   std::vector<RestSums> rest_;  ///< per block
   Separation separation_;
   ThreadChoice threads_;
@@ -298,7 +300,7 @@ class Relaxation {
   Index iteration_ = 0;
   double factor_ = 0.0, first_rest_ = 0.0, fractured_ = 0.0;
   double largest_residual_ = 0.0, largest_error_ = 0.0;
-  double square_ = 0.0;     ///< square of the damped frequency, as last known
+  double square_ = 0.0;     ///< square of the damped frequency, latest estimate
   double most_held_ = 0.0;  ///< square of the largest loads and reactions
   Decision next_;
   ExplicitRecord record_;

@@ -7,56 +7,58 @@
 
 namespace perilink {
 
-/// How a body is brought to rest.
+/// Options of a dynamic relaxation.
 struct RelaxationOptions {
-  std::vector<double> load_factors = {1.0};  ///< one load step each
-  double tolerance = 1e-6;                   ///< for RelaxationResult::residual and error
-  Index most_iterations = 1000000;           ///< in a load step
-  double safety = 0.95;                      ///< step over the critical one of the masses
+  std::vector<double> load_factors = {1.0};  ///< one per load step
+  double tolerance = 1e-6;                   ///< limit of RelaxationResult::residual and error
+  Index most_iterations = 1000000;           ///< per load step
+  double safety = 0.95;  ///< time step over the critical one of the fictitious masses
   Strain strain = Strain::small;
   int threads = 1;
 };
 
-/// How a relaxation ended.
+/// Result of a dynamic relaxation.
 struct RelaxationResult {
   Termination termination = Termination::completed;
   std::string reason;
   Index iterations = 0;  ///< over all load steps
-  /// Norm of the residual force over that of loads and reactions, the largest of the load steps
-  /// that came to rest, or where the run ended otherwise.
+  /// Norm of the residual force over that of loads and reactions [-]: the largest of the converged
+  /// load steps, or the value where the run failed.
   double residual = 0.0;
   /// Estimated relative error of the displacement, in the norm of the masses: the residual force
-  /// over the stiffness of the slowest vibration. Likewise the largest.
+  /// over the stiffness of the slowest vibration [-]. The largest of the converged load steps, or
+  /// the value where the run failed.
   double error = 0.0;
   double peak_load = 0.0;  ///< largest support reaction in magnitude [force]
-  ExplicitRecord last;     ///< end of the last load step that came to rest
-  /// Where it ended, shape (particles, width).
+  ExplicitRecord last;     ///< end of the last converged load step
+  /// Last displacement, shape (particles, width).
   std::vector<double> displacement;
 };
 
-/// Masses that make all particles vibrate alike, whatever the material.
+/// Returns masses with which all particles vibrate at one frequency, whatever their material.
 Inertia fictitious_inertia(const Network& network, Strain strain);
 
-/// Static equilibrium by adaptive dynamic relaxation (Underwood 1983; Kilic & Madenci 2010): the
-/// body moves with masses that are not its own, damped critically for its slowest vibration, until
-/// the residual forces, and the displacement that they can still cause, are below the tolerance.
-/// Masses are in proportion to the own stiffness of the particles, so that all steps are as long as
-/// stability allows. The damping coefficient is twice the root of a Rayleigh quotient: of the
-/// motion since the load step began, or of the last step where that is smaller; both are taken from
-/// the forces themselves.
+/// Finds static equilibrium by adaptive dynamic relaxation (Underwood 1983; Kilic & Madenci 2010).
+/// The body moves with fictitious masses, damped critically for its slowest vibration. A load step
+/// has converged when the residual forces, and the displacement that they can still cause, are
+/// below the tolerance. Masses are proportional to the own stiffness of the particles, so that all
+/// steps are as long as stability allows. The damping coefficient is twice the root of a Rayleigh
+/// quotient. The quotient is that of the motion since the load step began, or of the last step
+/// where it is smaller. Both are taken from the forces.
 ///
-/// A load step starts from the last equilibrium in proportion to the load factors. Bonds break
-/// where they exceed their limit on the way; many small load steps keep the motion, and with it
-/// what breaks too much, small.
+/// A load step starts from the last equilibrium, scaled by the load factors. Bonds break where they
+/// exceed their limit during the motion. Small load steps keep the motion small, and with it the
+/// number of bonds broken by overshoot.
 ///
-/// A row is one load step: its `step` counts iterations, its `time` load steps; work is that of the
-/// load over its displacement between rows (trapezoidal rule), and what of it is neither stored nor
-/// fractured was damped.
-/// Ends as collapsed where broken bonds have left the body in pieces that the loads pull apart, or
-/// that no prescribed displacement strains; the last row of a driven body then shows it without
+/// A row is one load step: `step` counts iterations and `time` load steps. Work is that of the load
+/// over its displacement between rows (trapezoidal rule). Work neither stored nor fractured was
+/// damped.
+///
+/// The run ends as collapsed where the loads pull broken-off pieces apart. It also does where
+/// prescribed displacements strain no piece any more; the last row then shows the body without
 /// resistance.
-/// \returns ending = failed where a load step needs more iterations than it may have, or the motion
-/// grows without bound; interrupted where the observer asked for it
+/// \returns termination = failed where a load step needs too many iterations or the motion grows
+///          without bound; interrupted where the observer asked for it
 RelaxationResult run_dynamic_relaxation(const LoadedNetwork& problem,
                                         const RelaxationOptions& options,
                                         BondRunObserver& observer);

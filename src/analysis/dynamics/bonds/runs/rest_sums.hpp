@@ -2,7 +2,7 @@
 
 namespace perilink {
 
-/// Sums over the particles of a block, or of all blocks, in an iteration of a dynamic relaxation.
+/// Sums over the particles of one or all blocks in an iteration of a dynamic relaxation.
 struct RestSums {
   double push = 0.0, size = 0.0;       // squares r'M^-1 r and u'M u
   double residual = 0.0, held = 0.0;   // squares of residual forces, of loads and reactions
@@ -23,15 +23,15 @@ struct RestSums {
   }
 };
 
-/// How a dynamic relaxation goes on after the forces of an iteration.
+/// Decision after the forces of an iteration of a dynamic relaxation.
 struct Decision {
-  double keep = 1.0, lose = 1.0;  ///< factors of velocities, for their damping
-  bool restart = true;            ///< the damping is to be measured from here
+  double keep = 1.0, lose = 1.0;  ///< damping: factors of velocities
+  bool restart = true;            ///< the damping is measured from here
   bool at_rest = false, done = false;
-  bool examines = false;  ///< whether the body is in pieces
+  bool examines = false;  ///< the pieces of the body are to be examined
 };
 
-/// A residual that has grown so much since the first one will not shrink any more.
+/// A residual that has grown by this factor since the first iteration has diverged.
 inline constexpr double largest_growth = 1e12;
 
 }  // namespace perilink

@@ -7,10 +7,10 @@
 namespace perilink {
 namespace {
 
-/// Requests of the first rank in a meeting; no number is that of a Service.
+/// Requests of the root during a synchronisation; no value equals a Service.
 enum class Wish : int { motion = 100, secants, go_on, leave };
 
-/// The bonds of the first rank, which asks the others for the secants of their elements.
+/// Bonds of the root; secants() also collects the secants of the workers.
 class LeadingBonds final : public ExplicitBonds {
  public:
   LeadingBonds(std::unique_ptr<ExplicitBonds> own, LeadingShare& share)
@@ -34,7 +34,7 @@ class LeadingBonds final : public ExplicitBonds {
   LeadingShare& share_;
 };
 
-/// Groups of ghosts are empty.
+/// Returns the stencil of a part. Groups of ghosts are empty.
 BondStencil cut_stencil(const BondStencil& stencil, const BodyPart& part) {
   const std::vector<Index>& elements = part.elements;
   const Index first = part.first_particle;
@@ -181,7 +181,8 @@ void LeadingShare::collect_motion(MovingBonds& body) {
 }
 
 void LeadingShare::collect_secants(std::span<double> secants) {
-  // An observer asks: its failures end a run in good order, which answers left unread do not.
+  // An observer calls this, and its exceptions end a run with all files written. Unread answers of
+  // workers would block that, so exceptions here end all ranks.
   lead(ranks_, [&] {
     send_to_all(ranks_, Wish::secants);
     for (int rank = 1; rank < ranks_.count(); ++rank) {
@@ -221,7 +222,7 @@ bool FollowingShare::meet(MovingBonds& body) {
   for (;;) {
     const Wish wish = Parcel(ranks_.receive(0)).get<Wish>();
     if (wish < Wish::motion) {
-      throw std::logic_error("the first rank has left a run in which others wait for it");
+      throw std::logic_error("the root ended a run while workers wait in it");
     }
     if (wish == Wish::go_on || wish == Wish::leave) return wish == Wish::go_on;
     Parcel answer;

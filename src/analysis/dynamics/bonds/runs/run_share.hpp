@@ -11,17 +11,17 @@
 
 namespace perilink {
 
-/// Whether ranks share the work on these bonds: there are several, a block of particles at least
-/// for each, and the network has no states.
-/// \param ranks  null: this process is alone
+/// Returns whether ranks can share an explicit run of bonds: there are several ranks, at least one
+/// block of particles for each, and the network has no states.
+/// \param ranks  null: one process
 bool can_be_shared(const LoadedNetwork& problem, const Ranks* ranks);
 
-/// The part of a body whose bonds a rank moves.
+/// Part of a body on one rank of an explicit run.
 struct BondPart {
-  BodyPart part;             ///< with the loads of its particles
+  BodyPart part;             ///< part with the loads of its particles
   int component = 0;         ///< main_component() of the whole body
-  std::vector<double> mass;  ///< shape (particles, width)
-  BondStencil stencil;       ///< cut out of that of the whole body, so that sums keep their order
+  std::vector<double> mass;  ///< Returns the part of a rank. \param mass  shape (particles, width)
+  BondStencil stencil;  ///< cut out of the stencil of the whole body, so that sums keep their order
 
   void pack(Parcel& parcel) const;
   static BondPart unpack(Parcel& parcel);
@@ -31,24 +31,24 @@ struct BondPart {
 BondPart cut_part(const LoadedNetwork& body, const std::vector<double>& mass,
                   const BondStencil& stencil, const Partition& partition, int rank);
 
-/// The share of a rank in a run of moving bonds: it moves its own blocks, and in every step ranks
-/// bring the motion of their ghosts up to date. In meetings every few steps the first rank takes
-/// the sums of all blocks and the broken bonds, may ask for more, and ends the meeting.
+/// Share of a rank in an explicit run of bonds. A rank moves its own blocks and exchanges the
+/// motion of ghosts in every step. Ranks synchronise every few steps: the root collects the sums of
+/// all blocks and the broken bonds, may request more, and ends the synchronisation.
 class RunShare {
  public:
-  /// \param unknowns  motion of the particles that the rank numbers
+  /// \param unknowns  unknowns of the particles that the rank numbers
   RunShare(Ranks& ranks, const Unknowns& unknowns, const ParticleBlocks& blocks, Index first_block,
            Index past_block, const Ghosts& ghosts);
 
   Index first_block() const { return first_block_; }
   Index past_block() const { return past_block_; }
 
-  /// Collective. Bonds that break need the velocities, too.
+  /// Collective: updates the motions of ghosts. Breaking bonds also need velocities.
   void update_ghosts(BondMotion& motion) {
     layer_.update(width_, {motion.displacement, motion.velocity});
   }
 
-  /// Once in every step: reactions of supports [force] for the next meeting.
+  /// Records the reactions of supports [force] for the next synchronisation. Called once per step.
   void note_supports(const MovingBonds& body) {
     for (const Index block : held_blocks_) supports_.push_back(body.sums[block].supports);
     ++steps_;
@@ -58,26 +58,29 @@ class RunShare {
   Ranks& ranks_;
   int width_;  ///< components of the motion of a particle
   Index first_block_, past_block_;
-  std::vector<double> supports_;  ///< since the last meeting, shape (steps, held blocks)
-  Index steps_ = 0;               ///< since the last meeting
+  /// since the last synchronisation, shape (steps, held blocks) [force]
+  std::vector<double> supports_;
+  Index steps_ = 0;  ///< since the last synchronisation
 
  private:
-  std::vector<Index> held_blocks_;  ///< own blocks in which something is held, ascending
+  std::vector<Index> held_blocks_;  ///< own blocks with prescribed components, ascending
   GhostLayer layer_;
 };
 
-/// The share of the first rank. Its numbers are those of the whole body.
+/// Share of the root, with the numbers of the whole body.
 class LeadingShare final : public RunShare {
  public:
   LeadingShare(Ranks& ranks, const LoadedNetwork& body, const Partition& partition);
 
-  /// Begins a meeting, or comes after the last step: takes sums and broken bonds into `body`.
-  /// \return reactions of supports in each step since the last meeting, summed in the order of the
-  ///         blocks as one process does [force]
+  /// Begins a synchronisation, or comes after the last step. Writes sums and broken bonds of all
+  /// ranks into `body`.
+  /// \return reactions of supports in each step since the last synchronisation [force], summed over
+  ///         blocks in the order of one process
   std::vector<double> collect(MovingBonds& body);
-  /// During a meeting: the motion of all particles and the forces on them.
+  /// Collects the motion of all particles and the forces on them, during a synchronisation.
   void collect_motion(MovingBonds& body);
-  /// During a meeting. \param secants  of all elements; those of other ranks are overwritten
+  /// Collects secants during a synchronisation. \param secants  of all elements; values of other
+  /// ranks are overwritten
   void collect_secants(std::span<double> secants);
   void end_meeting(bool goes_on);
 
@@ -85,22 +88,22 @@ class LeadingShare final : public RunShare {
   Partition partition_;
 };
 
-/// The share of another rank.
+/// Share of a worker.
 class FollowingShare final : public RunShare {
  public:
-  /// \param part  has to outlive this
+  /// \param part  must outlive this object
   FollowingShare(Ranks& ranks, const BodyPart& part);
 
-  /// A meeting. \return whether the run goes on
+  /// Synchronises with the root. \return whether the run goes on
   bool meet(MovingBonds& body);
-  /// Comes after the last step.
+  /// Sends the results since the last synchronisation to the root.
   void report(MovingBonds& body);
 
  private:
   const BodyPart& part_;
 };
 
-/// The share of this process in a run; both null: it is alone.
+/// Share of this process in a run; both null: one process.
 struct Shares {
   LeadingShare* leading = nullptr;
   FollowingShare* following = nullptr;
@@ -112,7 +115,7 @@ struct Shares {
   }
 };
 
-/// The bonds of the first rank, which asks the others for the secants of their elements.
+/// Returns the bonds of the root with secants collected from all ranks.
 std::unique_ptr<ExplicitBonds> leading_bonds(std::unique_ptr<ExplicitBonds> own,
                                              LeadingShare& share);
 

@@ -11,11 +11,11 @@
 namespace perilink {
 namespace {
 
-/// Part of the loads on a piece that may be out of balance, as numbers of few digits are ...
+/// Fraction of the loads on a piece that may be out of balance, as given values have few digits.
 constexpr double unbalanced = 1e-6;
-/// ... and of those on the body, which is round-off.
+/// Fraction of the loads on the body that is round-off.
 constexpr double round_off = 1e-12;
-/// Part of the prescribed displacements that strains a piece.
+/// Fraction of the prescribed displacements that strains a piece.
 constexpr double straining = 1e-9;
 
 double sum_of_sizes(const std::vector<double>& forces) {
@@ -54,12 +54,12 @@ std::string Separation::examine(Secants secants, double fractured, bool is_loade
       const double pull = std::inner_product(motion.begin(), motion.end(), forces.begin(), 0.0);
       if (std::abs(pull) <= least) continue;
       return fmt::format(
-          "the body is in pieces, and the loads pull away that of {} particles at ({})",
+          "the body is in pieces, and the loads pull away the piece of {} particles at ({})",
           piece.particles.size(), joined(network.particles.position(piece.particles.front())));
     }
   }
   if (!(largest_ > 0.0)) return "";
-  // Elastic supports count where the body is driven against nothing else.
+  // Elastic supports count only where rigid supports allow no strain.
   const bool was_strained = is_strained({}, held_);
   is_unstrained_ =
       (was_strained || on_body == 0.0) && !is_strained(secants, was_strained ? held_ : resisted_);

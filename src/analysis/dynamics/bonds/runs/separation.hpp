@@ -8,31 +8,32 @@
 
 namespace perilink {
 
-/// Finds whether broken bonds have left a body in pieces that can be in no equilibrium with its
-/// loads, or that nothing prescribed strains any more.
+/// Finds whether broken bonds have left a body in pieces that cannot be in equilibrium with its
+/// loads, or that no prescribed displacement strains.
 class Separation {
  public:
-  /// \param problem  has to outlive this
+  /// \param problem  must outlive this object
   explicit Separation(const LoadedNetwork& problem);
 
-  /// Whether bonds have broken since the pieces were examined, or they never were.
+  /// Returns whether bonds have broken since the last examination, or there was none.
   /// \param fractured  energy of broken bonds so far [force length]
   bool is_due(double fractured) const { return fractured > examined_; }
+  /// Examines the pieces.
   /// \param is_loaded  the load factor is not zero
-  /// \return which piece the loads pull away; empty: none
+  /// \return description of the piece that the loads pull away; empty: none
   std::string examine(Secants secants, double fractured, bool is_loaded);
-  /// Whether the prescribed displacements strained the body and strain no piece of it any more.
+  /// Returns whether prescribed displacements strained the body and now strain no piece of it.
   bool is_unstrained() const { return is_unstrained_; }
 
  private:
-  /// Sum of the sizes of the forces on a piece [force].
+  /// Returns the sum of the magnitudes of the forces on a piece [force].
   double size_of_loads(const Fragment& piece) const;
   bool is_strained(Secants secants, const std::vector<std::uint8_t>& held) const;
 
   const LoadedNetwork& problem_;
   std::vector<std::uint8_t> held_, resisted_;  ///< resisted: also by elastic supports
   double largest_ = 0.0;                       ///< prescribed displacement [length]
-  double examined_ = -1.0;                     ///< `fractured` of the last time [force length]
+  double examined_ = -1.0;  ///< `fractured` of the last examination [force length]
   bool is_unstrained_ = false;
 };
 

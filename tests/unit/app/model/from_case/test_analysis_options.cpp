@@ -59,8 +59,8 @@ TEST(AnalysisOptions, StagesFollowTheCase) {
 TEST(AnalysisOptions, OfElasticAnswersFollowTheCase) {
   CaseFile input = strip_case();
   EXPECT_EQ(elastic_options(input, 2).threads, 2);
-  EXPECT_EQ(elastic_options(input, 1).boxes.tolerance, 1e-10);
-  EXPECT_EQ(elastic_options(input, 1).boxes.edge, 0);
+  EXPECT_EQ(elastic_options(input, 1).subdomains.tolerance, 1e-10);
+  EXPECT_EQ(elastic_options(input, 1).subdomains.edge, 0);
   input.analysis.solver = LinearSolver::iterative;
   input.analysis.tolerance = 1e-6;
   input.analysis.coarse_box = 5;

@@ -49,7 +49,7 @@ TEST(Separation, LoadsPullAwayTheEndOfAChain) {
   EXPECT_EQ(separation.examine(chains.secants, 0.0, true), "");
   chains.cut(3.5);
   EXPECT_THAT(separation.examine(chains.secants, 1.0, true),
-              testing::HasSubstr("pull away that of 6 particles at (4, 0)"));
+              testing::HasSubstr("pull away the piece of 6 particles at (4, 0)"));
   EXPECT_EQ(separation.examine(chains.secants, 1.0, false), "") << "at a load factor of zero";
   EXPECT_FALSE(separation.is_unstrained());
   chains.body.network.support_stiffness.assign(chains.body.unknowns.number.size(), 1e-3);
