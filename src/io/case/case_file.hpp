@@ -248,7 +248,7 @@ struct StageSection {
   StopSection stop;
 };
 
-/// [elements]: finite elements that carry particles until something near them may break; exactly
+/// [elements]: finite elements that constrain particles until something near them may break; exactly
 /// one of spacings and size.
 struct ElementsSection {
   std::optional<int> spacings;         ///< between particles, along each side of an element

@@ -15,9 +15,9 @@ constexpr std::string_view another_model = "delete it, or take another model in 
 constexpr std::string_view lattice_instead = "delete it, or set model = \"lattice\" in [body]";
 constexpr std::string_view whole_body = "take the whole body";
 constexpr std::string_view no_lattice_table =
-    "is given, but a body with model = \"lattice\" knows none";
+    "is given, but a body with model = \"lattice\" cannot have it";
 constexpr std::string_view no_particle_table =
-    "is given, but a body with model = \"particles\" knows none";
+    "is given, but a body with model = \"particles\" cannot have it";
 constexpr std::string_view only_lattices =
     "is given, but only bodies with model = \"lattice\" have it";
 
@@ -58,7 +58,9 @@ const Without neighbourhoods = [] {
 constexpr std::string_view no_torsion =
     "delete it; three-dimensional bodies with model = \"micropolar\" have it";
 const Without torsion = {
-    {shell, "is given, but how bonds of a shell twist follows from its Poisson's ratio", delete_it},
+    {shell,
+     "is given, but the torsional stiffness of bonds of a shell follows from its Poisson's ratio",
+     delete_it},
     {elements, no_bonds, bonds_instead},
     on_lattice,
     {micropolar | plane, "is given, but bonds of a two-dimensional body do not twist", no_torsion},
@@ -83,17 +85,17 @@ const Without models = {
     {lattice | particles | damage | relaxation, "is \"{model}\", but analysis.type is \"{type}\"",
      other_type},
 };
-const Without types = {{elements | explicit_, "is \"explicit\", but linear elements have no masses",
-                        "set method = \"bonds\" in [body], or type = \"elastic\""},
-                       {shell | beam | explicit_ | relaxation,
-                        "is \"{type}\", but shells and beams are at rest: nobody has given them "
-                        "masses and damped steps",
-                        "set type = \"elastic\" or \"damage\""}};
+const Without types = {
+    {elements | explicit_, "is \"explicit\", but linear elements have no masses",
+     "set method = \"bonds\" in [body], or type = \"elastic\""},
+    {shell | beam | explicit_ | relaxation,
+     "is \"{type}\", but shells and beams have no masses: only quasistatic analyses have them",
+     "set type = \"elastic\" or \"damage\""}};
 
 const Without softening = {{elements, no_bonds, bonds_instead}};
 const Without bond_softening = {
     {elements, no_bonds, bonds_instead},
-    {lattice | particles, "is given, but only bonds that carry no states have it",
+    {lattice | particles, "is given, but state-based particles do not have it",
      "delete it; `critical_opening` and the knee give the law of these particles"}};
 const Without crack_opening = {
     {bonds | elements,
@@ -130,9 +132,9 @@ std::vector<KeySchema> motions(bool in_stages) {
   return keys;
 }
 const Without velocities = {
-    {still, "is given, but analysis.type is \"{type}\", which knows no time",
+    {still, "is given, but analysis.type is \"{type}\", and velocities need type = \"explicit\"",
      "give [[displacements]], or set type = \"explicit\""},
-    {lattice, "is given, but only regions of bonds have velocities",
+    {lattice, "is given, but only bodies of bonds have prescribed velocities",
      "give [[displacements]], which follow the smooth load factor"}};
 
 const Without tractions = {
@@ -151,14 +153,16 @@ const Without symmetry = {
      whole_body}};
 const Without springs = {
     {lattice, no_lattice_table, another_model},
-    {elements, "is \"linear_elements\", but the case has [[springs]], which only bonds know",
+    {elements,
+     "is \"linear_elements\", but the case has [[springs]], which only bodies of bonds have",
      "delete one of the two", "body.method"}};
 const Without spring_stiffness = {
     {beam, "is given per area, but a beam has no faces", "give `total`"}};
 const Without outside_of_mid_surfaces = {
     {plane, "is an axis that a two-dimensional body does not have",
      "delete it, or set problem = \"three_dimensional\" in [body]"},
-    {shell, "is given, but places of a shell are those of its flat sheet, x and y", delete_it}};
+    {shell, "is given, but positions in a shell are given on its flat mid-surface, by x and y",
+     delete_it}};
 const Without cracks = {
     {beam, no_beam, flat_instead},
     {particles, no_particle_table, another_model},
@@ -167,25 +171,27 @@ const Without cracks = {
      "delete one of the two, or leave the crack out of the mesh", "body.method"}};
 const Without interfaces = {
     {beam, no_beam, flat_instead},
-    {shell, "is given, but bonds of a shell have one strength all over", flat_instead},
+    {shell, "is given, but shells cannot have interfaces", flat_instead},
     {particles, no_particle_table, another_model},
     {lattice, no_lattice_table, another_model},
-    {elements, "is \"linear_elements\", but the case has [[interfaces]], which bonds cross",
+    {elements,
+     "is \"linear_elements\", but the case has [[interfaces]], which only bodies of bonds have",
      "delete one of the two", "body.method"},
     {elastic, {}, {}}};
 const Without rebar = {
     {beam, no_beam, flat_instead},
-    {shell, "is given, but bars are not tied to shells", flat_instead},
+    {shell, "is given, but shells cannot have rebar", flat_instead},
     {particles, no_particle_table, another_model},
     {lattice, no_lattice_table, another_model},
-    {elements, "is \"linear_elements\", but the case has [[rebar]], which bonds tie",
+    {elements,
+     "is \"linear_elements\", but the case has [[rebar]], which only bodies of bonds have",
      "delete one of the two", "body.method"}};
 
 const Without hosts = {
-    {shell, "is given, but elements do not carry particles of shells", flat_instead},
+    {shell, "is given, but elements cannot constrain particles of shells", flat_instead},
     {particles, no_particle_table, another_model},
     {lattice, no_lattice_table, another_model},
-    {elements, "is \"linear_elements\", but the case has [elements], which carry particles",
+    {elements, "is \"linear_elements\", but the case has [elements], which constrain particles",
      "delete one of the two", "body.method"},
     {explicit_ | relaxation, {}, {}}};
 
@@ -197,20 +203,21 @@ const Without of_damage = set_aside(elastic | explicit_ | relaxation);
 const Without of_relaxation = set_aside(damage | elastic | explicit_);
 const Without of_time = set_aside(still);
 const NotFor no_lattice_key{lattice | explicit_, "is given, but lattice particles do not have it",
-                            "delete it; damping of lattices is a matter of [[materials]]"};
+                            "delete it; [[materials]] set the damping of lattices"};
 const Without of_bonds_in_time = {{still, {}, {}}, no_lattice_key};
 const Without strains = {
     {damage | elastic, {}, {}},
-    {lattice, "is given, but lattice particles stretch by their true lengths", delete_it}};
+    {lattice, "is given, but strains of lattice particles always follow from their true lengths",
+     delete_it}};
 
 const Without stages = {
     {shell | beam, "is given, but all loads of shells and beams grow together", delete_it},
     {elastic | explicit_ | relaxation,
-     "is given, but type = \"{type}\" lets all loads grow together", damage_instead}};
+     "is given, but type = \"{type}\" has loads that all grow together", damage_instead}};
 
 const Without release_strains = {
     {elastic, {}, {}},
-    {beam, "is given, but the mean strain of a bent line tells nothing of its faces",
+    {beam, "is given, but the mean strain of a bent beam leaves out the strain at its faces",
      "give `alert`"}};
 
 const std::vector<KeySchema> body_keys = {
@@ -315,7 +322,7 @@ const std::vector<KeySchema> crack_keys = {
     {"corners",
      {{plane, "is given, but the body has 2 dimensions",
        "give the `points` of a line: [[0, 1], [2, 1]]"},
-      {shell, "is given, but cracks of a shell are lines on its sheet",
+      {shell, "is given, but cracks of a shell are lines on its mid-surface",
        "give the `points` of a line: [[0, 1], [2, 1]]"}}}};
 
 const std::vector<KeySchema> interface_keys = {
@@ -367,7 +374,7 @@ const std::vector<TableSchema>& case_schema() {
         "region",
         "axis",
         {"stress",
-         {{shell | beam, "is given, but stresses of shells and beams are not read",
+         {{shell | beam, "is given, but stresses of shells and beams are not computed",
            "give `axis`"}}}}},
       {"analysis", false, analysis_keys},
       {"stop", false, {"broken_bonds", "load_fraction", "displacement"}, of_damage},

@@ -111,7 +111,7 @@ void read_refinement(const CaseTable& table, VarySection& vary, const StudyFile&
       vary.values.push_back(body_key(key, value));
   }
   if (vary.values.size() < 2) {
-    table.refuse(key, "holds one value, which leaves no order of convergence to see",
+    table.refuse(key, "holds one value, but an order of convergence needs at least two",
                  "give at least two values");
   }
 }
@@ -269,7 +269,8 @@ StudyFile parse_study(const std::string& text, const std::string& path) {
   const TomlValue* errors = root.find("error");
   const bool several = errors != nullptr && errors->kind == TomlValue::Kind::array;
   if (const TomlValue* body = root.find("body")) {
-    throw InputError({path, body->line, "body"}, "belongs to a case, and this is to be a study",
+    throw InputError({path, body->line, "body"},
+                     "belongs to a case, but this command needs a study",
                      fmt::format("run the case by `perilink run {}`", path));
   }
   check_against_schema(root, path, study_schema(several), "study");

@@ -66,7 +66,7 @@ void read_constants(const CaseTable& table, BodySection& body) {
   if (body.pattern != Pattern::irregular) return;
   const auto refuse_lattice = [&](const char* key, bool counts) {
     if (!counts) return;
-    table.refuse(key, "is \"lattice\", but a mesh has no lattice to count on",
+    table.refuse(key, "is \"lattice\", but a mesh has no lattice to count bonds on",
                  "delete it, or write \"continuum\"");
   };
   refuse_lattice("micromodulus", body.micromodulus == Constants::lattice);
@@ -111,7 +111,7 @@ void check_element_ratio(const CaseTable& table, double given) {
   if (given > -1.0 && given < 0.5) return;
   table.refuse("poissons_ratio",
                fmt::format("is {}, but an elastic solid has ratios above -1 and below 1/2", given),
-               "an incompressible solid would need other elements");
+               "incompressible solids are not available");
 }
 
 /// What else a material can be made of whose ratio no bonds have.

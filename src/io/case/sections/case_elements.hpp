@@ -5,7 +5,7 @@
 #include "io/text/toml_writer.hpp"
 
 /// \file
-/// [elements]: finite elements that carry particles.
+/// [elements]: finite elements that constrain particles.
 
 namespace perilink {
 

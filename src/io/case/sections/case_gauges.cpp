@@ -91,8 +91,8 @@ void refuse_stress(const CaseFile& input, const std::string& key) {
   if (type == AnalysisType::elastic) return;
   if (has_state_based_particles(input.body)) {
     throw InputError(input.where(key),
-                     fmt::format("is given, but analysis.type is \"{}\": of state-based particles "
-                                 "only elastic analyses have it",
+                     fmt::format("is given, but analysis.type is \"{}\": stresses of state-based "
+                                 "particles need an elastic analysis",
                                  word_of(type)),
                      "measure a displacement, or set analysis.type = \"elastic\"");
   }

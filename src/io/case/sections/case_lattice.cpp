@@ -64,7 +64,7 @@ void need_densities(const CaseFile& input) {
   for (std::size_t i = 0; i < input.materials.size(); ++i) {
     if (input.materials[i].density) continue;
     throw InputError(input.where(item_key("materials", i)),
-                     "has no density, which resists the motion of an explicit analysis",
+                     "has no density, which an explicit analysis needs",
                      "give `density`, mass per volume");
   }
 }
@@ -92,8 +92,8 @@ void read_lattice_body(const CaseTable& table, BodySection& body) {
   const std::string_view only = word_of(body.pattern);
   if (const auto given = table.choice<Pattern>("pattern"); given && *given != body.pattern) {
     table.refuse("pattern",
-                 fmt::format("is \"{}\", but lattice particles in {} stand on another",
-                             word_of(*given), dim == 2 ? "the plane" : "space"),
+                 fmt::format("is \"{}\", but lattice particles in {} need another", word_of(*given),
+                             dim == 2 ? "the plane" : "space"),
                  fmt::format("Allowed here: {}", only));
   }
   body.spacing =
@@ -129,7 +129,7 @@ void read_state_material(const CaseTable& table, const CaseFile& input, Material
   const bool breakable = !std::isinf(material.fracture_energy);
   if (breakable && dimension_of(body) == 3 && body.variant == LatticeRules::least_2018) {
     table.refuse(table.has("fracture_energy") ? "fracture_energy" : "critical_opening",
-                 "lets the material break, but the rules of 2018 have no damage in space",
+                 "is finite, but the rules of 2018 have no damage in space",
                  "write fracture_energy = \"infinite\", or take another variant in [body]");
   }
   if (breakable) read_crack_opening(table, body, section);

@@ -98,7 +98,7 @@ void read_kind(const Document& document, CaseFile& input) {
 void refuse_studies(const TomlValue& root, const std::string& path) {
   const TomlValue* vary = root.find("vary");
   if (vary == nullptr) return;
-  throw InputError({path, vary->line, "vary"}, "belongs to a study, and this is to be a case",
+  throw InputError({path, vary->line, "vary"}, "belongs to a study, but this command needs a case",
                    fmt::format("run the study by `perilink converge {}`", path));
 }
 

@@ -157,7 +157,7 @@ void read_steel(const CaseTable& table, RebarSection& bar) {
       table.refuse("stress_strain",
                    fmt::format("begins with a modulus of {:.6g}, but youngs_modulus is {}", modulus,
                                bar.youngs_modulus),
-                   "let it begin where the steel ceases to be elastic");
+                   "begin the curve where the steel ceases to be elastic");
     }
   }
   const double yield = !bar.curve.empty()   ? bar.curve.back()[0]
@@ -239,7 +239,7 @@ void refuse_flow_without_factor(const CaseFile& input, std::size_t k) {
   if (input.analysis.solver != LinearSolver::iterative || input.stages.empty() || !flows) return;
   throw InputError(input.where("analysis.solver"),
                    fmt::format("is \"iterative\", but rebar[{}] may yield in a case with "
-                               "[[stages]], which only a factor serves",
+                               "[[stages]], which needs the direct solver",
                                k + 1),
                    "set solver = \"direct\", or yields = false in [[rebar]]");
 }
@@ -252,14 +252,15 @@ RebarSection read_rebar(const CaseTable& table, int dim) {
   read_steel(table, bar);
   read_bond(table, bar);
   if (bar.bends && (bar.rupture_strain || (!bar.curve.empty() && bar.curve.back()[1] == 0.0))) {
-    table.refuse("bends", "is true, but the steel breaks: what a broken bar leaves could not turn",
+    table.refuse("bends",
+                 "is true, but the steel can rupture: a ruptured bar would leave rotations without "
+                 "stiffness",
                  "delete it, or the end of the steel");
   }
   assign(bar.prestrain, table.number("prestrain"));
   assign(bar.stage, table.text("stage"));
   if (!bar.stage.empty() && bar.prestrain == 0.0) {
-    table.refuse("stage", "is given, but the bar has no `prestrain` that a stage could grow",
-                 "delete it");
+    table.refuse("stage", "is given, but the bar has no `prestrain` for the stage", "delete it");
   }
   return bar;
 }
@@ -270,7 +271,7 @@ void check_rebar(const CaseFile& input) {
     if (!bar.group.empty() && !input.body.mesh) {
       throw InputError(
           input.where(item_key("rebar", k, "group")),
-          fmt::format("is \"{}\", but the body is no mesh that could have such a group", bar.group),
+          fmt::format("is \"{}\", but the body has no mesh with physical groups", bar.group),
           "give the `points` of the bar, or `mesh` in [body]");
     }
     if (bar.bond == RebarBond::concrete) {
@@ -279,18 +280,18 @@ void check_rebar(const CaseFile& input) {
     }
     if (input.analysis.solver == LinearSolver::iterative) {
       throw InputError(input.where("analysis.solver"),
-                       "is \"iterative\", but the body has bars, whose nodes are tied to "
-                       "combinations of particles, which only a factor serves",
+                       "is \"iterative\", but the nodes of bars are embedded between particles, "
+                       "which needs the direct solver",
                        "set solver = \"direct\", or bond = \"concrete\" in [[rebar]]");
     }
     if (input.analysis.strain == Strain::green) {
       throw InputError(input.where("analysis.strain"),
-                       "is \"green\", but the ties of bars know small strains only",
+                       "is \"green\", but embedded bars are for small strains only",
                        "delete the line, or set bond = \"concrete\" in [[rebar]]");
     }
     if (bar.prestrain != 0.0 && !is_quasistatic(input.analysis.type)) {
       throw InputError(input.where(item_key("rebar", k, "prestrain")),
-                       "is given, but explicit runs and relaxation know no prestrain",
+                       "is given, but explicit runs and relaxation cannot apply a prestrain",
                        "set type = \"damage\" or \"elastic\" in [analysis]");
     }
   }

@@ -66,9 +66,9 @@ void check_stiffness_ratio(const CaseFile& input) {
   throw InputError(
       input.where(item_key("materials", m, "youngs_modulus")),
       fmt::format(
-          "is {:.6g}, {:.2g} times that of {}, {:.6g}: numbers of 16 digits do not hold both",
+          "is {:.6g}, {:.2g} times that of {}, {:.6g}: double precision cannot resolve both",
           stiff->youngs_modulus, ratio, quoted(soft->name), soft->youngs_modulus),
-      fmt::format("at most {:.0e} times is possible; a thousand times is rigid to the eye",
+      fmt::format("at most {:.0e} times is possible; a ratio of a thousand is nearly rigid",
                   largest_stiffness_ratio));
 }
 
@@ -106,7 +106,7 @@ void check_concrete(const CaseFile& input) {
                        "set type = \"damage\" in [analysis], or take another softening");
     }
     if (!input.stages.empty()) {
-      throw InputError(where, "is \"concrete\", a law for loads that grow together: not in stages",
+      throw InputError(where, "is \"concrete\", a law that [[stages]] cannot have",
                        "delete the [[stages]], or take another softening");
     }
     for (const MaterialSection& other : input.materials) {
@@ -248,14 +248,14 @@ void check_driven_once(const CaseFile& input, const Held& held, const std::strin
       const SourceLocation where = input.where(item_key(table, i, name));
       if (!value.is_zero() && held.count({section.region, axis}) > 0) {
         throw InputError(where,
-                         fmt::format("drives region {} by {}, but [[supports]] holds it in {}",
+                         fmt::format("moves region {} by {}, but [[supports]] hold it in {}",
                                      quoted(section.region), shown(value), name),
                          "delete one of the two");
       }
       const auto [at, is_new] = driven.emplace(std::pair(section.region, axis), value);
       if (!is_new && !(at->second == value)) {
         throw InputError(where,
-                         fmt::format("drives region {} by {}, but another table drives it by {}",
+                         fmt::format("moves region {} by {}, but another table moves it by {}",
                                      quoted(section.region), shown(value), shown(at->second)),
                          "delete one of the two");
       }
@@ -285,15 +285,15 @@ void check_driven(const CaseFile& input) {
   for (const RebarSection& bar : input.rebar) driven = driven || bar.prestrain != 0.0;
   if (driven) return;
   throw InputError(
-      input.where("loads"), "nothing loads the body",
+      input.where("loads"), "the case has no load",
       "add [[loads]], [[tractions]], [[point_loads]], or [[displacements]] that are not zero");
 }
 
 void refuse_on_ghosts(const CaseFile& input, const std::string& key) {
   if (input.body.surface != Surface::ghost) return;
   throw InputError(input.where(key),
-                   "acts on the surface, but with surface = \"ghost\" the particles stand in the "
-                   "middle of their cells and none on it",
+                   "acts on particles of the surface, but with surface = \"ghost\" particles are "
+                   "in the middle of their cells",
                    "share a total over a region ([[loads]].force, [[springs]].total), or set "
                    "surface = \"none\" in [body]");
 }
@@ -303,12 +303,12 @@ void check_iterative_solver(const CaseFile& input) {
   if (input.analysis.solver != LinearSolver::iterative) return;
   if (is_beam(input.body) && input.analysis.type == AnalysisType::damage) {
     throw InputError(input.where("analysis.solver"),
-                     "is \"iterative\", but a beam that cracks needs a factor",
+                     "is \"iterative\", but a beam that cracks needs the direct solver",
                      "allowed with problem = \"beam\" and type = \"damage\": \"auto\", \"direct\"");
   }
   if (input.body.method != BodyMethod::linear_elements) return;
   throw InputError(input.where("analysis.solver"),
-                   "is \"iterative\", but linear elements are solved by a factor alone",
+                   "is \"iterative\", but linear elements need the direct solver",
                    "allowed with method = \"linear_elements\": \"auto\", \"direct\"");
 }
 

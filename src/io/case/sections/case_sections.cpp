@@ -81,7 +81,7 @@ SupportSection read_support(const CaseTable& table, const BodySection& body) {
 DisplacementSection read_displacement(const CaseTable& table, const BodySection& body) {
   const int dim = axes_of(body);
   DisplacementSection driven;
-  driven.region = table.need_region("that is driven");
+  driven.region = table.need_region("whose motion is prescribed");
   assign(driven.stage, table.text("stage"));
   bool any = false;
   for (std::size_t component = 0; component < 6; ++component) {
@@ -90,7 +90,7 @@ DisplacementSection read_displacement(const CaseTable& table, const BodySection&
     any = any || driven.value[component].has_value();
   }
   if (!any) {
-    table.refuse("", "drives no axis",
+    table.refuse("", "moves no axis",
                  dim == 2 ? "give x or y or both" : "give one or more of x, y, z");
   }
   return driven;
@@ -129,10 +129,8 @@ std::vector<double> read_load_factors(const CaseTable& table) {
                                                  "the load factors of the steps: [0.1, 0.2, 0.3]");
   if (factors.empty()) table.refuse("load_factors", "is empty", "give one number for each step");
   if (std::any_of(factors.begin(), factors.end(), [](double factor) { return factor < 0.0; })) {
-    table.refuse(
-        "load_factors", "holds a negative load factor",
-        "turn the signs of the loads and displacements instead: bonds are searched for breaks "
-        "under a growing load");
+    table.refuse("load_factors", "holds a negative load factor",
+                 "reverse the signs of the loads and displacements: the load must grow");
   }
   if (std::all_of(factors.begin(), factors.end(), [](double factor) { return factor == 0.0; })) {
     table.refuse("load_factors", "holds only zeros, so no step loads the body",

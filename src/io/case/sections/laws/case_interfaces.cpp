@@ -34,7 +34,7 @@ InterfaceSection read_interface(const CaseTable& table, int dim) {
     table.refuse("group", "is empty", "name physical curves of the mesh, in space surfaces");
   }
   if (table.choice<Softening>("softening") == Softening::concrete) {
-    table.refuse("softening", "is \"concrete\", which crushes: a face does not",
+    table.refuse("softening", "is \"concrete\", a law with crushing, which interfaces do not have",
                  "take \"brittle\", \"linear\", \"bilinear\" or \"exponential\"");
   }
   section.softening = read_softening(table);

@@ -44,7 +44,7 @@ std::array<double, 2> read_stretches(const CaseTable& table, Softening kind) {
   }
   if (table.has("fracture_energy")) {
     table.refuse("fracture_energy", "is given beside `softening_stretches`",
-                 "delete one of the two: the stretches settle the energy");
+                 "delete one of the two: the stretches determine the energy");
   }
   if (given->size() != 2 || !((*given)[0] > 0.0) || !((*given)[1] > (*given)[0]) ||
       !((*given)[1] <= most_rise * (*given)[0])) {
@@ -86,13 +86,13 @@ void read_error(const CaseTable& table, SofteningMaterial& material) {
   assign(material.error, table.fraction("softening_error"));
   if (material.error >= least_error) return;
   table.refuse("softening_error", fmt::format("is {}", material.error),
-               fmt::format("give {} or more: bonds would have more teeth than anyone can wait for",
+               fmt::format("give {} or more: a smaller error needs too many saw-tooth segments",
                            least_error));
 }
 
 void read_concrete(const CaseTable& table, SofteningMaterial& material) {
   if (const char* key = find_given(table, other_keys)) {
-    table.refuse(key, "is given, but softening = \"concrete\" has limits that settle the law",
+    table.refuse(key, "is given, but softening = \"concrete\" has limits that determine the law",
                  "delete it; `check` prints the strengths and the fracture energy");
   }
   if (material.closes) {

@@ -249,7 +249,7 @@ TEST(CaseLattice, RefusesTablesThatOnlyImplicitBodiesHave) {
         "[[supports]]\nregion = \"surface\"\nfix = [\"x\"]\n[[displacements]]",
         {"supports[1].region", "does not end on the surface"}},
        {"y = \"0.001*x\"", "rotation = 1", {"a lattice body do not rotate"}},
-       {"y = \"0.001*x\"", "y = 0", {"nothing loads the body"}},
+       {"y = \"0.001*x\"", "y = 0", {"the case has no load"}},
        {"[output]",
         "[[gauges]]\nname = \"a\"\nat = [0, 1]\nstress = \"xx\"\n[output]",
         {"gauges[1].stress", "elastic"}},
