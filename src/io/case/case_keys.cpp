@@ -34,7 +34,7 @@ const NotFor on_lattice{
     "of a given spacing",
     "delete it; `pattern`, `spacing`, `rotation` and `offset` say where they are"};
 
-/// What a beam has no choice of.
+/// Keys without a meaning for beams.
 const NotFor of_beams{
     beam, "is given, but a beam is a row of particles whose bonds share its section", delete_it};
 constexpr std::string_view no_beam = "is given, but beams have none";
@@ -49,7 +49,7 @@ const Without horizons = {
      "plane and eighteen in space",
      delete_it},
 };
-/// Those that say which bonds there are.
+/// Keys of bonds within a horizon that beams do not have.
 const Without neighbourhoods = [] {
   Without keys = horizons;
   keys.push_back(of_beams);
@@ -69,7 +69,7 @@ const Without torsion = {
 const Without lattices = {{bonds | particles | elements, "is given, but model is \"{model}\"",
                            "delete it, or set model = \"lattice\""}};
 
-/// What a kind of body cannot be analysed by.
+/// Methods, models and types of analysis that a kind of body excludes.
 const Without methods = {
     {elements | shell | beam, "is \"linear_elements\", but shells and beams are made of bonds",
      "delete the line, or take another problem"},
@@ -195,7 +195,7 @@ const Without hosts = {
      "delete one of the two", "body.method"},
     {explicit_ | relaxation, {}, {}}};
 
-/// A key that these analyses set aside.
+/// Returns the exceptions of a key that these analyses do not use.
 Without set_aside(Kinds analyses) { return {{analyses, {}, {}}}; }
 
 const Without of_events = set_aside(explicit_ | relaxation);
@@ -315,7 +315,7 @@ const std::vector<KeySchema> rebar_keys = plain(
     "concrete_strength rib_spacing bond_failure bond_conditions megapascal millimetre "
     "ties_break perimeter hooks bends prestrain stage");
 
-/// A line in the plane and on sheets, a polygon in space.
+/// A line in the plane and on mid-surfaces, a polygon in space.
 const std::vector<KeySchema> crack_keys = {
     {"points",
      {{space, "is given, but the body has 3 dimensions", "give the `corners` of a plane polygon"}}},

@@ -12,8 +12,8 @@
 namespace perilink {
 namespace {
 
-/// Numbers beyond these bounds are no measured quantity in any units, and powers of them (the
-/// micromodulus has the horizon to the sixth) would leave the range of double precision.
+/// Bounds of numbers: powers of numbers beyond them would leave the range of double precision (the
+/// micromodulus has the horizon to the sixth).
 constexpr double largest_number = 1e50;
 constexpr double smallest_number = 1e-50;
 
@@ -23,7 +23,7 @@ constexpr std::size_t longest_text = 200;
 /// Linux's PATH_MAX.
 constexpr std::size_t longest_path = 4096;
 
-/// Body forces of manufactured solutions are long.
+/// Characters, enough for body forces of manufactured solutions.
 constexpr std::size_t longest_formula = 2000;
 
 }  // namespace

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 constexpr int most_repeats = 1000;
 constexpr int most_study_columns = 100000;
 
-/// `error` may be one table or a list of them.
+/// Returns the schema with `error` as one table or a list of tables.
 std::vector<TableSchema> study_schema(bool several_errors) {
   return {
       {"", false, {"title", "case", "repeats"}},
@@ -35,12 +35,12 @@ std::vector<TableSchema> study_schema(bool several_errors) {
   };
 }
 
-/// A path that is relative to the folder of a file, as the program opens it.
+/// Turns a path relative to the folder of a file into one relative to the working directory.
 std::string beside(const std::string& file, const std::string& path) {
   return (fs::path(file).parent_path() / path).lexically_normal().string();
 }
 
-/// A path from one folder to a file, whatever the working directory.
+/// Returns the path from a folder to a file, independent of the working directory.
 std::string path_from(const std::string& directory, const std::string& file) {
   const fs::path base = fs::absolute(directory.empty() ? "." : directory);
   return fs::proximate(fs::absolute(file), base).lexically_normal().string();
@@ -102,7 +102,7 @@ void read_refinement(const CaseTable& table, VarySection& vary, const StudyFile&
     }
   } else if (vary.refinement == Refinement::mesh) {
     for (const std::string& mesh : distinct(table, key, *table.texts(key))) {
-      // From the folder of the case, as the case itself would name it.
+      // Relative to the folder of the case, as in the case file.
       vary.values.push_back(
           body_key(key, path_from(folder_of(study.case_path), beside(study.path, mesh))));
     }
@@ -154,7 +154,7 @@ void read_reference(const CaseTable& table, ErrorSection& error, std::size_t mem
   }
 }
 
-/// As many formulas as the case has dimensions, which is looked at later.
+/// The number of formulas is checked later against the dimensions of the case.
 std::vector<Expression> read_field(const CaseTable& table) {
   const std::size_t count = table.value("displacement")->items.size();
   if (table.value("displacement")->kind == TomlValue::Kind::array && count != 2 && count != 3) {

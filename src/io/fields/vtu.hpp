@@ -5,10 +5,9 @@
 #include <utility>
 #include <vector>
 
-/// \file
-/// VTK unstructured grids (.vtu, XML, zlib-compressed inline binary), files that name the pieces of
-/// one (.pvtu) and time series (.pvd), as ParaView opens them, and the reading back of files that
-/// this program wrote.
+/// \file Writes VTK unstructured grids (.vtu, XML, zlib-compressed inline binary), files that name
+///     the pieces of a grid (.pvtu) and time series (.pvd) for ParaView. Reads back files that this
+///     program wrote.
 
 namespace perilink {
 
@@ -47,28 +46,27 @@ struct VtuGrid {
 /// \throws FileError
 void write_vtu(const std::string& path, const VtuGrid& grid);
 
-/// File of a piece of the grid that STEM.pvtu names: STEM_0000.vtu and so on.
+/// Returns the name of the file of a piece: STEM_0000.vtu and so on.
 std::string piece_of_vtu(const std::string& stem, int piece);
 
-/// Writes STEM.pvtu, which names the pieces of one grid that lie beside it (piece_of_vtu()).
-/// \param like  with the arrays of all pieces
+/// Writes STEM.pvtu, which names the pieces of one grid in the same folder (piece_of_vtu()).
+/// \param like a grid with the arrays of all pieces
 /// \throws FileError
 void write_pvtu(const std::string& stem, const VtuGrid& like, int pieces);
 
-/// Reads a file written by write_vtu, or where it is called .pvtu all pieces that it names, one
-/// after the other.
-/// \throws FileError naming the file and what is wrong with it
+/// Reads a file written by write_vtu, or all pieces of a .pvtu file, one after the other.
+/// \throws FileError with the file and its fault
 VtuGrid read_vtu(const std::string& path);
 
 /// One file of a series.
 struct PvdEntry {
   double time = 0.0;  ///< row of the history, or time
-  std::string file;   ///< its name; it lies beside the .pvd
+  std::string file;   ///< its name, in the folder of the .pvd file
 };
 
 /// \throws FileError
 void write_pvd(const std::string& path, const std::vector<PvdEntry>& entries);
-/// \throws FileError, also where a file of the series would lie in another folder
+/// \throws FileError, also where a file of the series is in another folder
 std::vector<PvdEntry> read_pvd(const std::string& path);
 
 }  // namespace perilink

@@ -18,7 +18,7 @@ constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 bool is_ascii(char c) { return static_cast<unsigned char>(c) < 0x80; }
 
-/// Copies the document once, outside of strings, within strings and within comments.
+/// Copies and checks the document, in one pass.
 class Guard {
  public:
   Guard(std::string_view text, const std::string& path) : text_(text), path_(path) {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int most_iterations = 2000000000;
 
-/// A run at rest is left with a residual of some 1e-15 of its forces.
+/// A converged run has a residual of about 1e-15 of its forces.
 constexpr double least_tolerance = 1e-13;
 
 void check_strain(const CaseFile& input) {

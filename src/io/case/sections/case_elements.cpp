@@ -33,7 +33,7 @@ std::optional<ElementsSection> read_elements(const CaseTable& table) {
 
 namespace {
 
-/// What ordinary elements cannot do.
+/// Refuses tied finite elements where they are not supported.
 void check_tied(const CaseFile& input) {
   if (input.elements->tied.empty()) return;
   const auto refuse = [&](const char* why, const char* hint) {

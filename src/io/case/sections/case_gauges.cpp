@@ -14,7 +14,8 @@
 namespace perilink {
 namespace {
 
-/// Names head columns of a table, where a minus sign would begin a formula, and name pictures.
+/// Names are column headings, where a leading minus sign would begin a formula, and file names of
+/// pictures.
 bool is_plain(const std::string& name) {
   const auto plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
@@ -85,7 +86,8 @@ void write_gauges(TomlWriter& out, const CaseFile& input) {
 
 namespace {
 
-/// Stresses of bodies that move are those of small strains, and of bonds.
+/// Refuses stresses where they are not computed: Green strains, and state-based particles in
+/// motion.
 void refuse_stress(const CaseFile& input, const std::string& key) {
   const AnalysisType type = input.analysis.type;
   if (type == AnalysisType::elastic) return;

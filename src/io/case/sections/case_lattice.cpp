@@ -16,7 +16,7 @@ namespace perilink {
 namespace {
 
 constexpr int most_rows = 1000000;
-/// Keys of [[materials]] that an unbreakable one has no use for.
+/// Keys of [[materials]] that unbreakable materials cannot have.
 constexpr std::array softening_keys = {"tensile_strength",      "knee_stress_ratio",
                                        "knee_opening_ratio",    "compression_ratio",
                                        "compression_threshold", "boundary_factor"};
@@ -37,7 +37,7 @@ void read_crack_opening(const CaseTable& table, const BodySection& body,
   assign(section.knee_stress_ratio, table.fraction("knee_stress_ratio"));
   assign(section.knee_opening_ratio, table.fraction("knee_opening_ratio"));
   assign(section.compression_ratio, table.positive("compression_ratio"));
-  // What the papers of each variant have.
+  // Defaults of the papers of each variant.
   section.compression_threshold = body.variant == LatticeRules::least_2018 ? 0.8 : 1.0 / 3.0;
   section.boundary_factor = body.variant == LatticeRules::consistent ? 1.0 : 0.2;
   assign(section.compression_threshold, table.fraction("compression_threshold"));
@@ -144,7 +144,7 @@ void read_state_material(const CaseTable& table, const CaseFile& input, Material
 }
 
 void read_explicit_analysis(const CaseTable& table, AnalysisSection& analysis) {
-  const bool runs = analysis.type == AnalysisType::explicit_;  // else the keys are only checked
+  const bool runs = analysis.type == AnalysisType::explicit_;  // other types only check these keys
   const auto duration = table.positive("duration");
   if (runs) analysis.duration = table.need("duration", duration, "the time that the run covers");
   analysis.ramp_time = analysis.duration;

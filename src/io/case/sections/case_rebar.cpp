@@ -16,7 +16,7 @@ namespace {
 
 constexpr int most_bars = 100000;
 
-/// By which the first point of a stress-strain curve may miss Young's modulus.
+/// Relative tolerance between Young's modulus and the first point of a stress-strain curve.
 constexpr double same_modulus = 1e-3;
 
 std::vector<std::vector<double>> rows(const std::vector<Vector3>& vectors, int dim) {
@@ -25,7 +25,7 @@ std::vector<std::vector<double>> rows(const std::vector<Vector3>& vectors, int d
   return list;
 }
 
-/// Pairs of numbers.
+/// Reads a list of pairs of numbers.
 std::vector<std::array<double, 2>> read_curve(const CaseTable& table, const std::string& key) {
   std::vector<std::array<double, 2>> curve;
   for (const Vector3& point : table.vectors(key, 2).value_or(std::vector<Vector3>())) {
@@ -174,7 +174,7 @@ void read_steel(const CaseTable& table, RebarSection& bar) {
   }
 }
 
-/// Keys that belong to one kind of bond.
+/// Refuses keys of other kinds of bond.
 void refuse_keys_of_others(const CaseTable& table, RebarBond bond) {
   const std::vector<std::pair<const char*, RebarBond>> owners = {
       {"bond_stiffness", RebarBond::linear},
@@ -232,7 +232,8 @@ void read_bond(const CaseTable& table, RebarSection& bar) {
   }
 }
 
-/// Flow that stages leave behind moves an end of each segment with its node.
+/// Plastic strains of earlier stages move an end of each bar element with its node, which needs the
+/// direct solver.
 void refuse_flow_without_factor(const CaseFile& input, std::size_t k) {
   const RebarSection& bar = input.rebar[k];
   const bool flows = bar.yields && (bar.yield_strength || !bar.curve.empty());
@@ -327,7 +328,7 @@ void write_rebar(TomlWriter& out, const RebarSection& bar, int dim) {
   out.write("area", bar.area);
   out.write("yield_strength", bar.yield_strength);
   write_curve(out, "stress_strain", bar.curve);
-  // `yields = true` without a yield strength is refused when it is written out.
+  // `yields = true` without a yield strength is refused when read, so it is not written.
   if (bar.yield_strength || !bar.curve.empty() || !bar.yields) out.write("yields", bar.yields);
   if (bar.hardening_modulus != 0.0) out.write("hardening_modulus", bar.hardening_modulus);
   out.write("rupture_strain", bar.rupture_strain);

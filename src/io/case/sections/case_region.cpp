@@ -37,7 +37,8 @@ void read_interval(const CaseTable& table, int axis, Box& box) {
                              interval.size() == 1 ? "" : "s"),
                  "write [lower, upper]");
   }
-  // Equal ends make a line or a point, as supports need them; materials ask for more.
+  // Equal ends make a line or a point, which supports may use; check_shape() refuses them for
+  // materials.
   if (interval[0] > interval[1]) {
     table.refuse(key,
                  fmt::format("is [{}, {}], but the lower end must be less than the upper",
@@ -48,7 +49,7 @@ void read_interval(const CaseTable& table, int axis, Box& box) {
   box.upper[axis] = interval[1];
 }
 
-/// The axis with an interval, which makes a cylinder of a circle; nothing for discs and balls.
+/// Returns the axis of a cylinder, the one with an interval; std::nullopt for discs and balls.
 std::optional<int> axis_of_cylinder(const CaseTable& table, int dim) {
   std::optional<int> axis;
   for (int a = 0; a < dim; ++a) {

@@ -27,7 +27,7 @@
 namespace perilink {
 namespace {
 
-/// Names of all regions, each once.
+/// Returns the names of all regions, and refuses names that occur twice.
 std::set<std::string> check_region_names(const CaseFile& input) {
   std::map<std::string, std::size_t> first;
   for (std::size_t i = 0; i < input.regions.size(); ++i) {
@@ -50,8 +50,8 @@ std::set<std::string> check_region_names(const CaseFile& input) {
   return names;
 }
 
-/// Stiffer materials beside soft ones leave the soft ones no digits: where a half of a strip was so
-/// much stiffer, the load of the other was wrong by 2e-7 for a ratio of 1e10, 1e-3 for 1e14.
+/// Round-off of stiff materials exceeds small forces in soft ones. In a strip of two materials the
+/// load of the soft half was wrong by 2e-7 for a ratio of 1e10, by 1e-3 for 1e14.
 constexpr double largest_stiffness_ratio = 1e10;
 
 void check_stiffness_ratio(const CaseFile& input) {
@@ -72,7 +72,7 @@ void check_stiffness_ratio(const CaseFile& input) {
                   largest_stiffness_ratio));
 }
 
-/// Bonds between two materials take the mean of what both give, so that all must give the same.
+/// Bonds between two materials use the mean of both laws, so both must have the same kind of law.
 void check_stretches(const CaseFile& input) {
   const auto given = [](const MaterialSection& material) {
     return has_stretches(material.softening);
@@ -91,7 +91,8 @@ void check_stretches(const CaseFile& input) {
                    "give softening_stretches to every material that can break, or to none");
 }
 
-/// The law of concrete has two branches, which damage analyses of micropolar bodies know.
+/// Only damage analyses of micropolar bodies support the law of concrete with its compressive
+/// branch.
 void check_concrete(const CaseFile& input) {
   for (std::size_t m = 0; m < input.materials.size(); ++m) {
     if (input.materials[m].softening.shape.kind != Softening::concrete) continue;
@@ -121,7 +122,7 @@ void check_concrete(const CaseFile& input) {
   }
 }
 
-/// Regions that need not be declared are for what holds and loads the body, not for materials.
+/// Predefined regions are allowed in supports and loads, not in materials.
 enum class Reserved { allowed, refused };
 
 void check_reference(const CaseFile& input, const std::set<std::string>& names,
@@ -177,8 +178,8 @@ void check_between(const CaseFile& input, const std::set<std::string>& names) {
   }
 }
 
-/// A material fills space; a region that is a line or a point holds none. The lattices of bonds
-/// are fitted to boxes.
+/// Refuses regions without volume, and round regions of bodies of bonds, whose lattices fit boxes
+/// only.
 void check_shape(const CaseFile& input, const std::string& key, const std::string& name) {
   for (const Region& region : input.regions) {
     if (region.name != name || !region.group.empty()) continue;
@@ -200,8 +201,8 @@ void check_shape(const CaseFile& input, const std::string& key, const std::strin
   }
 }
 
-/// Materials overlap on purpose (a weak patch within a body), but two for the very same region are
-/// a slip: the first would have no effect.
+/// Refuses two materials of one region: the first would have no effect. Different regions may
+/// overlap (a weak patch within a body).
 void check_materials(const CaseFile& input, const std::set<std::string>& names) {
   std::map<std::string, std::size_t> owner;
   for (std::size_t i = 0; i < input.materials.size(); ++i) {
@@ -263,7 +264,7 @@ void check_driven_once(const CaseFile& input, const Held& held, const std::strin
   }
 }
 
-/// A displacement that is driven cannot be held or driven elsewhere too.
+/// Refuses displacements that are prescribed twice, or both prescribed and clamped.
 void check_contradictions(const CaseFile& input) {
   Held held;
   for (const SupportSection& support : input.supports) {
@@ -298,7 +299,7 @@ void refuse_on_ghosts(const CaseFile& input, const std::string& key) {
                    "surface = \"none\" in [body]");
 }
 
-/// Conjugate gradients lose a beam that is nearly cut through among round-off.
+/// Round-off makes conjugate gradients fail in a beam that is nearly cut through.
 void check_iterative_solver(const CaseFile& input) {
   if (input.analysis.solver != LinearSolver::iterative) return;
   if (is_beam(input.body) && input.analysis.type == AnalysisType::damage) {

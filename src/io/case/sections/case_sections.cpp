@@ -17,7 +17,7 @@ namespace {
 
 constexpr int largest_count = std::numeric_limits<int>::max();
 
-/// Index in SupportSection::fix of what a support names.
+/// Returns the index in SupportSection::fix of a name.
 std::size_t find_held_component(const CaseTable& table, const BodySection& body,
                                 const std::string& name) {
   const int dim = axes_of(body);
@@ -46,7 +46,7 @@ std::size_t find_held_component(const CaseTable& table, const BodySection& body,
                         : (rotates ? "Allowed: x, y, z, rx, ry, rz" : "Allowed: x, y, z"));
 }
 
-/// Keys of [analysis] that only quasistatic analyses have.
+/// Reads the keys of [analysis] of quasistatic analyses.
 void read_events(const CaseTable& table, AnalysisSection& analysis) {
   assign(analysis.control, table.choice<LoadControl>("control"));
   assign(analysis.factor, table.choice<FactorRoute>("factor"));
@@ -145,7 +145,7 @@ AnalysisSection read_analysis(const CaseTable& table, AnalysisType type) {
   assign(analysis.rigid_body_modes, table.choice<RigidBodyModes>("rigid_body_modes"));
   const bool is_explicit = type == AnalysisType::explicit_;
   const bool relaxes = type == AnalysisType::relaxation;
-  // Keys of other types are checked, too, and then forgotten.
+  // Keys of other types are checked but not used.
   AnalysisSection other;
   if (type == AnalysisType::elastic) analysis.tolerance = read_tolerance(table, 1e-10);
   read_strain(table, is_explicit || relaxes ? analysis : other);
@@ -202,7 +202,7 @@ OutputSection read_output(const CaseTable& table, AnalysisType type) {
         fmt::format("has {} after {}, but times must ascend", output.fields_times[i], before),
         "sort the times, each once; the fields at time 0 are always written");
   }
-  // As in [analysis], keys of other types are checked and forgotten.
+  // Keys of other types are checked but not used.
   if (type != AnalysisType::damage) {
     output.fields_at.clear();
     output.fields_every.reset();

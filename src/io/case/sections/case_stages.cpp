@@ -58,7 +58,7 @@ void refuse_stages_of_loads(CaseFile& input) {
   });
 }
 
-/// What stages have no use for.
+/// Refuses keys that stages exclude.
 void refuse_beside_stages(const CaseFile& input) {
   const StopSection& stop = input.stop;
   if (stop.broken_bonds || stop.load_fraction || stop.displacement) {
@@ -79,7 +79,7 @@ void refuse_beside_stages(const CaseFile& input) {
   }
 }
 
-/// Names of stages that change loads of their own.
+/// Returns the names of stages that have their own loads, and checks all names.
 std::vector<std::string_view> check_names(const CaseFile& input) {
   std::vector<std::string_view> owners;
   std::set<std::string_view> before;
@@ -103,7 +103,7 @@ std::vector<std::string_view> check_names(const CaseFile& input) {
   return owners;
 }
 
-/// Only the last stage may go on until the body collapses.
+/// Refuses a stage without an end, unless it is the last.
 void refuse_endless(const CaseFile& input, std::size_t i) {
   const StageSection& stage = input.stages[i];
   const StopSection& stop = stage.stop;

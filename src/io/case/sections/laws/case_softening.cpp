@@ -14,7 +14,8 @@ namespace perilink {
 namespace {
 
 constexpr double least_error = 1e-5;
-constexpr double most_rise = 1e10;  ///< stretch where the force is zero over that where it falls
+/// Largest ratio of the stretch at zero force to the stretch at the peak.
+constexpr double most_rise = 1e10;
 constexpr std::array knee_keys = {"knee_stress_ratio", "knee_opening_ratio"};
 constexpr std::array concrete_keys = {"tension_limit", "tension_factor", "compression_limit",
                                       "compression_factor", "shear_softening"};
@@ -25,7 +26,7 @@ constexpr std::array keys = {
     "softening_error", "knee_stress_ratio", "knee_opening_ratio", "tension_limit",
     "tension_factor",  "compression_limit", "compression_factor", "shear_softening"};
 
-/// The first of the keys that is there; none: null.
+/// Returns the first given key, or nullptr.
 template <std::size_t count>
 const char* find_given(const CaseTable& table, const std::array<const char*, count>& names) {
   for (const char* key : names) {
@@ -65,7 +66,8 @@ void refuse_beside_brittle(const CaseTable& table) {
   }
 }
 
-/// Where a force ceases to grow, and a larger stretch where it falls to zero.
+/// Reads the stretch at which the force stops growing, and the larger stretch at which it falls to
+/// zero.
 std::array<double, 2> read_plateau(const CaseTable& table, const std::string& sense) {
   const std::string factor_key = sense + "_factor";
   const double limit = table.need(sense + "_limit", table.positive(sense + "_limit"),
