@@ -58,8 +58,7 @@ const Without neighbourhoods = [] {
 constexpr std::string_view no_torsion =
     "delete it; three-dimensional bodies with model = \"micropolar\" have it";
 const Without torsion = {
-    {shell,
-     "is given, but the torsional stiffness of bonds of a shell follows from its Poisson's ratio",
+    {shell, "is given, but torsion of bonds of a shell follows from its Poisson's ratio",
      delete_it},
     {elements, no_bonds, bonds_instead},
     on_lattice,
@@ -89,7 +88,7 @@ const Without types = {
     {elements | explicit_, "is \"explicit\", but linear elements have no masses",
      "set method = \"bonds\" in [body], or type = \"elastic\""},
     {shell | beam | explicit_ | relaxation,
-     "is \"{type}\", but shells and beams have no masses: only quasistatic analyses have them",
+     "is \"{type}\", but shells and beams have no masses: they need a quasistatic analysis",
      "set type = \"elastic\" or \"damage\""}};
 
 const Without softening = {{elements, no_bonds, bonds_instead}};
@@ -153,16 +152,14 @@ const Without symmetry = {
      whole_body}};
 const Without springs = {
     {lattice, no_lattice_table, another_model},
-    {elements,
-     "is \"linear_elements\", but the case has [[springs]], which only bodies of bonds have",
+    {elements, "is \"linear_elements\", but the case has [[springs]], which need bonds",
      "delete one of the two", "body.method"}};
 const Without spring_stiffness = {
     {beam, "is given per area, but a beam has no faces", "give `total`"}};
 const Without outside_of_mid_surfaces = {
     {plane, "is an axis that a two-dimensional body does not have",
      "delete it, or set problem = \"three_dimensional\" in [body]"},
-    {shell, "is given, but positions in a shell are given on its flat mid-surface, by x and y",
-     delete_it}};
+    {shell, "is given, but positions in a shell have two coordinates, x and y", delete_it}};
 const Without cracks = {
     {beam, no_beam, flat_instead},
     {particles, no_particle_table, another_model},
@@ -174,8 +171,7 @@ const Without interfaces = {
     {shell, "is given, but shells cannot have interfaces", flat_instead},
     {particles, no_particle_table, another_model},
     {lattice, no_lattice_table, another_model},
-    {elements,
-     "is \"linear_elements\", but the case has [[interfaces]], which only bodies of bonds have",
+    {elements, "is \"linear_elements\", but the case has [[interfaces]], which need bonds",
      "delete one of the two", "body.method"},
     {elastic, {}, {}}};
 const Without rebar = {
@@ -183,8 +179,7 @@ const Without rebar = {
     {shell, "is given, but shells cannot have rebar", flat_instead},
     {particles, no_particle_table, another_model},
     {lattice, no_lattice_table, another_model},
-    {elements,
-     "is \"linear_elements\", but the case has [[rebar]], which only bodies of bonds have",
+    {elements, "is \"linear_elements\", but the case has [[rebar]], which needs bonds",
      "delete one of the two", "body.method"}};
 
 const Without hosts = {
@@ -207,13 +202,12 @@ const NotFor no_lattice_key{lattice | explicit_, "is given, but lattice particle
 const Without of_bonds_in_time = {{still, {}, {}}, no_lattice_key};
 const Without strains = {
     {damage | elastic, {}, {}},
-    {lattice, "is given, but strains of lattice particles always follow from their true lengths",
-     delete_it}};
+    {lattice, "is given, but lattice particles always use true lengths", delete_it}};
 
 const Without stages = {
     {shell | beam, "is given, but all loads of shells and beams grow together", delete_it},
-    {elastic | explicit_ | relaxation,
-     "is given, but type = \"{type}\" has loads that all grow together", damage_instead}};
+    {elastic | explicit_ | relaxation, "is given, but all loads of type = \"{type}\" grow together",
+     damage_instead}};
 
 const Without release_strains = {
     {elastic, {}, {}},
