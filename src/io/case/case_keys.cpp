@@ -206,8 +206,8 @@ const Without strains = {
 
 const Without stages = {
     {shell | beam, "is given, but all loads of shells and beams grow together", delete_it},
-    {elastic | explicit_ | relaxation, "is given, but all loads of type = \"{type}\" grow together",
-     damage_instead}};
+    {elastic | explicit_ | relaxation,
+     "is given, but type = \"{type}\" makes all loads grow together", damage_instead}};
 
 const Without release_strains = {
     {elastic, {}, {}},
