@@ -24,8 +24,8 @@ ParticleScales measure_particles(const Bonds& bonds, std::span<const double> axi
                                  Index num_particles);
 
 /// Writes unbalanced forces and moments to the report.
-/// \param rest result of forces_out_of_balance() [force], shape (all particles, rows)
-/// \param particles particles to measure
+/// \param rest  result of forces_out_of_balance() [force], shape (all particles, rows)
+/// \param particles  particles to measure
 void report_balance(const ForceRows& form, std::span<const double> rest,
                     std::span<const Index> particles, const ParticleScales& scales,
                     CalibrationReport& report);

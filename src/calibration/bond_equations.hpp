@@ -34,15 +34,17 @@ struct BondStiffness {
 /// Equations of equilibrium under all uniform strains at a particle without rotation. An axial
 /// stiffness k pulls with k xi (n.eps.n) n, a bending stiffness k with k xi (eps.n - (n.eps.n) n)
 /// and, at each end, one half of the couple k xi^2 n x (eps.n). Forces and moments vanish for every
-/// strain where sum (k_axial - k_bending) xi nnn = -lambda (d_ab A_c + d_ac A_b + d_bc A_a), sum
-/// k_bending xi n = -2 (mu - lambda) A, sum k_bending xi^2 (nn - I/dim) = 0, A is the area vector
-/// of the particle. Without bending only the first equation holds, with lambda = mu. The first two
-/// act on both ends with opposite signs. Where the couple is not halved, the last equation weights
-/// bending stiffnesses by twice the fraction of their couple at the particle.
+/// strain where
+///   sum (k_axial - k_bending) xi nnn = -lambda (d_ab A_c + d_ac A_b + d_bc A_a),
+///   sum k_bending xi n = -2 (mu - lambda) A,   sum k_bending xi^2 (nn - I/dim) = 0,
+/// with the area vector A of the particle. Without bending only the first equation holds, with
+/// lambda = mu. The first two act on both ends with opposite signs. Where the couple is not halved,
+/// the last equation weights bending stiffnesses by twice the fraction of their couple at the
+/// particle.
 ///
 /// With `dilatation` the last row is the energy of a uniform dilatation, eps = identity. Half of
-/// the energy of the bonds belongs to the particle, 1/2 sum k_axial xi^2 = V (dim^2 lambda + 2 dim
-/// mu).
+/// the energy of the bonds belongs to the particle,
+///   1/2 sum k_axial xi^2 = V (dim^2 lambda + 2 dim mu).
 struct ForceRows {
   int dim;
   bool bending;  ///< whether bonds carry moments
@@ -65,10 +67,11 @@ struct ForceRows {
 };
 
 /// Equations of the moduli of a particle: half of the energy of its bonds equals the energy of its
-/// volume under every uniform strain, 1/2 sum xi^2 (k_axial nnnn + k_bending ((d nn) - nnnn)) = V
-/// C, ((d nn) the symmetrised product with eps.(d nn).eps = |eps.n|^2). Without bending both sides
-/// are symmetric in all indices. With bending the couples must be in balance too, which is a
-/// separate condition in stretched lattices: sum k_bending xi^2 (nn - I/dim) = 0.
+/// volume under every uniform strain,
+///   1/2 sum xi^2 (k_axial nnnn + k_bending ((d nn) - nnnn)) = V C,
+/// ((d nn) the symmetrised product with eps.(d nn).eps = |eps.n|^2). Without bending both sides are
+/// symmetric in all indices. With bending the couples must be in balance too, which is a separate
+/// condition in stretched lattices: sum k_bending xi^2 (nn - I/dim) = 0.
 struct ModuliRows {
   int dim;
   bool bending;

@@ -45,7 +45,7 @@ struct BondOrbits {
 };
 
 /// Finds the equivalence classes. Depth under a face distinguishes bonds up to twice the reach of
-/// the bonds (in steps), and particles up to three times, which covers the strip of free bonds.
+/// the bonds (in steps), and particles up to three times. This covers the strip of free bonds.
 /// Along axes that are too short for this, only reflections are used.
 /// \param free  bonds whose stiffness may change
 BondOrbits find_orbits(const LatticeBox& box, const Particles& particles, const Bonds& bonds,

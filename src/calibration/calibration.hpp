@@ -10,13 +10,13 @@
 
 namespace perilink {
 
-/// Changes the stiffness of the free bonds as little as possible (bounded least squares of the
-/// relative changes) so that every particle is in balance in every uniform strain
-/// (docs/theory/calibration.md). Also shifts nodal area fractions and inflection points of bonds
-/// that carry moments where stiffnesses are not enough. Where the bounds make the equations
-/// infeasible, bonds may fall to zero, as at a corner of a cube, where bonds along the diagonal
-/// pull out of three faces. Where this is not enough, the remaining forces are reduced by least
-/// squares, penalties or soft equations; the report has their size.
+/// Calibrates the free bonds: every particle is in balance in every uniform strain, with the least
+/// relative changes of stiffness (bounded least squares; docs/theory/calibration.md). Also shifts
+/// nodal area fractions and inflection points of bonds that carry moments where stiffnesses are not
+/// enough. Where the bounds make the equations infeasible, bonds may fall to zero. An example is
+/// the corner of a cube, where bonds along the diagonal pull out of three faces. Where this is not
+/// enough, the remaining forces are reduced by least squares, penalties or soft equations; the
+/// report has their size.
 CalibrationReport calibrate_bonds(const CalibrationInput& input, const CalibrationOptions& options,
                                   Facets& facets, BondStiffness& stiffness);
 

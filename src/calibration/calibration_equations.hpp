@@ -19,9 +19,9 @@ namespace perilink {
 /// bonds are free, nodal area fractions are variables too.
 class CalibrationEquations {
  public:
-  /// \param least_weight lower bound of the axial stiffness, relative to the start
+  /// \param least_weight  lower bound of the axial stiffness, relative to the start
   /// \param stiffness     start of the calibration
-  /// \param orbits symmetry-equivalent bonds, which have equal weights; only the representatives
+  /// \param orbits  symmetry-equivalent bonds, which have equal weights; only the representatives
   ///     have equations. Null: all particles have equations
   CalibrationEquations(const CalibrationInput& input, double least_weight, const Facets& facets,
                        const BondStiffness& stiffness, const BondOrbits* orbits = nullptr);
@@ -117,7 +117,7 @@ class CalibrationEquations {
   bool shares_vary() const { return input_.all_free(); }
   bool carries_moments() const { return forces_.bending; }
 
-  /// The inverse of this weights the squares of soft moments against those of the changes.
+  /// The inverse of this weights squares of soft moments against squares of the changes.
   static constexpr double soft_ridge = 1e-4;
 
   const CalibrationInput& input_;

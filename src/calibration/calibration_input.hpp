@@ -45,8 +45,8 @@ struct CalibrationOptions {
 };
 
 /// Result of a calibration. Unbalanced forces are forces on a particle at a uniform strain of one,
-/// divided by 1/2 sum k xi^2 / (mean xi) of its bonds at the start, which is about the force on a
-/// face of its cell.
+/// divided by 1/2 sum k xi^2 / (mean xi) of its bonds at the start. This divisor is about the force
+/// on a face of its cell.
 struct CalibrationReport {
   Index free_bonds = 0;
   bool alike = false;            ///< whether the problem was symmetry-reduced

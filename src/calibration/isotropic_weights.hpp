@@ -15,12 +15,12 @@ struct NeighbourhoodStiffness {
 };
 
 /// Makes an interior particle of a lattice exactly isotropic with the given constants, by the least
-/// relative change of its bonds' stiffness, which stays positive: sum over the neighbours of
-/// 1/2 xi^2 (k_axial nnnn + ...) = V C (ModuliRows). Equivalent neighbours change alike.
-/// \param offsets vectors to all neighbours, in opposite pairs [length]
+/// relative change of its bonds' stiffness, which stays positive: sum over the neighbours of 1/2
+/// xi^2 (k_axial nnnn + ...) = V C (ModuliRows). Equivalent neighbours change equally.
+/// \param offsets  vectors to all neighbours, in opposite pairs [length]
 /// \param volume     V of a particle [length^3]
-/// \param stiffness start and result
-/// \throws std::invalid_argument where the neighbours are too few
+/// \param stiffness  start and result
+/// \throws std::invalid_argument  where the neighbours are too few
 void make_isotropic(int dim, std::span<const Vector3> offsets, double volume,
                     const LameConstants& constants, NeighbourhoodStiffness& stiffness);
 

@@ -131,7 +131,7 @@ double DualNewton<Normal>::search_line(const Vector& residual, const Vector& dir
 }
 
 /// Newton's method on the dual function, from the multipliers y.
-/// \param most norm of the residual, over its value at the start, at which the method has diverged
+/// \param most  norm of the residual, over its value at the start, at which the method has diverged
 template <class Normal>
 void DualNewton<Normal>::ascend(Vector y, double target, double most) {
   Vector direction;

@@ -25,8 +25,8 @@ enum class CoarseModes {
 /// that the number of iterations does not grow with the body (docs/theory/calibration.md).
 class CoarseSpace {
  public:
-  /// \param active active-set weight per variable, from 0 to 1
-  /// \param diagonal  added to that of the system, shape (points, rows)
+  /// \param active  active-set weight per variable, from 0 to 1
+  /// \param diagonal  added to the diagonal of the system, shape (points, rows)
   CoarseSpace(const PointEquations& equations, const std::vector<double>& active,
               const std::vector<double>& diagonal, CoarseModes fields);
 
@@ -84,11 +84,11 @@ std::vector<double> point_blocks(const PointEquations& equations, const std::vec
 
 /// Adds the diagonal to the blocks of the single points of A D A'. Rows without any variable get a
 /// one.
-/// \param rows number of equations per point
+/// \param rows  number of equations per point
 void finish_blocks(int rows, const std::vector<double>& diagonal, std::vector<double>& blocks);
 
 /// Replaces symmetric positive definite blocks, shape (points, rows, rows), by their inverses.
-/// \param rows at most 26
+/// \param rows  at most 26
 void invert_blocks(int rows, std::vector<double>& blocks);
 
 }  // namespace perilink

@@ -29,16 +29,16 @@ struct SubdomainMatrix {
 
 /// Solves the coarse system P' S P of the modes of all subdomains. Few subdomains have a factor. A
 /// factor of many would take longer than the rest of an iteration. Then subdomains are joined to
-/// aggregates with near-null-space modes P2, and the approximate solution is D^-1 + P2 (P2' A
-/// P2)^-1 P2', with the diagonal blocks D of the subdomains.
+/// aggregates with near-null-space modes P2. The approximate solution is D^-1 + P2 (P2' A P2)^-1
+/// P2', with the diagonal blocks D of the subdomains.
 class CoarseSystem {
  public:
   /// Returns the aggregate of a subdomain.
   static Index large_box(Index box) { return box / boxes_of_large; }
   static bool is_nested(Index num_subdomains) { return num_subdomains > most_in_factor; }
 
-  /// \param matrix matrix of all variables
-  /// \param inside matrix of the variables inside aggregates, for the first nested factorisation
+  /// \param matrix  matrix of all variables
+  /// \param inside  matrix of the variables inside aggregates, for the first nested factorisation
   void factorize(const SubdomainMatrix& matrix, const SubdomainMatrix& inside);
   bool has_fields() const { return !fields_.empty(); }
 

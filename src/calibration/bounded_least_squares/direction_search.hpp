@@ -70,7 +70,7 @@ struct DirectionSearch {
 
   static constexpr double cheap_reduction = 0.1;
   /// Products of single precision are used until residuals have fallen by the first factor, and
-  /// given up where the fall is less than the second.
+  /// abandoned where the fall is less than the second.
   static constexpr double digits_of_steps = 1e-4, least_gain = 0.1;
 };
 
@@ -105,7 +105,7 @@ class FormerDirections {
 /// residual whenever it seems to have fallen by digits_of_steps, and make the next direction
 /// conjugate to the last. Where the exact residual has hardly fallen, the iteration continues with
 /// exact products.
-/// \param exact, product products with the matrix, called as exact(vector, result)
+/// \param exact, product  products with the matrix, called as exact(vector, result)
 /// \return whether the target is reached
 template <class Exact, class Product, class Precondition>
 bool descend(DirectionSearch& search, int most, Exact exact, Product product,

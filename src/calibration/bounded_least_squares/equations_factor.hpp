@@ -17,8 +17,8 @@ class EquationsFactor {
   explicit EquationsFactor(const PointEquations& equations);
 
   /// Factorises for the equations of the constructor; to be called again when the weights change.
-  /// \param active active-set weight per variable, from 0 to 1
-  /// \param diagonal  added to that of the system, shape (points, rows)
+  /// \param active  active-set weight per variable, from 0 to 1
+  /// \param diagonal  added to the diagonal of the system, shape (points, rows)
   void factorize(const PointEquations& equations, const std::vector<double>& active,
                  const std::vector<double>& diagonal);
 

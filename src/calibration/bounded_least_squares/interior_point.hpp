@@ -13,8 +13,8 @@ namespace perilink {
 /// Solves bounded_least_squares() by a primal-dual interior-point method. Weights w stay strictly
 /// between their bounds, whose multipliers are z, Z > 0: w = 1 + A'y + z - Z, A w + ridge y = r,
 /// and z (w - lower) = Z (upper - w) = mu, which goes to zero. Newton's method for all of these
-/// reduces to the system of NormalEquations with the active-set weights 1 / (1 + z / (w - lower) +
-/// Z / (upper - w)).
+/// reduces to the system of NormalEquations with the active-set weights
+/// 1 / (1 + z / (w - lower) + Z / (upper - w)).
 ///
 /// Newton's method on the dual function takes short steps where many weights pass their bounds at
 /// once, and diverges where no weight is between the bounds. This method needs ten to thirty steps
@@ -41,9 +41,9 @@ class InteriorPoint {
         at_lower_(lower_.size()),
         at_upper_(lower_.size()) {}
 
-  /// \param target required norm of the scaled residual
-  /// \param most conjugate-gradient iterations after which no step begins
-  /// \param iterations the iterations made are added
+  /// \param target  required norm of the scaled residual
+  /// \param most  conjugate-gradient iterations after which no step begins
+  /// \param iterations  the iterations made are added
   /// \return whether the target was reached
   bool solve(double target, int most, int& iterations);
   /// Whether the equations are infeasible by more than Newton's method can correct.

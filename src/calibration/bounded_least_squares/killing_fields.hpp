@@ -49,7 +49,7 @@ class RigidMotions {
 /// vanishes for products of three rigid motions, Y n n n = (u n) (v n) (w n), since both ends move
 /// equally along n. Sums of these Killing tensors are the only smooth fields with this property:
 /// ten in the plane, fifty in space (docs/theory/calibration.md).
-/// \param equations with the components of n n n as odd rows, in ascending order
+/// \param equations  with the components of n n n as odd rows, in ascending order
 /// \return orthonormal columns, shape (points * rows, fields); fewer fields where points are few or
 ///     on a line
 Eigen::MatrixXd killing_fields(const PointEquations& equations, std::span<const Index> points);

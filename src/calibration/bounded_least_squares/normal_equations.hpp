@@ -66,10 +66,9 @@ class NormalEquations {
   /// Makes the preconditioner for the present active-set weights. Keeps an earlier factor while
   /// this takes less time than a new one.
   void prepare();
-  /// Makes the preconditioner, but keeps the factor of earlier active-set weights until it needs
-  /// too many iterations.
-  /// \param settled the active weights are unchanged since the last step
-  /// \param last the step must satisfy the equations
+  /// Makes the preconditioner, but keeps an earlier factor until it needs too many iterations.
+  /// \param settled  the active weights are unchanged since the last step
+  /// \param last  the step must satisfy the equations
   void prepare_if_stale(bool settled, bool last);
   /// Solves S direction = residual until the residual is reduced by the factor. \return iterations
   int solve(const Vector& residual, double reduction, Vector& direction);
@@ -90,11 +89,9 @@ class NormalEquations {
   /// fall with the square of their length; a factor allows a smaller regularisation.
   static constexpr double least_regularisation = 1e-10;
   static constexpr double factor_regularisation = 1e-18;
-  /// Regularisation of the last steps: long waves of unstructured particle sets need a smaller
-  /// shift.
+  /// Regularisation of the last steps, smaller for long waves of unstructured particle sets.
   static constexpr double settled_regularisation = 1e-13;
-  /// Iterations that take about as long as a factor, and iterations of a solution after which a
-  /// factor is stale.
+  /// Iterations that take as long as a factor, and iterations after which a factor is stale.
   static constexpr int worth_of_factor = 15, stale_iterations = 40;
   /// Iterations of a solution after which the coarse space is made, or gets other modes.
   /// Near-null-space modes take about 500 iterations of blocks, and are used in several solutions.
@@ -139,7 +136,7 @@ class NormalEquations {
   KeptPreconditioner& kept_;
   bool by_factor_;
   bool with_boxes_;
-  bool boxes_failed_ = false;            // blocks go on alone
+  bool boxes_failed_ = false;            // only blocks are used
   std::optional<PackedProduct> packed_;  // for the steps of conjugate gradients
   bool last_ = false;                    // whether the step must satisfy the equations
   bool own_factor_ = false;  // whether the factor is of these equations, not of the last problem
@@ -266,8 +263,7 @@ void NormalEquations<Rows, Odd, Grouped>::build_blocks() {
   }
 }
 
-/// Modes or the coarse factor may have too few digits where equations are infeasible: only blocks
-/// are used.
+/// Makes the coarse space. Where this fails for infeasible equations, only blocks are used.
 template <int Rows, int Odd, bool Grouped>
 template <class Make>
 void NormalEquations<Rows, Odd, Grouped>::use_boxes(Make make) {

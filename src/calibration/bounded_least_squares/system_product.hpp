@@ -10,8 +10,8 @@ namespace perilink {
 /// dominates the time.
 /// \param active_weight  D, per variable
 /// \param y         multipliers times the scale, shape (points, rows)
-/// \param result to be multiplied by the scale, shape (points, rows) \tparam Rows, Odd, Grouped as
-///     in bounded_least_squares()
+/// \param result    to be multiplied by the scale, shape (points, rows)
+/// \tparam Rows, Odd, Grouped  as in bounded_least_squares()
 template <int Rows, int Odd, bool Grouped>
 void add_system_product(const PointEquations& equations, std::span<const double> active_weight,
                         std::span<const double> y, std::span<double> result);

@@ -247,8 +247,8 @@ struct StageSection {
   StopSection stop;
 };
 
-/// [elements]: finite elements that constrain particles until something near them may break; exactly
-/// one of spacings and size.
+/// [elements]: finite elements (hosts) that constrain particles until bonds near them may break;
+/// exactly one of spacings and size.
 struct ElementsSection {
   std::optional<int> spacings;         ///< particle spacings along each side of an element
   std::optional<double> size;          ///< approximate length of each side [length]

@@ -31,7 +31,7 @@ struct NotFor {
   std::string_view suggestion;  ///< {turning} stands for a model whose particles rotate
   std::string_view about = {};  ///< key path at fault; empty: the key or table itself
 
-  /// \param kind one bit of each group
+  /// \param kind  one bit of each group
   bool holds(Kinds kind) const;
 };
 

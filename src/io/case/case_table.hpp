@@ -70,7 +70,7 @@ class CaseTable {
     return *std::move(value);
   }
 
-  /// Returns the name of a region. \param use purpose of the region: "that is held"
+  /// Returns the name of a region. \param use  purpose of the region: "that is held"
   std::string need_region(const std::string& use) const {
     return need("region", text("region"), "the name of the region " + use);
   }

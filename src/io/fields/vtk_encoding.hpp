@@ -22,7 +22,7 @@ std::vector<std::byte> decode_base64(std::string_view text);
 std::string encode_array(std::span<const std::byte> bytes);
 
 /// Decodes an array: the inverse of encode_array().
-/// \throws std::invalid_argument with the fault
+/// \throws std::invalid_argument  with the fault
 std::vector<std::byte> decode_array(std::string_view text);
 
 }  // namespace perilink

@@ -50,12 +50,12 @@ void write_vtu(const std::string& path, const VtuGrid& grid);
 std::string piece_of_vtu(const std::string& stem, int piece);
 
 /// Writes STEM.pvtu, which names the pieces of one grid in the same folder (piece_of_vtu()).
-/// \param like a grid with the arrays of all pieces
+/// \param like  a grid with the arrays of all pieces
 /// \throws FileError
 void write_pvtu(const std::string& stem, const VtuGrid& like, int pieces);
 
 /// Reads a file written by write_vtu, or all pieces of a .pvtu file, one after the other.
-/// \throws FileError with the file and its fault
+/// \throws FileError  with the file and its fault
 VtuGrid read_vtu(const std::string& path);
 
 /// One file of a series.

@@ -31,7 +31,7 @@ class GmshCursor {
   double number();      ///< finite
   /// Reads the number of items that follow. Refuses numbers larger than the rest of the file can
   /// hold, so that memory can be reserved.
-  /// \param values_each least number of values per item; 0 means 1
+  /// \param values_each  least number of values per item; 0 means 1
   std::size_t count(std::size_t values_each, const char* things);
 
   /// Skips to the line after "$End<section>".

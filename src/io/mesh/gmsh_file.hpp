@@ -13,7 +13,7 @@ namespace perilink {
 /// are not. Groups are sorted by dimension and tag; groups of equal dimension and name are merged.
 /// \param dim  2 or 3
 /// \throws FileError   where the file cannot be read
-/// \throws InputError where the file is not a mesh, is damaged, or has another dimension
+/// \throws InputError  where the file is not a mesh, is damaged, or has another dimension
 Mesh read_gmsh_file(const std::string& path, int dim);
 
 /// Reads a mesh from the bytes of a file, for tests and fuzzing.

@@ -12,7 +12,7 @@ namespace perilink {
 bool has_gmsh();
 
 /// Meshes a geometry with gmsh's library.
-/// \param size size of all cells [length]; in a script the value of its constant `h`
+/// \param size  size of all cells [length]; in a script the value of its constant `h`
 /// \param trusted  scripts may run commands and write files (gmsh_script.hpp)
 /// \throws FileError   where the geometry cannot be read
 /// \throws InputError  where gmsh is missing or cannot mesh it, or a script has no constant `h` to

@@ -35,7 +35,7 @@ struct ExpressionVector : std::array<Expression, 3> {
 class Formula {
  public:
   /// \param dim  2: the formula may hold x and y; 3: also z
-  /// \throws std::invalid_argument with the fault and its character, from one
+  /// \throws std::invalid_argument  with the fault and its character, from one
   Formula(const Expression& expression, int dim);
   ~Formula();
   Formula(Formula&&) noexcept;

@@ -29,7 +29,7 @@ struct TomlValue {
 
 /// Reads a document.
 /// \param path  only named in messages
-/// \throws InputError where the text is not TOML, or nested too deep
+/// \throws InputError  where the text is not TOML, or nested too deep
 TomlValue parse_toml(const std::string& text, const std::string& path);
 
 /// Describes type and value for messages: `the integer 3`, `an array of 2 values`.

@@ -19,7 +19,7 @@ class TomlWriter {
  public:
   void header(std::string_view name) { append("\n{}\n", name); }
 
-  /// \param value TOML text
+  /// \param value  TOML text
   void line(std::string_view key, std::string_view value) { append("{} = {}\n", key, value); }
 
   void write(std::string_view key, double value) { line(key, fmt::format("{}", value)); }

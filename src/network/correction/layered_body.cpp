@@ -13,8 +13,8 @@
 namespace perilink {
 namespace {
 
-/// Layers are not calibrated one by one where more than this part of a force on a cell stays out of
-/// balance, in the mean over the particles in the planes.
+/// Largest unbalanced force of calibrated layers, over the force on a cell, in the mean over the
+/// particles in the planes.
 constexpr double balanced = 0.15;
 
 enum class Side : std::uint8_t { none, inside, outside };

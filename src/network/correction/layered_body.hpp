@@ -19,7 +19,7 @@ struct LayerBody {
   std::vector<Index> facet_of;     ///< facet of the whole body, per facet
 };
 
-/// \param whole the body's bonds before calibration
+/// \param whole  the body's bonds before calibration
 LayerBody cut_layer(const Body& body, const NetworkInput& input, const Network& whole,
                     const Joint& joint, std::size_t layer);
 

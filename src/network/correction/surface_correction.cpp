@@ -153,7 +153,7 @@ std::vector<double> Correction::wanted_moduli(const LatticeNeighbourhoods* neigh
   return wanted;
 }
 
-/// \param free bonds to scale; empty: all
+/// \param free  bonds to scale; empty: all
 void Correction::scale_to(const std::vector<double>& wanted, std::span<const std::uint8_t> free) {
   const std::vector<double> present = moduli_of_particles(network_, network_.stiffness);
   for (Index b = 0; b < network_.bonds.size(); ++b) {

@@ -33,7 +33,7 @@ class CutsAlongFace {
         factor_(energy_.size(), 1.0),
         wanted_(count_, 0.0) {}
 
-  /// \param share fraction of each bond that is used: a half for each end away from other faces
+  /// \param share  fraction of each bond that is used: a half for each end away from other faces
   /// \param per_force  energy over force of a cut inside the layer [length]
   void measure(const std::vector<double>& share, double per_force);
   void even_out();

@@ -12,7 +12,7 @@ namespace perilink {
 /// layer, within about a percent (docs/theory/calibration.md, section 6). A layer without interior
 /// stays unchanged.
 /// \param layer    number of the layer in the joint
-/// \param network the calibrated bonds of the layer
+/// \param network  the calibrated bonds of the layer
 /// \param horizon, spacing  [length]
 void toughen_tied_faces(const Joint& joint, std::size_t layer, double horizon, double spacing,
                         Network& network);

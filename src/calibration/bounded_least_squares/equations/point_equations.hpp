@@ -10,8 +10,8 @@ namespace perilink {
 /// Weights w_v, one per variable, each with an end at two points. At every point p hold `rows`
 /// equations
 ///
-/// sum over variables with first end p of a_v w_v + sum over variables with second end p of +- a_v
-/// w_v = r_p,
+///   sum over variables with first end p of a_v w_v
+///     + sum over variables with second end p of +- a_v w_v = r_p,
 ///
 /// with the sign - in the first `odd` rows (forces, opposite at the two ends) and + in the others
 /// (moments, moduli). The last row may hold for groups of points instead. Variables from
@@ -53,10 +53,10 @@ struct PointEquations {
 
 /// Preconditioner of the conjugate gradients.
 enum class Preconditioner {
-  blocks,             ///< blocks of single points: for few points
-  factor,             ///< factor of all equations: bodies and boundaries in the plane
-  blocks_then_boxes,  ///< blocks, and a coarse space where they take many iterations: solids
-  blocks_then_factor,  ///< blocks, and a factor where they take many iterations: solids with few variables
+  blocks,              ///< blocks of single points: for few points
+  factor,              ///< factor of all equations: bodies and boundaries in the plane
+  blocks_then_boxes,   ///< blocks, and a coarse space where they take many iterations: solids
+  blocks_then_factor,  ///< as blocks_then_boxes with a factor: solids with few variables
 };
 
 /// Method for the bounds.

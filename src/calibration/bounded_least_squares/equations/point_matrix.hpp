@@ -13,8 +13,8 @@ class PointMatrix {
  public:
   using Pairs = std::vector<std::pair<Index, Index>>;
 
-  /// \param first_row where the rows of each point begin, and the total at the end
-  /// \param pairs points that share a variable, the lower number first, in any order; pairs may
+  /// \param first_row  where the rows of each point begin, and the total at the end
+  /// \param pairs  points that share a variable, the lower number first, in any order; pairs may
   ///     repeat
   PointMatrix(std::vector<Index> first_row, Pairs pairs);
 

@@ -69,7 +69,7 @@ std::vector<std::vector<Index>> alike_points(const ReducedEquations& reduced) {
 }
 
 /// Marks linearly dependent rows among the given rows.
-/// \param before marks of an earlier problem, which are preferred
+/// \param before  marks of an earlier problem, which are preferred
 void find_implied(const ReducedEquations& reduced, const std::vector<Index>& rows,
                   const std::vector<std::uint8_t>& before, std::vector<std::uint8_t>& implied) {
   if (rows.size() < 2) return;

@@ -17,7 +17,7 @@ struct PointRows {
 /// Replaces the rows A of a point by U'A, with an orthonormal basis U of their span. Symmetry makes
 /// some forces of the point vanish and others linearly dependent. A'A, the solution and the steps
 /// stay unchanged.
-/// \param basis U, filled with zeros; a basis of an earlier problem is kept where it still spans
+/// \param basis  U, filled with zeros; a basis of an earlier problem is kept where it still spans
 ///     all rows
 void turn_rows(PointRows& own, Eigen::MatrixXd& basis);
 
@@ -25,7 +25,7 @@ void turn_rows(PointRows& own, Eigen::MatrixXd& basis);
 /// solution does not change, and the time of a factor falls with the third power of their number.
 /// Points with environments that differ only far away share nearly all bonds. Symmetry then makes
 /// some of their rows linearly dependent.
-/// \param implied per row: whether it is removed; marks of an earlier problem are kept where
+/// \param implied  per row: whether it is removed; marks of an earlier problem are kept where
 ///     possible
 void leave_out_implied(ReducedEquations& reduced, std::vector<std::uint8_t>& implied);
 

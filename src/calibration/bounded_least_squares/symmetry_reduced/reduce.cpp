@@ -29,7 +29,7 @@ Csr variables_at_points(const PointEquations& equations) {
   });
 }
 
-/// \param variables variables at the point
+/// \param variables  variables at the point
 PointRows rows_of_point(const PointEquations& equations, const ReducedEquations& reduced,
                         Index point, std::span<const Index> variables) {
   const std::size_t rows = static_cast<std::size_t>(equations.rows), first = point * rows;

@@ -41,7 +41,7 @@ struct IndependentRows {
 /// Calls visit(first, last) for the ranges [first, last) of entries of a column, one range per
 /// point.
 /// \param columns  the matrix of symmetry-reduced equations, transposed
-/// \param rows number per point
+/// \param rows  number per point
 template <class Visit>
 void for_each_point(const ReducedEquations::Matrix& columns, Index column, Index rows,
                     Visit visit) {

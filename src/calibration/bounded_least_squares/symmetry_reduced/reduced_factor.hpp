@@ -23,10 +23,10 @@ class ReducedFactor {
   void sort(ReducedEquations::Matrix& columns) const;
   /// Factorises the system, column by column, without storing it.
   /// \param matrix    M
-  /// \param columns M transposed and sorted
-  /// \param active-set weight  D
+  /// \param columns  M transposed and sorted
+  /// \param active_weight  D
   /// \param shift     added to the diagonal
-  /// \throws SolverError where the system has no factor
+  /// \throws SolverError  where the system has no factor
   void factorize(const ReducedEquations::Matrix& matrix, const ReducedEquations::Matrix& columns,
                  std::span<const double> active_weight, std::span<const double> shift);
   void solve(std::span<const double> residual, std::span<double> result) const;

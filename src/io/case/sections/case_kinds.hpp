@@ -52,7 +52,7 @@ void read_mesh_file(const CaseTable& table, std::optional<std::string>& mesh,
 inline constexpr const char* infinite_energy = "infinite";
 
 /// Reads a positive number, or infinity for the word "infinite".
-/// \param meaning description of the key, for the message where it is missing
+/// \param meaning  description of the key, for the message where it is missing
 double read_energy(const CaseTable& table, const std::string& key, const std::string& meaning);
 /// Reads the fracture energy. Elastic analyses do not need it: infinity where it is missing.
 double read_fracture_energy(const CaseTable& table, AnalysisType type);

@@ -13,12 +13,12 @@
 
 namespace perilink {
 
-/// \param kind problem, method and model, which are read first
+/// \param kind  problem, method and model, which are read first
 BodySection read_body(const CaseTable& table, const BodySection& kind);
 Region read_region(const CaseTable& table, int dim);
 void write_region(TomlWriter& out, const Region& region, int dim);
-/// \param input with its kind and body, which are read first
-/// \param index zero-based, for the name of a material without one
+/// \param input  with its kind and body, which are read first
+/// \param index  zero-based, for the name of a material without one
 MaterialSection read_material(const CaseTable& table, const CaseFile& input, std::size_t index);
 SupportSection read_support(const CaseTable& table, const BodySection& body);
 DisplacementSection read_displacement(const CaseTable& table, const BodySection& body);
