@@ -5,9 +5,9 @@
 namespace perilink {
 
 /// Makes a document safe for toml++ 3.3, or refuses it:
-/// - It refuses brackets, headers and dotted keys that nest too deep. The parser and the destructors
-///   of its tables recurse once per level: a few hundred kilobytes of `a.a.a.` could exhaust the
-///   stack.
+/// - It refuses brackets, headers and dotted keys that nest too deep. The parser and the
+///   destructors of its tables recurse once per level: a few hundred kilobytes of `a.a.a.` could
+///   exhaust the stack.
 /// - It replaces characters beyond ASCII by escapes (\u00fc) within strings and by question marks
 ///   within comments. TOML allows them nowhere else. The parser's test for blanks has undefined
 ///   behaviour for many of them.
