@@ -214,7 +214,7 @@ struct AnalysisSection {
   FactorRoute factor = FactorRoute::in_place;
   LinearSolver solver = LinearSolver::automatic;
   std::optional<int> coarse_box;  ///< particles along an edge of a subdomain
-  /// Elements with saw-tooth laws whose load factors differ by less than this fraction fail
+  /// Elements with piecewise laws whose load factors differ by less than this fraction fail
   /// together. 0: one by one; absent: event_tolerance_of().
   std::optional<double> event_tolerance;
   double duration = 0.0;                   ///< [time]; this and the next keys: type = explicit
