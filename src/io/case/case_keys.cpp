@@ -11,9 +11,9 @@ using Without = std::vector<NotFor>;
 constexpr std::string_view delete_it = "delete it";
 constexpr std::string_view no_bonds = "is given, but linear elements have no bonds";
 constexpr std::string_view bonds_instead = "delete it, or the line method = \"linear_elements\"";
-constexpr std::string_view another_model = "delete it, or take another model in [body]";
+constexpr std::string_view another_model = "delete it, or choose another model in [body]";
 constexpr std::string_view lattice_instead = "delete it, or set model = \"lattice\" in [body]";
-constexpr std::string_view whole_body = "take the whole body";
+constexpr std::string_view whole_body = "model the whole body";
 constexpr std::string_view no_lattice_table =
     "is given, but a body with model = \"lattice\" cannot have it";
 constexpr std::string_view no_particle_table =
@@ -21,7 +21,7 @@ constexpr std::string_view no_particle_table =
 constexpr std::string_view only_lattices =
     "is given, but only bodies with model = \"lattice\" have it";
 
-constexpr std::string_view flat_instead = "delete it, or take another problem in [body]";
+constexpr std::string_view flat_instead = "delete it, or choose another problem in [body]";
 
 constexpr std::string_view damage_instead = "delete it, or set type = \"damage\" in [analysis]";
 
@@ -71,16 +71,16 @@ const Without lattices = {{bonds | particles | elements, "is given, but model is
 /// Methods, models and types of analysis that a kind of body excludes.
 const Without methods = {
     {elements | shell | beam, "is \"linear_elements\", but shells and beams are made of bonds",
-     "delete the line, or take another problem"},
+     "delete the line, or choose another problem"},
     {elements | damage | relaxation, "is \"linear_elements\", which cannot break",
      "set analysis.type = \"elastic\", or delete the line"}};
 constexpr std::string_view other_type =
-    "set type = \"explicit\" or \"elastic\" in [analysis], or take another model";
+    "set type = \"explicit\" or \"elastic\" in [analysis], or choose another model";
 const Without models = {
     {elements, no_bonds, bonds_instead},
     {bond_based | lattice | particles | shell | beam,
      "is \"{model}\", but the bonds of shells and beams bend: model = \"micropolar\"",
-     "delete the line, or take another problem"},
+     "delete the line, or choose another problem"},
     {lattice | particles | damage | relaxation, "is \"{model}\", but analysis.type is \"{type}\"",
      other_type},
 };

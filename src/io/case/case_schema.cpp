@@ -82,8 +82,8 @@ void check_table(const SchemaDocument& document, const TableSchema& schema,
   if (!schema.list) {
     if (value.kind == TomlValue::Kind::array) {
       throw InputError({document.path, value.line, name},
-                       fmt::format("is a list of tables [[{}]]", name),
-                       fmt::format("a {} has one; write {}", document.name, header(schema)));
+                       fmt::format("is written as a list of tables [[{}]]", name),
+                       fmt::format("a {} has only one; write {}", document.name, header(schema)));
     }
     check_keys(document, schema, value, name);
     return;

@@ -65,7 +65,8 @@ std::vector<double> positive_list(const CaseTable& table, const std::string& key
   std::vector<double> values = distinct(table, key, *table.numbers(key));
   for (const double value : values) {
     if (value > 0.0) continue;
-    table.refuse(key, fmt::format("holds {}, but the values must be greater than zero", value), "");
+    table.refuse(key, fmt::format("holds {}, but the values must be greater than zero", value),
+                 "give positive numbers");
   }
   return values;
 }
@@ -79,7 +80,7 @@ std::vector<Enumeration> choices(const CaseTable& table, const std::string& key)
     const auto found = std::find(words.begin(), words.end(), word);
     if (found == words.end()) {
       table.refuse(key,
-                   fmt::format("holds {}, which is none of the choices", perilink::quoted(word)),
+                   fmt::format("holds {}, which is not one of the choices", perilink::quoted(word)),
                    suggest(word, {words.begin(), words.end()}));
     }
     result.push_back(static_cast<Enumeration>(found - words.begin()));
@@ -215,7 +216,7 @@ std::vector<ErrorSection> read_errors(const TomlValue& root, const std::string& 
     table.refuse(
         "name",
         fmt::format("is {}, the name of another error", perilink::quoted(errors.back().name)),
-        "give every error a `name` of its own");
+        "give every error a different `name`");
   }
   return errors;
 }

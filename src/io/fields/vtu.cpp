@@ -129,7 +129,7 @@ class VtuReader {
   std::string neighbour(pugi::xml_node node, const char* attribute) const {
     const std::string file = node.attribute(attribute).as_string();
     if (file.empty() || file == "." || file == ".." || file.find('/') != std::string::npos) {
-      fail("names the file '" + file + "'; only files of its own folder are read");
+      fail("names the file '" + file + "'; only files of the same folder are read");
     }
     return file;
   }

@@ -109,7 +109,7 @@ void refuse_bent(const GmshSections& sections, const std::string& path, const Me
     }
   }
   if (upper - lower > flatness * extent) {
-    refuse(path, fmt::format("is no plane mesh: z goes from {:.6g} to {:.6g}", lower, upper),
+    refuse(path, fmt::format("is not a plane mesh: z is from {:.6g} to {:.6g}", lower, upper),
            "draw two-dimensional bodies in the plane of x and y");
   }
 }

@@ -61,7 +61,7 @@ class Guard {
     }
     if (at_ > 0 &&
         std::string_view(" \t\r\n=,[{.").find(text_[at_ - 1]) == std::string_view::npos) {
-      refuse("a quote stands in the midst of a word", "put whole words between quotes");
+      refuse("a quote is in the middle of a word", "put whole words between quotes");
     }
     copy();
     while (at_ < text_.size() && text_[at_] != '\n') {

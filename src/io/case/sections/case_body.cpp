@@ -46,7 +46,8 @@ void read_mesh(const CaseTable& table, BodySection& body) {
   body.pattern = Pattern::irregular;
   body.micromodulus = Constants::continuum;
   if (table.has("pattern")) {
-    table.refuse("pattern", "is given beside `mesh`", "delete it: the mesh places the particles");
+    table.refuse("pattern", "is given together with `mesh`",
+                 "delete it: the mesh places the particles");
   }
   assign(body.surface, table.choice<Surface>("surface"));
   if (body.surface == Surface::ghost) {

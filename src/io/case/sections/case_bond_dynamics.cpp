@@ -34,10 +34,11 @@ void check_velocities(const CaseFile& input) {
   for (std::size_t k = 0; k < input.displacements.size(); ++k) {
     for (const auto& value : input.displacements[k].value) {
       if (!value || value->is_zero()) continue;
-      throw InputError(input.where(key),
-                       fmt::format("is given beside [[displacements]] that move region \"{}\"",
-                                   input.displacements[k].region),
-                       "move all regions by one of the two");
+      throw InputError(
+          input.where(key),
+          fmt::format("is given together with [[displacements]] that move region \"{}\"",
+                      input.displacements[k].region),
+          "move all regions by one of the two");
     }
   }
 }

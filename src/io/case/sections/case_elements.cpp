@@ -25,7 +25,7 @@ std::optional<ElementsSection> read_elements(const CaseTable& table) {
   assign(elements.release_threshold, table.fraction("alert"));
   elements.release_strain = table.positive("alert_strain");
   if (elements.release_strain && table.has("alert")) {
-    table.refuse("alert_strain", "is given beside `alert`", "delete one of the two");
+    table.refuse("alert_strain", "is given together with `alert`", "delete one of the two");
   }
   elements.buffer_zone = table.positive("halo");
   return elements;
@@ -50,7 +50,7 @@ void check_tied(const CaseFile& input) {
         "delete the key, and mesh the whole body at one size");
   }
   if (!input.rebar.empty()) {
-    refuse("is given beside [[rebar]], which needs particles", "delete the key");
+    refuse("is given together with [[rebar]], which needs particles", "delete the key");
   }
 }
 

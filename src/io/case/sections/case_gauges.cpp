@@ -53,7 +53,7 @@ GaugeSection read_gauge(const CaseTable& table, const BodySection& body) {
   assign(gauge.region, table.text("region"));
   if (table.has("between")) {
     if (table.has("stress")) {
-      table.refuse("stress", "is given beside `between`",
+      table.refuse("stress", "is given together with `between`",
                    "measure a stress `at` a point or in a `region`");
     }
   } else {
@@ -115,7 +115,7 @@ void check_gauges(const CaseFile& input) {
     if (first - input.gauges.begin() != static_cast<std::ptrdiff_t>(k)) {
       throw InputError(input.where(item_key("gauges", k, "name")),
                        fmt::format("is {}, the name of another gauge", quoted(gauge.name)),
-                       "give every gauge a name of its own");
+                       "give every gauge a different name");
     }
     if (gauge.stress) refuse_stress(input, item_key("gauges", k, "stress"));
   }

@@ -130,7 +130,7 @@ void read_state_material(const CaseTable& table, const CaseFile& input, Material
   if (breakable && dimension_of(body) == 3 && body.variant == LatticeRules::least_2018) {
     table.refuse(table.has("fracture_energy") ? "fracture_energy" : "critical_opening",
                  "is finite, but the rules of 2018 have no damage in space",
-                 "write fracture_energy = \"infinite\", or take another variant in [body]");
+                 "write fracture_energy = \"infinite\", or choose another variant in [body]");
   }
   if (breakable) read_crack_opening(table, body, section);
   for (const char* key : softening_keys) {
@@ -151,7 +151,7 @@ void read_explicit_analysis(const CaseTable& table, AnalysisSection& analysis) {
   assign(analysis.ramp_time, table.positive("ramp_time"));
   analysis.time_step = table.positive("time_step");
   if (runs && analysis.time_step && table.has("safety")) {
-    table.refuse("safety", "is given beside `time_step`",
+    table.refuse("safety", "is given together with `time_step`",
                  "give the time step, or its part of the critical one; delete one of the two");
   }
   assign(analysis.safety, table.positive("safety"));

@@ -18,7 +18,7 @@ void read_lattice_yielding(const CaseTable& table, const BodySection& body,
   if (!section.yield_strength) return;
   if (dimension_of(body) == 3 && body.variant == LatticeRules::least_2018) {
     table.refuse("yield_strength", "is given, but the rules of 2018 have no yielding in space",
-                 "take another variant in [body], or a body in the plane");
+                 "choose another variant in [body], or a body in the plane");
   }
   section.ultimate_strength = table.need(
       "ultimate_strength", table.positive("ultimate_strength"),
@@ -41,7 +41,7 @@ void read_lattice_yielding(const CaseTable& table, const BodySection& body,
     table.refuse("crushing_energy",
                  fmt::format("is given, but the rules of {} have their own softening",
                              word_of(body.variant)),
-                 "delete it, or take variant = \"consistent\" in [body]");
+                 "delete it, or set variant = \"consistent\" in [body]");
   }
 }
 

@@ -35,7 +35,7 @@ std::vector<std::array<double, 2>> read_curve(const CaseTable& table, const std:
   try {
     check_curve({curve});
   } catch (const std::invalid_argument& error) {
-    table.refuse(key, fmt::format("is no such curve: {}", error.what()),
+    table.refuse(key, fmt::format("is not a valid curve: {}", error.what()),
                  "write points from the end of the first straight line on: [[0.1, 4], [1, 10]]");
   }
   return curve;
@@ -63,13 +63,14 @@ BarLayout read_layout(const CaseTable& table, int dim) {
   layout.spacing = table.positive("spacing");
   if (layout.spacing) {
     if (!table.has("number")) return layout;
-    table.refuse("number", "is given beside `spacing`",
+    table.refuse("number", "is given together with `spacing`",
                  "stirrups have a spacing; bars beside a face have a number");
   }
   const auto face = table.choice("face", {"-x", "-y", "-z", "+x", "+y", "+z"});
   layout.face = ((*face)[1] - 'x') + ((*face)[0] == '+' ? 3 : 0);
   if (*layout.face % 3 == layout.along || *layout.face % 3 >= dim) {
-    table.refuse("face", "is no face beside the bars", "give one across another axis than `along`");
+    table.refuse("face", "is not parallel to the bars",
+                 "give a face with another normal than `along`");
   }
   assign(layout.number, table.integer("number", 1, most_bars));
   if (dim == 2 && layout.number > 1) {
@@ -150,7 +151,7 @@ void read_steel(const CaseTable& table, RebarSection& bar) {
   if (!bar.curve.empty()) {
     for (const char* key : {"yield_strength", "hardening_modulus"}) {
       if (table.has(key))
-        table.refuse(key, "is given beside `stress_strain`", "delete one of them");
+        table.refuse(key, "is given together with `stress_strain`", "delete one of them");
     }
     const double modulus = bar.curve.front()[1] / bar.curve.front()[0];
     if (std::abs(modulus - bar.youngs_modulus) > same_modulus * bar.youngs_modulus) {
@@ -196,7 +197,7 @@ void refuse_keys_of_others(const CaseTable& table, RebarBond bond) {
   for (const char* key : {"perimeter", "hooks", "bends", "prestrain", "across_gaps"}) {
     if (!table.has(key)) continue;
     table.refuse(key, "is given, but the bond is \"concrete\"",
-                 "delete it, or take another bond: \"perfect\" does not slip");
+                 "delete it, or choose another bond: \"perfect\" does not slip");
   }
 }
 

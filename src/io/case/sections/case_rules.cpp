@@ -43,7 +43,7 @@ std::set<std::string> check_region_names(const CaseFile& input) {
     throw InputError(input.where(item_key("regions", i, "name")),
                      fmt::format("is {}, the name of another region at line {}", quoted(name),
                                  input.where(item_key("regions", at->second, "name")).line),
-                     "give every region a name of its own");
+                     "give every region a different name");
   }
   std::set<std::string> names;
   for (const auto& [name, index] : first) names.insert(name);
@@ -99,16 +99,16 @@ void check_concrete(const CaseFile& input) {
     const SourceLocation where = input.where(item_key("materials", m, "softening"));
     if (input.body.model != BodyModel::micropolar) {
       throw InputError(where, "is \"concrete\", a law of micropolar bonds",
-                       "set model = \"micropolar\" in [body], or take another softening");
+                       "set model = \"micropolar\" in [body], or choose another softening");
     }
     const AnalysisType type = input.analysis.type;
     if (type != AnalysisType::damage && type != AnalysisType::elastic) {
       throw InputError(where, "is \"concrete\", which bonds that move in time do not have",
-                       "set type = \"damage\" in [analysis], or take another softening");
+                       "set type = \"damage\" in [analysis], or choose another softening");
     }
     if (!input.stages.empty()) {
       throw InputError(where, "is \"concrete\", a law that [[stages]] cannot have",
-                       "delete the [[stages]], or take another softening");
+                       "delete the [[stages]], or choose another softening");
     }
     for (const MaterialSection& other : input.materials) {
       if (other.softening.shape.kind == Softening::concrete) continue;

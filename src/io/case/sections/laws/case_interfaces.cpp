@@ -35,7 +35,7 @@ InterfaceSection read_interface(const CaseTable& table, int dim) {
   }
   if (table.choice<Softening>("softening") == Softening::concrete) {
     table.refuse("softening", "is \"concrete\", a law with crushing, which interfaces do not have",
-                 "take \"brittle\", \"linear\", \"bilinear\" or \"exponential\"");
+                 "set \"brittle\", \"linear\", \"bilinear\" or \"exponential\"");
   }
   section.softening = read_softening(table);
   if (!has_stretches(section.softening)) {
@@ -64,8 +64,8 @@ void check_interfaces(const CaseFile& input) {
     if (input.materials[m].softening.shape.kind != Softening::concrete) continue;
     throw InputError(
         input.where(item_key("materials", m, "softening")),
-        "is \"concrete\", whose bonds crush beside damaged ones, but the case has [[interfaces]]",
-        "take \"linear\", \"bilinear\", \"exponential\" or \"brittle\", or delete the interfaces");
+        "is \"concrete\", whose bonds crush near damaged bonds, but the case has [[interfaces]]",
+        "set \"linear\", \"bilinear\", \"exponential\" or \"brittle\", or delete the interfaces");
   }
 }
 

@@ -44,7 +44,7 @@ std::array<double, 2> read_stretches(const CaseTable& table, Softening kind) {
                  "give `tensile_strength` and `fracture_energy`");
   }
   if (table.has("fracture_energy")) {
-    table.refuse("fracture_energy", "is given beside `softening_stretches`",
+    table.refuse("fracture_energy", "is given together with `softening_stretches`",
                  "delete one of the two: the stretches determine the energy");
   }
   if (given->size() != 2 || !((*given)[0] > 0.0) || !((*given)[1] > (*given)[0]) ||
@@ -79,7 +79,7 @@ std::array<double, 2> read_plateau(const CaseTable& table, const std::string& se
                  fmt::format("must be more than one and at most {:g}: the force is constant up to "
                              "there",
                              most_rise),
-                 "2 in tension and 3 in compression are those of the paper");
+                 "2 in tension and 3 in compression are the values of the paper");
   }
   return {limit, factor * limit};
 }

@@ -218,7 +218,7 @@ TEST(CaseLattice, RefusesAnalyses) {
       lattice_case,
       {{"duration = 4\n", "", {"analysis.duration", "missing"}},
        {"duration = 4", "duration = 3", {"output.fields_times", "holds 4", "duration 3"}},
-       {"time_step", "safety = 0.5\ntime_step", {"analysis.safety", "beside `time_step`"}},
+       {"time_step", "safety = 0.5\ntime_step", {"analysis.safety", "together with `time_step`"}},
        {"time_step = 0.001", "safety = 1.01", {"analysis.safety", "unstable"}},
        {"time_step", "rigid_body_modes = \"pin\"\ntime_step", {"analysis.rigid_body_modes"}},
        {"time_step", "masses = \"uniform\"\ntime_step", {"analysis.masses", "lattice"}},
