@@ -17,8 +17,8 @@ void for_third_order(int dim, Function f) {
   }
 }
 
-/// Calls f(a, b, c, d) for the components of a tensor of moduli: all that differ by its major and
-/// minor symmetries, or, where it is symmetric in all indices, those with ascending ones.
+/// Calls f(a, b, c, d) for the independent components of a tensor of moduli: by its major and minor
+/// symmetries or, where it is symmetric in all indices, with ascending indices.
 template <class Function>
 void for_moduli(int dim, bool symmetric, Function f) {
   constexpr std::array<std::array<int, 2>, 6> all_pairs = {
@@ -39,7 +39,7 @@ void for_moduli(int dim, bool symmetric, Function f) {
   }
 }
 
-/// Components of xi^2 (nn - I/dim).
+/// Fills the components of xi^2 (nn - I/dim) and returns the next position.
 double* fill_couple(int dim, double length, std::span<const double> n, double* row) {
   const double square = length * length;
   for (int a = 0; a < dim; ++a) {

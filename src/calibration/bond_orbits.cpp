@@ -7,16 +7,16 @@
 namespace perilink {
 namespace {
 
-/// Depths of free bonds that count, over the reach of bonds.
+/// Largest depth that distinguishes free bonds, over the reach of bonds.
 constexpr Index counted_reaches = 2;
 
-/// Depths and distances fit into the keys below.
+/// Largest reach whose depths and distances fit into the keys below.
 constexpr Index longest_reach = 20;
 
 using Steps = std::array<Index, 3>;
 using Key = std::uint64_t;
 
-/// Numbers for the three axes, each below 2^21, in one.
+/// Packs numbers of the three axes, each below 2^21, into one.
 Key join(const std::array<Key, 3>& parts) { return parts[0] << 42 | parts[1] << 21 | parts[2]; }
 
 class Symmetry {
@@ -37,7 +37,7 @@ class Symmetry {
 
   const LatticeBox& box_;
   std::vector<Steps> steps_;  // per particle, from the lower corner
-  Steps bond_limit_{};        // largest depth that counts
+  Steps bond_limit_{};        // largest depth that distinguishes bonds
   Steps place_limit_{};
   std::array<int, 3> kind_ = {0, 1, 2};  // per axis; axes of one kind may be exchanged
   bool trivial_ = false;
@@ -67,7 +67,8 @@ Symmetry::Symmetry(const LatticeBox& box, const Particles& particles, const Bond
   compare_axes();
 }
 
-/// Axes with equal steps are alike where the box is as long along them, or long enough.
+/// Marks axes with equal steps as equivalent where the box is equally long along them, or long
+/// enough.
 void Symmetry::compare_axes() {
   for (int a = 1; a < 3; ++a) {
     for (int b = 0; b < a; ++b) {
@@ -80,7 +81,7 @@ void Symmetry::compare_axes() {
   }
 }
 
-/// Sorts the parts of axes that are alike.
+/// Sorts the parts of equivalent axes.
 void Symmetry::turn(std::array<Key, 3>& parts) const {
   for (const auto& [a, b] : {std::pair(0, 1), std::pair(1, 2), std::pair(0, 2), std::pair(0, 1)}) {
     if (kind_[a] == kind_[b] && parts[a] > parts[b]) std::swap(parts[a], parts[b]);
@@ -127,7 +128,7 @@ std::optional<LatticeBox> lattice_box(const Body& body) {
     volume *= upper - lower;
   }
   for (const double v : particles.volumes) filled += v;
-  // Other boxes in the plane are solved by one factor in a few iterations.
+  // Other boxes in the plane need no reduction: one factor solves them in a few iterations.
   if (!in_space && std::min(box.count[0], box.count[1]) > 1) return std::nullopt;
   // Less than half a cell may be missing; round-off is far below.
   if (std::abs(filled - volume) > 0.1 * body.lattice.cell_volume) return std::nullopt;
@@ -174,7 +175,7 @@ OrbitSample sample_orbits(const BondOrbits& orbits, Index num_particles, const B
 
 bool spread(const OrbitSample& sample, const BondStiffness& sampled, const BondOrbits& orbits,
             BondStiffness& stiffness) {
-  std::vector<Index> leader(static_cast<std::size_t>(orbits.num_views), no_index);  // in the sample
+  std::vector<Index> leader(static_cast<std::size_t>(orbits.num_views), no_index);  // in sample
   for (Index s = 0; s < sample.bonds.size(); ++s) {
     if (sample.free[s] && leader[sample.orbits.of_bond(s)] == no_index) {
       leader[sample.orbits.of_bond(s)] = s;

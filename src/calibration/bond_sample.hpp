@@ -10,14 +10,14 @@
 
 namespace perilink {
 
-/// Some of the bonds of a body with what a calibration asks of them, in the order of the body.
+/// Some bonds of a body, in the order of the body, with the data for their calibration.
 struct BondSample {
   std::vector<Index> numbers;  ///< their numbers in the body
   Bonds bonds;
   BondStiffness stiffness;
-  std::vector<std::uint8_t> free;  ///< which may change their stiffness
+  std::vector<std::uint8_t> free;  ///< whether each bond may change its stiffness
 
-  /// Gives the bonds of the body what was found for those of the sample.
+  /// Copies the stiffness found for the sample to the body.
   void put_back(const BondStiffness& found, BondStiffness& body) const;
 };
 
@@ -25,7 +25,7 @@ struct BondSample {
 std::vector<std::uint8_t> mark_ends(const Bonds& bonds, std::span<const std::uint8_t> marked,
                                     Index num_particles);
 
-/// The bonds that end at marked particles.
+/// Returns the bonds that end at marked particles.
 /// \param marked     per particle
 /// \param free       per bond
 /// \param stiffness  per bond

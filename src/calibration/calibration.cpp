@@ -16,7 +16,7 @@
 namespace perilink {
 namespace {
 
-/// Numbers of the marked entries.
+/// Returns the numbers of the marked entries.
 std::vector<Index> marked(const std::vector<std::uint8_t>& marks) {
   std::vector<Index> numbers;
   for (std::size_t k = 0; k < marks.size(); ++k) {
@@ -38,9 +38,9 @@ void measure_all(const CalibrationInput& input, const Facets& facets, const Bond
   report_weights(marked(input.free), found.axial, start.axial, least_weight, report);
 }
 
-/// Solves the symmetry-reduced problem, whose size hardly depends on the size of the body.
+/// Solves the symmetry-reduced problem, whose size is nearly independent of the body's size.
 /// \param presolves  whether dropping variables that are fixed at zero reduced the forces
-/// \return report of the whole body; none where no exact solution was found
+/// \return report of the whole body; std::nullopt without an exact solution
 std::optional<CalibrationReport> calibrate_alike(const CalibrationInput& input,
                                                  const CalibrationOptions& options,
                                                  const Facets& facets, const BondOrbits& orbits,
@@ -56,7 +56,7 @@ std::optional<CalibrationReport> calibrate_alike(const CalibrationInput& input,
     report = search.run();
     presolves = search.presolves();
     sampled = search.result().stiffness;
-  } catch (const SolverError&) {  // no factor: rows that depend on others, or no memory
+  } catch (const SolverError&) {  // no factor: dependent rows, or no memory
     return std::nullopt;
   }
   report.alike = true;
@@ -79,8 +79,8 @@ CalibrationReport calibrate_singly(const CalibrationInput& input, const Calibrat
   return report;
 }
 
-/// Bonds beside the free ones stay out of the equations where half of all bonds can: a copy of more
-/// would take more memory than it saves.
+/// Whether at least half of all bonds can be left out of the equations. Otherwise the copy of the
+/// other bonds would take more memory than it saves.
 bool leaves_out_half(const CalibrationInput& input) {
   const std::vector<std::uint8_t> ends = mark_ends(input.bonds, input.free, input.particles.size());
   Index met = 0;
@@ -90,7 +90,7 @@ bool leaves_out_half(const CalibrationInput& input) {
   return met > 0 && met <= input.bonds.size() / 2;
 }
 
-/// Solves for the free bonds. The equations need the other bonds at their ends and no others.
+/// Solves for the free bonds. The equations need only the bonds at their ends.
 CalibrationReport calibrate_free(const CalibrationInput& input, const CalibrationOptions& options,
                                  Facets& facets, BondStiffness& stiffness, bool presolves) {
   BondSample sample = sample_bonds(mark_ends(input.bonds, input.free, input.particles.size()),

@@ -12,33 +12,32 @@ namespace perilink {
 namespace {
 
 constexpr double most_weight = 100.0;
-/// Points whose order among each other does not matter.
+/// Points per block of the ordering.
 constexpr Index points_in_a_row = 8;
 constexpr double round_off = 1e-12;
 
 /// Energies of dilatation are soft equations: their squares weigh 1 / ridge against the squares of
-/// the changes.
-/// In space the forces beside them are a little soft too: at edges and corners positive weights
-/// often cannot do both.
+/// the changes. In space the forces are then slightly soft too: at edges and corners positive
+/// weights often cannot satisfy both.
 constexpr double dilatation_ridge = 0.003;
 constexpr double forces_ridge_in_space = 1e-4;
 
-/// A change of a share by this costs as much as doubling the stiffness of a bond. Little, so that
-/// shares move only where stiffnesses cannot do it (by 0.3 at corners whose edges differ
-/// threefold): where they move freely the displacements of coarse plates with a hole are up to
-/// twice as far off. In space a smaller scale makes the solution slow.
+/// A change of an area fraction by this costs as much as doubling the stiffness of a bond. It is
+/// small, so that fractions change only where stiffnesses are not enough (by 0.3 at corners whose
+/// edges differ threefold). With free fractions the displacement errors of coarse plates with a
+/// hole are up to twice as large. In space a smaller scale makes the solution slow.
 constexpr double share_scale_in_plane = 0.01, share_scale_in_space = 0.1;
-/// Every corner keeps this much of its facets.
+/// Least area fraction of every corner.
 constexpr double least_share = 0.05;
 
-/// Least couples over their start at the two ends of a bond with one end on the surface; zero for
-/// other bonds. At corners and edges all bonds lie on one side of the axes. Without a change of
-/// sign only couples that are all exactly zero would be in balance, and the interior would be
-/// empty. The bending stiffness, their sum, stays positive, with the inflection within one length
-/// of the bond.
+/// Least couples, relative to the start, at the two ends of a bond with one end on the surface;
+/// zero for other bonds. At corners and edges all bonds are on one side of the axes: without a
+/// change of sign only zero couples would be in balance, and the feasible set would have no
+/// interior. The bending stiffness, their sum, stays positive, with the inflection point within one
+/// length of the bond.
 constexpr double least_couple_at_surface = -0.2, least_couple_below = 0.4;
 
-/// Couples that have fallen to zero can grow by steps of this part of their start.
+/// Couples that have fallen to zero can grow again by steps of this fraction of their start.
 constexpr double least_couple_scale = 0.1;
 
 }  // namespace
@@ -59,7 +58,7 @@ CalibrationEquations::CalibrationEquations(const CalibrationInput& input, double
       scales_(measure_particles(input.bonds, stiffness.axial, input.particles.size())) {
   choose_points();
   on_surface_.assign(static_cast<std::size_t>(input.particles.size()), 0);
-  for (Index f = 0; f < facets_.size(); ++f) {  // materials may differ in strength only
+  for (Index f = 0; f < facets_.size(); ++f) {  // materials may differ only in strength
     if (constants_across(facets_, f, input.materials) == LameConstants{}) continue;
     for (const Index i : facets_.corners.row(f)) on_surface_[i] = 1;
   }
@@ -91,8 +90,8 @@ void CalibrationEquations::choose_points() {
   kept_ = free_bonds_;
 }
 
-/// Meshes number their nodes at random: searches are faster where points and bonds that are near
-/// each other in space are so in memory.
+/// Orders points and bonds by position: meshes number their nodes at random, and solutions are
+/// faster where neighbours are close in memory.
 template <class Add>
 void CalibrationEquations::order_by_place(Add add) {
   for (const auto& box : split_into_boxes(input_.particles.positions, dim_, points_in_a_row)) {
@@ -115,7 +114,7 @@ CalibrationEquations::Variable CalibrationEquations::axial_variable(Index b) con
   return {Kind::axial, b, 0, first, second, k, scale, least, most};
 }
 
-/// The part of the bending stiffness whose couple acts at one end.
+/// Returns the variable of the couple at one end: a part of the bending stiffness.
 CalibrationEquations::Variable CalibrationEquations::couple_variable(Index b, Index end) const {
   const auto part = [&](const BondStiffness& of) {
     return of.bending[b] * (end == 0 ? of.inflection[b] : 1.0 - of.inflection[b]);
@@ -130,7 +129,7 @@ CalibrationEquations::Variable CalibrationEquations::couple_variable(Index b, In
           most_weight * scale};
 }
 
-/// Transfers between the corners of the facets.
+/// Visits the transfers of area between corners of facets.
 template <class Visit>
 void CalibrationEquations::for_each_share(Visit visit) const {
   const double scale = dim_ == 2 ? share_scale_in_plane : share_scale_in_space;
@@ -152,7 +151,7 @@ void CalibrationEquations::for_each_share(Visit visit) const {
   }
 }
 
-/// In the order of the equations.
+/// Visits all variables in the order of the equations.
 template <class Visit>
 void CalibrationEquations::for_each_variable(Visit visit) const {
   for (const Index b : kept_) visit(axial_variable(b));
@@ -160,7 +159,7 @@ void CalibrationEquations::for_each_variable(Visit visit) const {
     for (const Index b : kept_) {
       if (!(start_.stiffness.bending[b] > 0.0)) continue;  // a truss (Poisson's ratio at its limit)
       const double at_first = start_.stiffness.inflection[b];
-      if (at_first != 0.0) visit(couple_variable(b, 0));  // a hinge has none
+      if (at_first != 0.0) visit(couple_variable(b, 0));  // a hinge has no couple
       if (at_first != 1.0) visit(couple_variable(b, 1));
     }
   }
@@ -196,7 +195,7 @@ void CalibrationEquations::apply(std::span<const double> weights) {
   for (const auto& [variable, value] : changes) change(variable, value);
 }
 
-/// Per unit of the variable, at its first particle.
+/// Fills the row of a variable per unit, at its first particle.
 void CalibrationEquations::fill_row(const ForceRows& form, const Variable& variable,
                                     double* row) const {
   const Bonds& bonds = input_.bonds;
@@ -206,7 +205,7 @@ void CalibrationEquations::fill_row(const ForceRows& form, const Variable& varia
   }
   if (variable.kind == Kind::couple) {
     form.shear(bonds.length(variable.index), bonds.direction(variable.index), row);
-    // Away from the first particle, and the whole couple instead of one half at each end.
+    // Sign for the second particle, and the whole couple in place of one half per end.
     for (int r = 0; r < form.odd(); ++r) row[r] *= variable.end == 0 ? 1.0 : -1.0;
     for (int r = form.odd(); r < form.balance(); ++r) row[r] *= 2.0;
     return;
@@ -220,7 +219,7 @@ void CalibrationEquations::fill_row(const ForceRows& form, const Variable& varia
   form.right(lambda_area, mu_area, row);
 }
 
-/// All but the right sides of the dilatation.
+/// Makes the equations without the right sides of the dilatation.
 PointEquations CalibrationEquations::make_equations(const ForceRows& form) const {
   PointEquations equations;
   equations.dim = dim_;
@@ -254,7 +253,7 @@ PointEquations CalibrationEquations::make_equations(const ForceRows& form) const
   return equations;
 }
 
-/// Shape (particles, rows of forces_).
+/// Returns unbalanced forces, shape (particles, rows of forces_).
 std::vector<double> CalibrationEquations::out_of_balance() const {
   return forces_out_of_balance(forces_, facets_, input_.materials, input_.bonds, stiffness_,
                                input_.particles.size());
@@ -264,7 +263,7 @@ std::vector<double> CalibrationEquations::out_of_balance() const {
 void CalibrationEquations::set_right_sides(PointEquations& equations) const {
   const std::size_t rows = static_cast<std::size_t>(equations.rows);
   const std::size_t known = static_cast<std::size_t>(forces_.count());
-  // Forces out of balance, and the present forces of the variables.
+  // Unbalanced forces and the present forces of the variables.
   const std::vector<double> rest = out_of_balance();
   for (const Index i : particle_of_) {
     for (std::size_t r = 0; r < rows; ++r) {

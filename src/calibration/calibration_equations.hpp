@@ -15,41 +15,41 @@
 namespace perilink {
 
 /// State of a calibration, its variables, and the equations of the next step. Variables are the
-/// axial stiffness of the free bonds, for micropolar ones the couples at their two ends, and, where
-/// all bonds are free, the shares that corners have in their facets.
+/// axial stiffness of the free bonds and, for micropolar bonds, the couples at both ends. Where all
+/// bonds are free, nodal area fractions are variables too.
 class CalibrationEquations {
  public:
-  /// \param least_weight  floor of the axial stiffness, relative to the start
+  /// \param least_weight  lower bound of the axial stiffness, relative to the start
   /// \param stiffness     start of the calibration
-  /// \param orbits        symmetry-equivalent bonds, which change by the same weight; only the
-  ///                      representatives have equations. None: all particles have
+  /// \param orbits  symmetry-equivalent bonds, which have equal weights; only the representatives
+  ///     have equations. Null: all particles have equations
   CalibrationEquations(const CalibrationInput& input, double least_weight, const Facets& facets,
                        const BondStiffness& stiffness, const BondOrbits* orbits = nullptr);
 
-  /// Exact equations of forces and moments at every particle in every uniform strain (moments until
-  /// soften_moments()).
+  /// Returns exact equations of forces and moments at every particle in every uniform strain
+  /// (moments until soften_moments()).
   PointEquations balance() const { return make_equations(forces_); }
-  /// Equations of forces and moments with soft equations for the energies of dilatation of
-  /// particles inside and of columns under the surface.
+  /// Returns equations of forces and moments, with soft equations for the energies of dilatation of
+  /// interior particles and of columns under the surface.
   PointEquations settling() const;
-  /// From now on moments are soft equations beside the exact forces.
+  /// Makes the equations of moments soft; forces stay exact.
   void soften_moments() { moments_ridge_ = soft_ridge; }
-  /// Makes a solution of these equations the present state.
+  /// Sets the state to a solution of these equations.
   void apply(std::span<const double> weights);
 
-  /// Forces and moments out of balance, into the report (balance_measure.hpp).
+  /// Writes unbalanced forces and moments to the report (balance_measure.hpp).
   void report_balance(CalibrationReport& report) const;
-  /// Weights of the free bonds, into the report.
+  /// Writes the weights of the free bonds to the report.
   void report_weights(CalibrationReport& report) const;
 
-  /// Takes the floor from the bonds of particles that are out of balance by more than the limit.
-  /// \return whether there was a floor to take
+  /// Removes the lower bound of bonds at particles whose unbalanced force exceeds the limit.
+  /// \return whether a lower bound was removed
   bool allow_zero(double limit);
   /// Drops bonds that have fallen to zero: no finite multiplier makes a weight exactly zero.
   void drop_zero_weights();
   /// Presolve from the start: drops the bonds of an equation whose right side is zero and to which
   /// no bond can contribute with the other sign. At the corner of a cube these are all bonds that
-  /// point inside from its faces. \return whether there were any
+  /// point inwards from its faces. \return whether bonds were dropped
   bool drop_fixed_at_zero();
   Index num_points() const { return static_cast<Index>(particle_of_.size()); }
   Index num_free() const { return static_cast<Index>(free_bonds_.size()); }
@@ -57,7 +57,7 @@ class CalibrationEquations {
   /// Whether a particle has lost more than half of its bonds.
   bool underconstrained() const;
 
-  /// Stiffnesses and shares: a state to come back to.
+  /// Stiffnesses and nodal area fractions, to save and restore.
   struct State {
     BondStiffness stiffness;
     std::vector<double> shares;
@@ -67,23 +67,23 @@ class CalibrationEquations {
     stiffness_ = std::move(state.stiffness);
     facets_.shares = std::move(state.shares);
   }
-  void start_over() { restore(start_); }  ///< without what was dropped
-  /// A state with zero for bonds that were dropped.
+  void start_over() { restore(start_); }  ///< without dropped bonds
+  /// Returns the state with zero stiffness of dropped bonds.
   State without_dropped(State state) const;
-  void take_all_back();  ///< with all bonds and their floors again
+  void take_all_back();  ///< restores all bonds and lower bounds
 
  private:
-  /// Where a bond may fall to zero, it is on its way there below this weight.
+  /// Bonds without lower bound count as falling to zero below this weight.
   static constexpr double vanishing = 1e-3;
   enum class Kind { axial, couple, share };
-  /// Lower bound of the axial stiffness; small: for bonds that stay after others fell to zero.
+  /// Lower bound of the axial stiffness; small: for bonds that remain after others fell to zero.
   enum class Floor : std::uint8_t { least_weight, none, small };
 
   /// A quantity in the equations: its value is present + scale (weight - 1).
   struct Variable {
     Kind kind;
     Index index;          // bond or facet
-    Index end;            // 0 or 1: where the couple acts; corner in the facets that gives
+    Index end;            // 0 or 1: end where the couple acts; or corner that gives area
     Index first, second;  // particles; first is the one at that end or corner
     double present, scale, least, most;
   };
@@ -117,7 +117,7 @@ class CalibrationEquations {
   bool shares_vary() const { return input_.all_free(); }
   bool carries_moments() const { return forces_.bending; }
 
-  /// The inverse of this weights the squares of soft moments against those of the changes.
+  /// The inverse of this weights squares of soft moments against squares of the changes.
   static constexpr double soft_ridge = 1e-4;
 
   const CalibrationInput& input_;
@@ -126,8 +126,8 @@ class CalibrationEquations {
   int dim_;
   ForceRows forces_;
   BondStiffness stiffness_;               // at present
-  Facets facets_;                         // with the shares at present
-  State start_;                           // zero for bonds that were dropped
+  Facets facets_;                         // with the present area fractions
+  State start_;                           // zero for dropped bonds
   const State given_;                     // all of them
   std::vector<Index> point_of_;           // per particle, no_index where no free bond ends
   std::vector<Index> particle_of_;        // per point

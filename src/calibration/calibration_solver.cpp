@@ -9,50 +9,50 @@
 namespace perilink {
 namespace {
 
-/// With a factor every step leaves a hundredth of the residual at most. A coarse solution that
+/// With a factor every step reduces the residual at least to a hundredth. A coarse solution that
 /// leaves a tenth is infeasible.
 constexpr double infeasible_by_factor = 0.1;
-/// A step with a factor that leaves so many times the least residual has diverged.
+/// A step with a factor has diverged at this multiple of the least residual.
 constexpr double diverged_by_factor = 1000.0;
 
-/// Energies are fitted again where more than this part of the bonds was dropped.
+/// Energies are fitted again where more than this fraction of the bonds was dropped.
 constexpr double few_dropped = 0.01;
 
-/// Solutions from the last weights in space, at most.
+/// Most solutions from the last weights in space.
 constexpr int most_refinements = 3;
 
-/// Bonds without floors may fall to zero where that reduces the forces out of balance to this part.
+/// Lower bounds stay removed where this reduces the unbalanced forces to this fraction.
 constexpr double worth_dropping = 0.1;
-/// The solution without floors ends where this part will be left, five times as much. Its tolerance
-/// is a mean over all particles, but fine enough for a single one of them.
+/// The solution without lower bounds ends where more than half of the forces will remain. Its
+/// tolerance, 0.3 of worth_dropping, is a mean over all particles, fine enough for a single one.
 constexpr double far_from_worth = 0.5, near_to_worth = 0.3;
 
-/// Few digits of the energies of dilatation are enough: the exact forces change them by more
+/// A coarse tolerance for the energies of dilatation is enough: the exact forces change them more
 /// afterwards.
 constexpr double settling_tolerance = 0.01;
 
-/// Iterations of conjugate gradients in one solution. Feasible equations need up to 4000 in solids
-/// with edges; nearly infeasible ones would go on for minutes.
+/// Most iterations of conjugate gradients in one solution. Feasible equations need up to 4000 in
+/// solids with edges; nearly infeasible equations would take minutes.
 constexpr int most_iterations = 8000;
 
 /// Exact penalty on residuals of forces and moments. Multipliers of feasible equations are up to
 /// 1e3.
 constexpr double penalty = 1e5, no_penalty = std::numeric_limits<double>::infinity();
 
-/// For unstructured particle sets in space, whose equations are often infeasible. Multipliers of
-/// feasible ones are about 1 to 1e3.
+/// Regularisation for unstructured particle sets in space, whose equations are often infeasible.
+/// Multipliers of feasible equations are about 1 to 1e3.
 constexpr double regularisation = 1e-8;
 
 /// With fewer variables per equation (horizons of two spacings) a third of all modes of subdomains
-/// are near the null space, and a factor of all equations is made as fast.
+/// are near-null-space modes, and a factor of all equations is as fast.
 constexpr Index least_freedom = 3;
 
-/// Forces that a coarse solution leaves: smaller ones are no infeasibility.
+/// Unbalanced forces of a coarse solution; smaller forces do not show infeasibility.
 constexpr double coarsely_met = 1e-4;
 
 }  // namespace
 
-/// One solution, which becomes the present state.
+/// Solves the equations once and applies the result to the state.
 LeastSquaresResult CalibrationSolver::solve_least_squares(PointEquations equations,
                                                           LeastSquaresOptions options) {
   ++searches_;
@@ -64,7 +64,7 @@ LeastSquaresResult CalibrationSolver::solve_least_squares(PointEquations equatio
 }
 
 /// Fits the energies of dilatation and the forces. In the plane a step of Newton's method is cheap,
-/// but it can diverge. The preconditioner of the exact forces is kept.
+/// but it can diverge. Keeps the preconditioner of the exact forces.
 void CalibrationSolver::fit_energies() {
   const CalibrationEquations::State start = equations_.save();
   LeastSquaresOptions options;
@@ -77,13 +77,13 @@ void CalibrationSolver::fit_energies() {
     if (in_space_ && method == Method::newton) continue;
     equations_.restore(start);
     options.method = method;
-    kept_.reset();  // coefficients are those of the stiffnesses now
+    kept_.reset();  // coefficients depend on the present stiffnesses
     if (solve_least_squares(equations_.settling(), options).converged) break;
   }
   kept_ = std::move(of_forces);
 }
 
-/// One solution of the exact equations.
+/// Solves the exact equations once.
 void CalibrationSolver::balance_by(Method method, double charge, double tolerance) {
   LeastSquaresOptions options;
   options.tolerance = tolerance;
@@ -105,7 +105,7 @@ void CalibrationSolver::balance_by(Method method, double charge, double toleranc
   equations_.report_balance(report_);
 }
 
-/// Solves for exact forces and moments by one of the two methods, and by the other where it is due:
+/// Solves for exact forces and moments by one of the two methods, then by the other where needed:
 ///
 /// | body | first | second, where forces are left |
 /// |---|---|---|
@@ -114,8 +114,8 @@ void CalibrationSolver::balance_by(Method method, double charge, double toleranc
 /// | unstructured in space, without multipliers to start from | interior point | none |
 /// | other solids | Newton's method | none: corners without moments are infeasible |
 ///
-/// The nearer end is kept, and the settled stiffnesses where both are farther from balance.
-/// \return whether forces are nearer to balance now
+/// The better balanced result is kept, or the settled stiffnesses where both are worse.
+/// \return whether unbalanced forces decreased
 bool CalibrationSolver::balance(double tolerance) {
   equations_.report_balance(report_);
   const double before = left(), largest_before = unbalanced();
@@ -124,7 +124,7 @@ bool CalibrationSolver::balance(double tolerance) {
   const Method first = cold ? Method::interior_point : Method::newton;
   balance_by(first, penalised_ ? penalty : no_penalty, tolerance);
   const bool solvable = moments_ || !in_space_;
-  // The tolerance is that of the mean.
+  // The tolerance applies to the mean.
   const bool unsolved = solvable && unbalanced() > std::max(met_balance, 100.0 * tolerance);
   const bool diverged = reduced_ && unbalanced() > largest_before;
   if (first == Method::newton && (unsolved || diverged)) {
@@ -151,8 +151,8 @@ void CalibrationSolver::settle() {
   settled_ = equations_.save();
 }
 
-/// Presolve of lattices: variables that an equation fixes at zero are dropped. Unstructured
-/// particle sets have infeasible equations elsewhere more often, and would take half as long again.
+/// Presolve of lattices: drops variables that an equation fixes at zero. In unstructured particle
+/// sets other equations are more often infeasible, and presolve would cost half of the time again.
 bool CalibrationSolver::fix_zero_variables() {
   if (!presolves_) return false;
   const double given = unbalanced();
@@ -170,12 +170,12 @@ bool CalibrationSolver::fix_zero_variables() {
   return false;
 }
 
-/// All bonds with their floors.
+/// Solves with the lower bounds of all bonds.
 bool CalibrationSolver::keep_floors() { return balance(first_tolerance()); }
 
-/// Bonds of unbalanced particles may fall to zero, and those that do are dropped. The floors come
-/// back where this does not reduce the largest force out of balance to a tenth.
-/// \return whether there was a floor to take
+/// Allows bonds of unbalanced particles to fall to zero and drops those that do. Restores the lower
+/// bounds where this does not reduce the largest unbalanced force to a tenth.
+/// \return whether a lower bound was removed
 bool CalibrationSolver::remove_floors() {
   if (penalised_ || !equations_.allow_zero(in_space_ ? coarsely_met : met_balance)) return false;
   const double floored = unbalanced();
@@ -195,8 +195,8 @@ bool CalibrationSolver::remove_floors() {
   return true;
 }
 
-/// The bonds that fell to zero carried nothing, and few of them hardly change the energies of a
-/// body: its state and the multipliers serve on.
+/// Solves again without dropped bonds. Where few were dropped, the energies hardly change, and the
+/// solution starts from the present state and multipliers.
 void CalibrationSolver::balance_without_dropped() {
   const double reached = unbalanced();
   equations_.drop_zero_weights();
@@ -215,7 +215,7 @@ void CalibrationSolver::balance_without_dropped() {
   }
 }
 
-/// Where few digits are missing: from the multipliers of the last solution.
+/// Solves again from the multipliers of the last solution, to refine it.
 bool CalibrationSolver::go_on_from_multipliers() {
   const double reached = unbalanced();
   const bool few = reached > exact_balance && reached <= coarsely_met;
@@ -230,7 +230,8 @@ bool CalibrationSolver::go_on_from_multipliers() {
   return false;
 }
 
-/// From the last weights, as long as each solution halves the largest force out of balance.
+/// Solves again from the last weights, as long as each solution halves the largest unbalanced
+/// force.
 bool CalibrationSolver::go_on_from_weights() {
   const double before = unbalanced();
   if (!in_space_ || before <= exact_balance || refinements_++ == most_refinements) return false;
@@ -240,7 +241,7 @@ bool CalibrationSolver::go_on_from_weights() {
 bool CalibrationSolver::make_attempts() {
   struct Attempt {
     bool (CalibrationSolver::*run)();
-    Step accepted, rejected;  // which step comes next
+    Step accepted, rejected;  // next step
   };
   constexpr Attempt table[] = {
       {&CalibrationSolver::fix_zero_variables, Step::remove_floors, Step::keep_floors},
@@ -259,7 +260,7 @@ bool CalibrationSolver::make_attempts() {
   return step == Step::done;
 }
 
-/// Makes attempts, and takes their result back where it is farther from balance by the measure.
+/// Makes attempts, and restores the former state where their result is worse by the measure.
 template <class Measure, class Run>
 void CalibrationSolver::keep_if_nearer(Measure measure, Run run) {
   const CalibrationEquations::State best = equations_.save();
@@ -288,7 +289,7 @@ CalibrationReport CalibrationSolver::run() {
     };
     keep_if_nearer([&] { return report_.residual_after; }, with_soft_moments);
   }
-  if (!(unbalanced() <= start)) {  // too few neighbours all over
+  if (!(unbalanced() <= start)) {  // too few neighbours everywhere
     equations_.take_all_back();
     equations_.report_balance(report_);
   }

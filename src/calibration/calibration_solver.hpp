@@ -12,14 +12,14 @@
 
 namespace perilink {
 
-/// Tolerance of the first solution where more digits are expensive.
+/// Tolerance of the first solution where a smaller one is expensive.
 inline constexpr double coarse_tolerance = 1e-6;
 
-/// In space solutions are repeated until forces and moments are less out of balance than this.
+/// In space, solutions are repeated until unbalanced forces and moments are below this.
 inline constexpr double exact_balance = 1e-10;
 
-/// Weights for which forces and moments are in balance at every particle. The attempts are made in
-/// this order; "forces" are those out of balance.
+/// Finds weights with balanced forces and moments at every particle. The attempts are made in this
+/// order; "forces" are the unbalanced forces.
 ///
 /// | attempt | accepted where | then | else |
 /// |---|---|---|---|
@@ -30,13 +30,13 @@ inline constexpr double exact_balance = 1e-10;
 /// | from_weights | forces are halved, three times at most | from_weights | done |
 ///
 /// fix_zeros drops the variables that an equation fixes at zero, in lattices in space without
-/// moments. remove_floors lets bonds of unbalanced particles fall to zero, and brings the floors
-/// back where the forces do not fall to a tenth. The last two are made in space only.
+/// moments. remove_floors allows bonds of unbalanced particles to fall to zero, and restores the
+/// lower bounds where the forces do not fall to a tenth. The last two are made in space only.
 ///
 /// Each attempt is solved by Newton's method on the dual. The interior-point method follows where
-/// that leaves forces, and comes first for unstructured particle sets in space. Bodies whose
-/// attempts failed are tried again without the energies of dilatation, unbalanced micropolar ones
-/// with soft moments. The state nearest to balance is kept.
+/// forces remain, and is the first for unstructured particle sets in space. After failed attempts
+/// the energies of dilatation are left out. Unbalanced micropolar bodies are solved again with soft
+/// moments. The best balanced state is kept.
 class CalibrationSolver {
  public:
   /// \param orbits     symmetry-equivalent bonds of a reduced problem; nullptr: unreduced
@@ -59,7 +59,7 @@ class CalibrationSolver {
 
   CalibrationReport run();
   CalibrationEquations::State result() const { return equations_.save(); }
-  /// Whether variables fixed at zero were dropped, and forces came nearer to balance by that.
+  /// Whether variables fixed at zero were dropped and this reduced the unbalanced forces.
   bool presolves() const { return presolves_; }
 
  private:
@@ -67,10 +67,10 @@ class CalibrationSolver {
     return soft_moments_ ? report_.residual_after
                          : std::max(report_.residual_after, report_.moment_after);
   }
-  /// Measure to compare two solutions: penalties lessen the sum of the forces out of balance, least
-  /// squares about the largest.
+  /// Measure to compare two solutions: penalties reduce the sum of the unbalanced forces, least
+  /// squares roughly the largest.
   double left() const { return penalised_ && !soft_moments_ ? report_.sum_after : unbalanced(); }
-  /// Rows of the table of attempts, and how the attempts end.
+  /// Rows of the table of attempts, and their ends.
   enum class Step {
     fix_zeros,
     keep_floors,
@@ -99,18 +99,18 @@ class CalibrationSolver {
   bool in_space_, irregular_;
   bool penalised_;  // residuals have an exact penalty in place of least squares
   bool reduced_;
-  /// Corners may be infeasible: few digits show it, and many are expensive.
+  /// Corners may be infeasible: a coarse solution shows it, and an exact one is expensive.
   bool cautious_;
   bool presolves_;  // drops variables that are fixed at zero
   bool moments_;
   double tolerance_;
   CalibrationObserver on_search_;
   int searches_ = 0, refinements_ = 0;
-  bool energies_;  // equations of the energies of dilatation take part
+  bool energies_;  // whether equations of the energies of dilatation are used
   bool soft_moments_ = false;
   double infeasible_above_ = std::numeric_limits<double>::infinity();  // ends a solution
   CalibrationEquations equations_;
-  CalibrationEquations::State settled_;  // where the exact forces began
+  CalibrationEquations::State settled_;  // state before the exact forces
   std::vector<double> multipliers_;      // of the last solution for the exact forces
   std::vector<double> start_;            // multipliers to start from; empty: zero
   CalibrationReport report_;

@@ -1,4 +1,4 @@
-// Bonds that may fall to zero, are dropped and restored: a part of CalibrationEquations.
+// Dropping and restoring of bonds that may fall to zero: a part of CalibrationEquations.
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 /// Scaled coefficients and right sides below this are zero.
 constexpr double nothing = 1e-10;
 
-/// Signs with which weights take part in an equation, and both where none of them has to be zero.
+/// Signs with which weights contribute to an equation; both: no weight is fixed at zero.
 enum Signs : std::uint8_t { plus = 1, minus = 2, both = 3 };
 
 std::vector<std::uint8_t> signs_of(const PointEquations& equations) {
@@ -61,7 +61,7 @@ bool CalibrationEquations::drop_fixed_at_zero() {
   return any;
 }
 
-/// The bonds of which `gone` is true.
+/// Drops the bonds for which `gone` is true.
 template <class Gone>
 void CalibrationEquations::drop(Gone gone) {
   std::erase_if(kept_, [&](Index b) {

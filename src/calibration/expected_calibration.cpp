@@ -5,11 +5,11 @@
 namespace perilink {
 namespace {
 
-/// Rates for each free bond (10 000 to 1 000 000 of them, one core). Lattices and unstructured
-/// particle sets scatter around them by a factor of three.
+/// Rates per free bond (10 000 to 1 000 000 bonds, one core). Lattices and unstructured particle
+/// sets differ from them by up to a factor of three.
 constexpr double seconds_in_plane = 10e-6, seconds_in_space = 35e-6, times_with_moments = 3.0;
-/// Memory of every bond, and of the equations of each free bond in space. In the plane the run
-/// itself takes more than the equations.
+/// Memory per bond, and per free bond for the equations in space. In the plane the run takes more
+/// memory than the equations.
 constexpr double bytes_of_bond = 100.0, bytes_of_free_bond = 1000.0;
 
 }  // namespace

@@ -4,8 +4,8 @@
 
 namespace perilink {
 
-/// Estimate of a calibration that has not been done: the number of free bonds, and the time [s] and
-/// memory [bytes] that they take on an idle core at fixed rates.
+/// Estimates a calibration: the number of free bonds, and their time [s] and memory [bytes] at
+/// fixed rates on an idle core.
 /// \param moments  whether bonds carry moments
 CalibrationReport expected_calibration(const CalibrationInput& input, bool moments);
 

@@ -12,17 +12,17 @@
 namespace perilink {
 namespace {
 
-/// Defects below this, relative to the sum of all terms, are round-off and change nothing.
+/// Defects below this, relative to the sum of all terms, are round-off and are ignored.
 constexpr double balanced = 1e-14;
 
-/// Products of three rigid motions.
+/// Returns the number of products of three rigid motions.
 Eigen::Index count_of_works(const RigidMotions& motions) {
   const int count = motions.count();
   return count * (count + 1) * (count + 2) / 6;
 }
 
-/// Work of the boundary forces of all uniform strains at a corner, (delta_ab A_c + delta_ac A_b +
-/// delta_bc A_a) : (e f g), on every product e f g of three rigid motions.
+/// Returns the work of the boundary forces of all uniform strains at a corner, (delta_ab A_c +
+/// delta_ac A_b + delta_bc A_a) : (e f g), on every product e f g of three rigid motions.
 Eigen::VectorXd work_on_killing_tensors(const RigidMotions& motions, std::span<const double> x,
                                         std::span<const double> area_vector) {
   Vector3 area{};
@@ -48,7 +48,7 @@ Eigen::VectorXd work_on_killing_tensors(const RigidMotions& motions, std::span<c
   return work;
 }
 
-/// One part of the body.
+/// A connected part of the body.
 class Part {
  public:
   Part(Facets& facets, std::span<const double> positions, std::span<const double> modulus,
@@ -98,7 +98,7 @@ class Part {
     return RigidMotions(facets_.dim, lower, upper);
   }
 
-  /// Shape (Killing tensors, corners).
+  /// Returns work, shape (Killing tensors, corners).
   Eigen::MatrixXd works(const RigidMotions& motions, Index f) const {
     const auto corners = facets_.corners.row(f);
     double jump = modulus_[facets_.inside[f]];
@@ -113,7 +113,8 @@ class Part {
     return result;
   }
 
-  /// Gradient of the work by the corners' shares, whose sum is constant.
+  /// Returns the gradient of the work with respect to the corners' area fractions, whose sum is
+  /// constant.
   Eigen::MatrixXd gradient(const RigidMotions& motions, Index f) const {
     Eigen::MatrixXd work = works(motions, f);
     work.colwise() -= work.rowwise().mean().eval();

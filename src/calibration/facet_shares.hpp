@@ -8,18 +8,19 @@
 
 namespace perilink {
 
-/// Makes the boundary forces of uniform strains such that pair forces can balance them, by the
-/// least change of the shares that corners have in their facets.
+/// Changes nodal area fractions as little as possible so that pair forces can balance the boundary
+/// forces of uniform strains.
 ///
 /// Forces along bonds k_b xi (n.eps.n) n, collected at the particles as the symmetric tensors sum
 /// k_b xi nnn, do no work on fields y of symmetric third-order tensors with nnn : (y(x + xi n) -
 /// y(x)) = 0 for all x and n: the Killing tensors, symmetrised products of three rigid motions, 10
-/// in two dimensions and 50 in three. So must the boundary forces. For polynomials up to the first
-/// degree equal shares do it; where facets differ in size they miss those of the second and third
-/// degree by the square of the spacing, and no weights at all would pass the patch test.
-/// \param positions  where the particles are, shape (particles, dim) [length]
-/// \param part_of    part of the body that each particle belongs to, from zero: each must balance
-/// \param modulus    per material, to weigh facets between materials [force/length^2]
+/// in two dimensions and 50 in three. The boundary forces must do no work on them either. Equal
+/// fractions satisfy this for polynomials up to the first degree. Where facets differ in size,
+/// equal fractions have errors of second order in the spacing for the second and third degree. No
+/// weights would then pass the patch test.
+/// \param positions  shape (particles, dim) [length]
+/// \param part_of  connected part of the body of each particle, from zero; each part must balance
+/// \param modulus  per material, weight of facets between materials [force/length^2]
 void balance_shares(Facets& facets, std::span<const double> positions,
                     std::span<const Index> part_of, std::span<const double> modulus);
 

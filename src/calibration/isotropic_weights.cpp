@@ -12,14 +12,14 @@
 namespace perilink {
 namespace {
 
-/// Index of the opposite of every offset. Those of a lattice are as many on either side, so the
-/// first of them in the order of their coordinates is opposite to the last, and so on.
+/// Returns the index of the opposite of every offset. Offsets of a lattice are in opposite pairs:
+/// sorted by coordinates, the first is opposite to the last, and so on.
 std::vector<std::size_t> opposites(std::span<const Vector3> offsets) {
   double shortest = 1e300;
   for (const Vector3& offset : offsets) {
     shortest = std::min(shortest, std::hypot(offset[0], offset[1], offset[2]));
   }
-  std::vector<std::array<std::int64_t, 3>> places;  // free of round-off
+  std::vector<std::array<std::int64_t, 3>> places;  // without round-off
   for (const Vector3& offset : offsets) {
     auto& place = places.emplace_back();
     for (int a = 0; a < 3; ++a) place[a] = std::llround(1e6 * offset[a] / shortest);
@@ -59,7 +59,7 @@ void make_isotropic(int dim, std::span<const Vector3> offsets, double volume,
   equations.rows = rows.count();
   equations.positions.assign(static_cast<std::size_t>(dim), 0.0);
   std::vector<double> row(static_cast<std::size_t>(rows.count()));
-  std::vector<std::size_t> offset_of;  // per variable: one of a pair of opposite neighbours
+  std::vector<std::size_t> offset_of;  // per variable: one offset of an opposite pair
   double modulus = 0.0;
   for (const bool shear : {false, true}) {
     if (shear && !bending) break;

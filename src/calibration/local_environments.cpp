@@ -18,12 +18,11 @@ namespace {
 using Key = std::uint64_t;
 using Offset = std::array<std::int64_t, 3>;
 
-/// Particles are compared as far as the particles that are so many bonds away, bonds as far as one
-/// bond less.
+/// Particles are compared up to so many bonds away, bonds up to one bond less.
 constexpr int place_rounds = 2;
 
-/// Stiffnesses and area vectors that differ by less than this part of the largest are the same. A
-/// power of two: halves and quarters are not rounded to either side by chance.
+/// Stiffnesses and area vectors that differ by less than this fraction of the largest are equal. A
+/// power of two, so that halves and quarters are not rounded by chance.
 constexpr double same = 0x1p-23;
 
 /// Spreads the bits of a key over all of it (the finalizer of SplitMix64: Steele, Lea & Flood
@@ -41,7 +40,7 @@ Key join(Key key, const Offset& steps) {
   return key;
 }
 
-/// A turn or mirror that maps the lattice on itself: which axis becomes which, and its sign.
+/// A rotation or reflection that maps the lattice on itself: permutation and signs of the axes.
 struct Turn {
   std::array<int, 3> axis;
   std::array<int, 3> sign;
@@ -51,7 +50,7 @@ struct Turn {
   }
 };
 
-/// The identity first.
+/// Returns the rotations and reflections of the lattice, the identity first.
 std::vector<Turn> turns_of(const Vector3& step) {
   std::vector<Turn> turns;
   std::array<int, 3> axis = {0, 1, 2};
@@ -70,7 +69,7 @@ std::vector<Turn> turns_of(const Vector3& step) {
   return turns;
 }
 
-/// Values rounded to a part of the largest, so that equal ones compare equal.
+/// Rounds values to a fraction of the largest, so that equal values compare equal.
 class Rounding {
  public:
   explicit Rounding(const std::vector<double>& values) : values_(values) {
@@ -92,11 +91,11 @@ class LocalEnvironments {
   BondOrbits find(std::size_t most);
 
  private:
-  using Views = std::vector<Key>;  // per particle or per kind of place: what it looks like
-  /// A bond at the example of a kind.
+  using Views = std::vector<Key>;  // local environment per particle or per class
+  /// A bond at the example of a class.
   struct Neighbour {
     Key label;
-    Index offset, kind;  // its other end: where, and its kind
+    Index offset, kind;  // offset and class of its other end
   };
   void number_offsets();
   void label_bonds(const BondStiffness& stiffness);
@@ -121,17 +120,17 @@ class LocalEnvironments {
   const CalibrationInput& input_;
   std::size_t size_;
   std::vector<Offset> offsets_;   // in steps, each followed by its reverse
-  std::vector<Index> offset_of_;  // per kind of bond: its number there
-  std::vector<Key> label_;        // per bond: how stiff it is, and whether that may change
+  std::vector<Index> offset_of_;  // per translation class of bonds: its offset
+  std::vector<Key> label_;        // per bond: stiffness, and whether it may change
   std::vector<Offset> area_;      // per particle
   std::vector<Key> on_surface_;   // per particle
   std::vector<Turn> turns_;
-  std::vector<Index> kind_;     // per particle: its place, but for moves
-  std::vector<Index> example_;  // a particle of each kind
+  std::vector<Index> kind_;     // per particle: class up to translations
+  std::vector<Index> example_;  // a particle of each class
   std::vector<std::size_t> first_neighbour_;
-  std::vector<Neighbour> neighbours_;  // those of the examples, in turn
-  Views place_view_;                   // per kind, the least of all turns
-  Views bond_view_;                    // per bond of the examples, the least of all turns
+  std::vector<Neighbour> neighbours_;  // of the examples, one after the other
+  Views place_view_;                   // per class, the least over all rotations
+  Views bond_view_;                    // per bond of the examples, the least over all rotations
 };
 
 LocalEnvironments::LocalEnvironments(const CalibrationInput& input, const Facets& facets,
@@ -203,14 +202,14 @@ auto LocalEnvironments::turned_offsets(const Turn& turn) const -> Views {
   return views;
 }
 
-/// Classes of particles that a translation maps on each other.
+/// Finds classes of particles that a translation maps on each other.
 void LocalEnvironments::sort_places() {
   std::vector<Index> all(size_);
   std::iota(all.begin(), all.end(), 0);
   Views views = first_views(all, turns_.front());
   const Views offsets = turned_offsets(turns_.front());
   for (int round = 0; round < place_rounds; ++round) {
-    Views sum(size_, 0);  // whatever the order of the bonds
+    Views sum(size_, 0);  // independent of the order of the bonds
     for (Index b = 0; b < input_.bonds.size(); ++b) {
       for (const bool reversed : {false, true}) {
         sum[start(b, reversed)] +=
@@ -229,9 +228,9 @@ void LocalEnvironments::sort_places() {
 
 void LocalEnvironments::find_neighbours() {
   const Index kinds = static_cast<Index>(example_.size());
-  std::vector<Index> kind_of(size_, no_index);  // where a particle is an example
+  std::vector<Index> kind_of(size_, no_index);  // class of each example
   for (Index k = 0; k < kinds; ++k) kind_of[example_[k]] = k;
-  const Csr ends = sorted_into_rows(kinds, [&](auto act) {  // bonds, twice, plus one if reversed
+  const Csr ends = sorted_into_rows(kinds, [&](auto act) {  // twice the bond, plus one if reversed
     for (Index b = 0; b < input_.bonds.size(); ++b) {
       for (const bool reversed : {false, true}) {
         const Index kind = kind_of[start(b, reversed)];
@@ -246,7 +245,7 @@ void LocalEnvironments::find_neighbours() {
   }
 }
 
-/// Environment of a class, with the environments of its neighbours.
+/// Returns the environment of a class, with the environments of its neighbours.
 Key LocalEnvironments::look_around(std::size_t kind, const Views& views,
                                    const Views& offsets) const {
   Key sum = 0;
@@ -257,8 +256,9 @@ Key LocalEnvironments::look_around(std::size_t kind, const Views& views,
   return join(views[kind], sum);
 }
 
-/// Classes, and bonds at them, that a rotation or mirror maps on each other: the least key over all
-/// rotations names them. The near environment comes first: only rotations with its least key count.
+/// Finds classes and bonds that a rotation or reflection maps on each other; the least key over all
+/// rotations identifies them. Only rotations with the least key of the near environment are
+/// compared further.
 void LocalEnvironments::turn_places() {
   const std::size_t kinds = example_.size();
   std::vector<Views> offsets(turns_.size()), near(turns_.size(), Views(kinds));
@@ -319,10 +319,10 @@ BondOrbits LocalEnvironments::find(std::size_t most) {
   return orbits;
 }
 
-/// Equations of the symmetry-reduced problem, at most. Their factor is nearly full.
+/// Most equations of the symmetry-reduced problem. Their factor is nearly full.
 constexpr std::size_t most_reduced_equations = 20000;
-/// Particles at free bonds for each place of the reduced problem, at least: a nearly full factor of
-/// a third of the equations takes about as long as the unreduced problem (lattices with 2 800 to
+/// Least number of particles at free bonds per class of the reduced problem. A nearly full factor
+/// of a third of the equations takes about as long as the unreduced problem (lattices with 2 800 to
 /// 30 000 such particles: 2 to 4).
 constexpr std::size_t least_reduction = 3;
 

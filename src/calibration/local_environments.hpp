@@ -10,11 +10,11 @@
 
 namespace perilink {
 
-/// Equivalence classes of bonds: a translation, rotation or mirror of the lattice maps the local
-/// environments of both ends on each other. The local environment of a particle are its bonds,
-/// their stiffnesses, and the area vectors at their ends. Particles are equivalent where this holds
-/// for their neighbours, too: then all their bonds are equivalent, and the equations of forces and
-/// moments are the same (docs/theory/calibration.md).
+/// Finds equivalence classes of bonds: a translation, rotation or reflection of the lattice maps
+/// the local environments of both ends on each other. The local environment of a particle consists
+/// of its bonds, their stiffnesses, and the area vectors at their ends. Particles are equivalent
+/// where the environments of their neighbours match too. Then all their bonds are equivalent, and
+/// their equations are equal (docs/theory/calibration.md).
 /// \param input      with a step
 /// \param stiffness  at the start of the calibration
 /// \param most       largest useful number of classes of particles
@@ -22,8 +22,8 @@ namespace perilink {
 BondOrbits find_environments(const CalibrationInput& input, const Facets& facets,
                              const BondStiffness& stiffness, std::size_t most);
 
-/// Classes of symmetry-equivalent bonds of a lattice with one set of elastic constants; none where
-/// they would not reduce the problem enough.
+/// Returns classes of symmetry-equivalent bonds of a lattice with one set of elastic constants;
+/// std::nullopt where they would not reduce the problem enough.
 /// \param stiffness  at the start of the calibration
 std::optional<BondOrbits> equivalent_bonds(const CalibrationInput& input, const Facets& facets,
                                            const BondStiffness& stiffness);

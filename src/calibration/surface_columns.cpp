@@ -8,10 +8,11 @@
 namespace perilink {
 namespace {
 
-/// Distances that differ by this part of them are equal, components of directions by this much.
+/// Relative difference of equal distances, and absolute difference of equal components of
+/// directions.
 constexpr double same_distance = 1e-9, same_component = 1e-6;
 
-/// Order of directions that neither round-off nor the numbers of particles change.
+/// Order of directions, independent of round-off and of particle numbers.
 bool comes_first(const Vector3& a, const Vector3& b) {
   const auto [x, y] = std::ranges::mismatch(
       a, b, [](double p, double q) { return std::abs(p - q) <= same_component; });
@@ -51,7 +52,7 @@ std::vector<Index> surface_columns(const Bonds& bonds, const Facets& facets,
   for_each_below([&](Index b, Index below, Index, double) {
     distance[below] = std::min(distance[below], bonds.length(b));
   });
-  // Meshes have many particles that are as far from two of the surface.
+  // Many particles of meshes are equally far from two surface particles.
   std::vector<Vector3> upwards(head.size());
   for_each_below([&](Index b, Index below, Index above, double sign) {
     if (bonds.length(b) > (1.0 + same_distance) * distance[below]) return;

@@ -9,9 +9,9 @@
 
 namespace perilink {
 
-/// Columns of particles under the surface: particles bonded to particles of the surface of the same
-/// material belong to the nearest of these, of equally near ones to that in the direction with the
-/// least components, the others to themselves. Particles where materials meet belong nowhere.
+/// Assigns particles to columns under the surface. A particle bonded to surface particles of its
+/// material belongs to the nearest of them; ties are resolved by the direction with the least
+/// components. Other particles are their own column. Particles where materials meet have no column.
 /// \return head of the column of each particle, no_index: none
 std::vector<Index> surface_columns(const Bonds& bonds, const Facets& facets,
                                    const Particles& particles);

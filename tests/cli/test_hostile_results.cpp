@@ -118,7 +118,7 @@ TEST_F(HostileResults, SeriesOfFieldsStayInTheirFolder) {
     change("fields.pvd", "fields_000001.vtu", file);
     const ProcessEnd end = run({"plot", "r"});
     EXPECT_EQ(end.exit_status, 2) << file;
-    EXPECT_THAT(end.err, HasSubstr("only files of its own folder are read"));
+    EXPECT_THAT(end.err, HasSubstr("only files of the same folder are read"));
     write_text(work() / "r/fields.pvd", good);
   }
 }

@@ -17,24 +17,24 @@ namespace perilink {
 namespace {
 
 constexpr int most_newton_steps = 40;
-/// Newton's method has diverged where the dual function stops growing this early along a step.
+/// Newton's method has diverged where the dual function stops growing before this fraction of a
+/// step.
 constexpr double shortest_step = 1e-5;
 
-/// Growth of the dual function below this part of it is lost in the round-off of its sums.
+/// Relative growth of the dual function below this is round-off.
 constexpr double lost_growth = 1e-11;
 
-/// A step that leaves so many times the residual at which the interior-point method ended has
-/// diverged.
+/// A step has diverged at this multiple of the residual at the end of the interior-point method.
 constexpr double diverged = 100.0;
 
-/// Root mean square of the residual at which the interior-point method has found out which weights
-/// are at their bounds.
+/// Root mean square of the residual at which the interior-point method has found the weights at
+/// their bounds.
 constexpr double rough = 1e-4;
 
-/// Weights this near to a bound are at it.
+/// Weights closer to a bound than this are at the bound.
 constexpr double at_bound = 1e-3;
-/// Multipliers are near those of the end where they leave no more than this times the root of the
-/// number of points.
+/// Multipliers are near the solution where the residual is below this times the root of the number
+/// of points.
 constexpr double near_the_end = 1e-4;
 
 template <class Normal>
@@ -74,8 +74,8 @@ class DualNewton {
   LeastSquaresResult result_;
 };
 
-/// Weights of a dual vector, and the part of the dual function that they make. Mobile are those
-/// between the bounds.
+/// Computes the weights of a dual vector and their part of the dual function. Weights between the
+/// bounds are active.
 template <class Normal>
 double DualNewton<Normal>::choose_weights(const Vector& y) {
   normal_.apply_transpose(y, elongation_);
@@ -104,10 +104,10 @@ double DualNewton<Normal>::dual(const Vector& y) {
   return value;
 }
 
-/// Halves the step until the concave dual function grows, or, near the end, its gradient, the
-/// residual, shrinks where the growth is lost in round-off. Multipliers of infeasible equations
-/// would go to infinity: no step is longer than to the penalty and back.
-/// \return length of the step over that of the first one tried
+/// Halves the step until the concave dual function grows. Near the end its growth is lost in
+/// round-off: then until the residual, its gradient, shrinks. Multipliers of infeasible equations
+/// would go to infinity, so the penalty limits the step.
+/// \return length of the step over the first length tried
 template <class Normal>
 double DualNewton<Normal>::search_line(const Vector& residual, const Vector& direction, Vector& y) {
   const double before = dual(y);
@@ -131,7 +131,7 @@ double DualNewton<Normal>::search_line(const Vector& residual, const Vector& dir
 }
 
 /// Newton's method on the dual function, from the multipliers y.
-/// \param most  norm of the residual, over its value at the start, at which it has diverged
+/// \param most  norm of the residual, over its value at the start, at which the method has diverged
 template <class Normal>
 void DualNewton<Normal>::ascend(Vector y, double target, double most) {
   Vector direction;
@@ -139,9 +139,9 @@ void DualNewton<Normal>::ascend(Vector y, double target, double most) {
   normal_.measure(weights_, y, residual_);
   const auto reached = [&] { return std::max(target, round_off * norm(y)); };
   double start = 0.0, last_size = 0.0, last_length = 1.0;
-  std::vector<double> pattern, relaxation;  // weights between their bounds, at the last step
+  std::vector<double> pattern, relaxation;  // weights between their bounds in the last step
   double least = std::numeric_limits<double>::infinity();
-  Vector best;  // multipliers that left it
+  Vector best;  // multipliers of the least residual
   for (int step = 0; step < most_newton_steps; ++step) {
     const double size = norm(residual_);
     if (size <= reached() || result_.iterations >= options_.iterations) break;
@@ -153,14 +153,13 @@ void DualNewton<Normal>::ascend(Vector y, double target, double most) {
         last_length == 1.0 && pattern == normal_.active_weight && relaxation == normal_.compliance;
     if (settled && size > options_.infeasible_ratio * last_size) break;
     last_size = size;
-    // Near the end one step has to do: further growth of the dual function is round-off of
-    // its sums.
+    // Near the end one step is enough: further growth of the dual function is round-off.
     const bool near = !options_.start.empty() && size < near_the_end * root_of_points();
     const bool last = settled || (step == 0 && near);
     normal_.prepare_if_stale(settled, last);
     pattern = normal_.active_weight;
     relaxation = normal_.compliance;
-    // The first steps only find out which weights are at their bounds.
+    // The first steps only find the weights at their bounds.
     const double coarse = last ? 0.0 : step == 0 ? 1e-2 : 1e-3;
     const double reduction = std::max({coarse, 0.3 * target / size, 1e-12});
     result_.iterations += normal_.solve(residual_, reduction, direction);
@@ -177,7 +176,7 @@ void DualNewton<Normal>::ascend(Vector y, double target, double most) {
   result_.multipliers = std::move(y);
 }
 
-/// Norm of the residuals of the exact equations.
+/// Returns the norm of the residuals of the exact equations.
 template <class Normal>
 double DualNewton<Normal>::left() {
   normal_.measure(weights_, Vector(residual_.size(), 0.0), residual_);
@@ -188,8 +187,8 @@ double DualNewton<Normal>::left() {
   return std::sqrt(sum);
 }
 
-/// From the end of the interior-point method; its weights stay where this leads away from them, as
-/// it does where equations are infeasible.
+/// Continues by Newton's method after the interior-point method. Keeps the weights of the latter
+/// where the residual grows, as with infeasible equations.
 template <class Normal>
 void DualNewton<Normal>::finish(const Vector& y, double target) {
   const std::vector<double> interior = weights_;
@@ -204,7 +203,8 @@ LeastSquaresResult DualNewton<Normal>::solve() {
   if (options_.method == Method::newton) {
     ascend(options_.start.empty() ? Vector(residual_.size(), 0.0) : options_.start, target);
   } else {
-    // Newton's method finishes where it can: with penalties it diverges between their kinks.
+    // Newton's method refines the result, but not with penalties, where it diverges between their
+    // kinks.
     const bool finished = std::isfinite(options_.penalty) || options_.tolerance >= rough;
     InteriorPoint<Normal> interior(equations_, normal_, options_);
     result_.converged = interior.solve(finished ? target : rough * root_of_points(),
@@ -260,12 +260,12 @@ LeastSquaresResult bounded_least_squares(PointEquations equations,
   const auto are = [&](int rows, int odd, bool grouped) {
     return equations.rows == rows && equations.odd == odd && equations.group.empty() != grouped;
   };
-  // Moduli of a family of bonds without and with moments in two and three dimensions.
+  // Moduli of a neighbourhood without and with moments in two and three dimensions.
   if (are(5, 0, false)) return solve<5, 0, false>(equations, options, kept);
   if (are(8, 0, false)) return solve<8, 0, false>(equations, options, kept);
   if (are(15, 0, false)) return solve<15, 0, false>(equations, options, kept);
   if (are(26, 0, false)) return solve<26, 0, false>(equations, options, kept);
-  // Their forces and moments, and with them energies.
+  // Forces and moments, without and with energies.
   if (are(4, 4, false)) return solve<4, 4, false>(equations, options, kept);
   if (are(5, 4, true)) return solve<5, 4, true>(equations, options, kept);
   if (are(8, 6, false)) return solve<8, 6, false>(equations, options, kept);

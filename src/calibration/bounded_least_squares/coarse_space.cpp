@@ -21,15 +21,15 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Points of a subdomain. More make the modes expensive, fewer the coarse system.
+/// Points per subdomain. More make the modes expensive, fewer make the coarse system expensive.
 constexpr Index points_in_plane = 36, points_in_space = 96;
 
-/// Modes whose stiffness over that of the points' own blocks is below this belong to the coarse
-/// space.
+/// Modes belong to the coarse space below this ratio of their stiffness to the stiffness of the
+/// points' blocks.
 constexpr double soft = 0.003;
-/// Subdomains of a body that threads share in a correction.
+/// Least number of subdomains for threads in a correction.
 constexpr Index boxes_for_threads = 80;
-/// About so many modes of each subdomain for each equation of a point.
+/// Expected modes per subdomain and equation of a point.
 constexpr int expected_fields = 10;
 
 }  // namespace
@@ -60,7 +60,7 @@ std::vector<double> point_blocks(const PointEquations& equations, const std::vec
 }
 
 void invert_blocks(int rows, std::vector<double>& blocks) {
-  // One size for all: a decomposition of fixed size takes the compiler seconds for each.
+  // One largest size for all: every fixed size costs seconds of compilation.
   using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 26, 26>;
   const std::size_t size = static_cast<std::size_t>(rows) * rows;
   for (std::size_t begin = 0; begin < blocks.size(); begin += size) {
@@ -74,7 +74,7 @@ void finish_blocks(int size, const std::vector<double>& diagonal, std::vector<do
   const std::size_t rows = static_cast<std::size_t>(size);
   for (std::size_t p = 0; p < diagonal.size() / rows; ++p) {
     Eigen::Map<MatrixXd> block(blocks.data() + p * rows * rows, size, size);
-    // Rows without any variable between its bounds keep the identity.
+    // Rows without active variables keep the identity.
     const double floor = 1e-11 * block.trace();
     for (std::size_t r = 0; r < rows; ++r) {
       double& entry = block(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(r));
@@ -91,7 +91,7 @@ CoarseSpace::CoarseSpace(const PointEquations& equations, const std::vector<doub
   refactorize(equations, active, diagonal);
 }
 
-/// Parts of a subdomain that no variable joins have Killing tensors of their own.
+/// Makes the subdomains. Unconnected parts of a subdomain have separate Killing tensors.
 void CoarseSpace::make_boxes(const PointEquations& equations, CoarseModes fields) {
   boxes_ = split_into_boxes(equations.positions, equations.dim,
                             equations.dim == 2 ? points_in_plane : points_in_space);
@@ -117,7 +117,7 @@ void CoarseSpace::number_points() {
   }
 }
 
-/// Variables that act on one subdomain alone, per subdomain.
+/// Returns the variables that act on a single subdomain, per subdomain.
 std::vector<std::vector<Index>> CoarseSpace::inner_variables(
     const PointEquations& equations, const std::vector<double>& active) const {
   std::vector<std::vector<Index>> inside(boxes_.size());
@@ -153,7 +153,7 @@ void CoarseSpace::find_fields(const PointEquations& equations, const std::vector
   }
 }
 
-/// Near-null-space modes of one subdomain, as columns.
+/// Returns the near-null-space modes of a subdomain as columns.
 /// \param inside  variables that act on no other subdomain
 /// \param blocks  per point
 MatrixXd CoarseSpace::near_null_modes(Index box, const std::vector<Index>& inside,
@@ -181,7 +181,7 @@ MatrixXd CoarseSpace::near_null_modes(Index box, const std::vector<Index>& insid
       }
     }
   });
-  // Relative to the blocks of the points.
+  // The eigenproblem is relative to the blocks of the points.
   std::vector<Eigen::LLT<MatrixXd>> own;
   for (const Index p : boxes_[box]) {
     own.emplace_back(Eigen::Map<const MatrixXd>(blocks.data() + p * rows * rows, rows_, rows_));
@@ -202,8 +202,8 @@ MatrixXd CoarseSpace::near_null_modes(Index box, const std::vector<Index>& insid
   return vectors;
 }
 
-/// Sorts variables by the subdomains on which they act, and finds the blocks of the coarse system
-/// that these fill. Another problem may have fewer variables.
+/// Sorts variables by the subdomains on which they act, and finds the blocks of the coarse system.
+/// Another problem may have fewer variables.
 void CoarseSpace::sort_variables(const PointEquations& equations) {
   if (first_ == equations.first && second_ == equations.second) return;
   first_ = equations.first;
@@ -241,7 +241,7 @@ void CoarseSpace::sort_variables(const PointEquations& equations) {
   pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
 }
 
-/// Adds the diagonal of the system to a subdomain's own block.
+/// Adds the diagonal of the system to the diagonal block of a subdomain.
 void CoarseSpace::add_diagonal(Index box, const std::vector<double>& diagonal,
                                MatrixXd& own) const {
   const std::vector<double> values = fields_[box].values();
@@ -259,7 +259,7 @@ void CoarseSpace::add_diagonal(Index box, const std::vector<double>& diagonal,
   add_product(weighted, MatrixXd(fields), own);
 }
 
-/// Blocks that the variables of a group add, by pairs of the group's subdomains.
+/// Computes the blocks of a group of variables, by pairs of its subdomains.
 auto CoarseSpace::products(std::size_t group, const PointEquations& equations,
                            const std::vector<double>& active) const -> GroupProducts {
   constexpr std::size_t most = 256;
@@ -302,8 +302,8 @@ auto CoarseSpace::products(std::size_t group, const PointEquations& equations,
   return sums;
 }
 
-/// Adds the blocks of variables between the subdomains of the key, also to the inside of their
-/// aggregate where it holds them all.
+/// Adds the blocks of variables between the subdomains of the key. Adds them also to the interior
+/// of an aggregate that contains all these subdomains.
 void CoarseSpace::add(const Key& key, const GroupProducts& sums, SubdomainMatrix& matrix,
                       SubdomainMatrix* inside) {
   for (int k = 0; k < 4 && key[k] != no_index; ++k) {
@@ -326,7 +326,7 @@ void CoarseSpace::refactorize(const PointEquations& equations, const std::vector
   for (const auto& [a, b] : pairs_) {
     matrix.blocks.push_back(MatrixXd::Zero(num_fields(b), num_fields(a)));
   }
-  // Blocks inside aggregates, once.
+  // Blocks inside aggregates are needed only once.
   const bool parts = CoarseSystem::is_nested(num_subdomains()) && !coarse_.has_fields();
   for (const auto& [a, b] : pairs_) {
     const bool joined = parts && CoarseSystem::large_box(a) == CoarseSystem::large_box(b);
@@ -335,7 +335,7 @@ void CoarseSpace::refactorize(const PointEquations& equations, const std::vector
   for (Index b = 0; b < num_subdomains(); ++b) add_diagonal(b, diagonal, matrix.block(b, b));
   const Index num_groups = static_cast<Index>(groups_.size()) - 1;
   std::exception_ptr error;
-  // Sums in the order of the groups, whichever thread makes them.
+  // Sums have the order of the groups for any number of threads.
 #pragma omp parallel for ordered schedule(dynamic) num_threads(threads_)
   for (Index g = 0; g < num_groups; ++g) {
     GroupProducts sums;

@@ -14,23 +14,23 @@
 
 namespace perilink {
 
-/// Modes of the subdomains that span the coarse space.
+/// Modes of subdomains that span the coarse space.
 enum class CoarseModes {
-  killing,  ///< Killing tensors, which no bond resists (killing_fields())
-  soft,     ///< all near-null-space modes of the variables inside: expensive, for any variables
+  killing,  ///< Killing tensors, which do no work on any bond (killing_fields())
+  soft,     ///< near-null-space modes of the interior variables: expensive, for any variables
 };
 
 /// Second level of the preconditioner of bounded_least_squares(): the near-null-space modes of
-/// subdomains of neighbouring points. Blocks of single points take care of the rest, so that the
-/// iterations of conjugate gradients do not grow with the body (docs/theory/calibration.md).
+/// subdomains of neighbouring points. Blocks of single points precondition the remaining modes, so
+/// that the number of iterations does not grow with the body (docs/theory/calibration.md).
 class CoarseSpace {
  public:
-  /// \param active    per variable: its part in the system, from 0 to 1
-  /// \param diagonal  added to that of the system, shape (points, rows)
+  /// \param active  active-set weight per variable, from 0 to 1
+  /// \param diagonal  added to the diagonal of the system, shape (points, rows)
   CoarseSpace(const PointEquations& equations, const std::vector<double>& active,
               const std::vector<double>& diagonal, CoarseModes fields);
 
-  /// The coarse system P' S P of other variables or diagonals, with the modes as they are.
+  /// Makes the coarse system P' S P of other variables or diagonals, with unchanged modes.
   void refactorize(const PointEquations& equations, const std::vector<double>& active,
                    const std::vector<double>& diagonal);
 
@@ -38,7 +38,7 @@ class CoarseSpace {
   void add_correction(const double* residual, double* result) const;
 
   Index num_fields() const { return first_field_.back(); }
-  /// Whether the coarse system is not solved exactly, which takes more iterations.
+  /// Whether the coarse system is solved approximately, which takes more iterations.
   bool is_nested() const { return CoarseSystem::is_nested(num_subdomains()); }
 
  private:
@@ -64,31 +64,31 @@ class CoarseSpace {
                                   const std::vector<double>& blocks) const;
 
   int rows_;
-  int threads_;                               // as many as BLAS has room for
-  std::vector<std::vector<Index>> boxes_;     // points of each
-  std::vector<Index> box_of_, place_;         // per point: its subdomain, and its place there
+  int threads_;                               // limited by the buffers of BLAS
+  std::vector<std::vector<Index>> boxes_;     // points of each subdomain
+  std::vector<Index> box_of_, place_;         // per point: subdomain, and number in it
   std::vector<Index> first_, second_;         // points that variables join
   std::vector<std::pair<Key, Index>> order_;  // variables, by subdomains
-  std::vector<std::size_t> groups_;           // where those of the same subdomains begin in order_
+  std::vector<std::size_t> groups_;           // where each set of subdomains begins in order_
   std::vector<std::pair<Index, Index>>
       pairs_;                           // pairs of subdomains that variables join, ascending
   std::vector<SubdomainModes> fields_;  // per subdomain
-  std::vector<Index> first_field_;      // per subdomain, and at the end the number of all
+  std::vector<Index> first_field_;      // per subdomain, and the total at the end
   CoarseSystem coarse_;
 };
 
-/// Blocks of the single points of A D A' + diagonal, shape (points, rows, rows). Rows without any
-/// variable get a one.
+/// Returns the blocks of the single points of A D A' + diagonal, shape (points, rows, rows). Rows
+/// without variables get a one.
 std::vector<double> point_blocks(const PointEquations& equations, const std::vector<double>& active,
                                  const std::vector<double>& diagonal);
 
 /// Adds the diagonal to the blocks of the single points of A D A'. Rows without any variable get a
 /// one.
-/// \param rows  equations of a point
+/// \param rows  number of equations per point
 void finish_blocks(int rows, const std::vector<double>& diagonal, std::vector<double>& blocks);
 
 /// Replaces symmetric positive definite blocks, shape (points, rows, rows), by their inverses.
-/// \param rows  26 at most
+/// \param rows  at most 26
 void invert_blocks(int rows, std::vector<double>& blocks);
 
 }  // namespace perilink

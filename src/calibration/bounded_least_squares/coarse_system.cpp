@@ -15,13 +15,13 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Modes of aggregates below this part of their blocks, and about how many there are. All are
-/// taken: where many weights are at their bounds, leaving out those beyond 120 costs thousands of
+/// Largest stiffness of modes of aggregates relative to their blocks, and their expected number.
+/// All these modes are used: with many weights at their bounds, a limit of 120 costs thousands of
 /// iterations.
 constexpr double soft_in_large = 0.02;
 constexpr int expected_in_large = 140;
 
-/// Modes that threads share in a solution.
+/// Least number of modes for threads in a solution.
 constexpr Index fields_for_threads = 5000;
 
 /// Relative increase of the diagonal, so that singular blocks have a factor.
@@ -83,7 +83,8 @@ void CoarseSystem::find_fields(const SubdomainMatrix& matrix, const SubdomainMat
   }
 }
 
-/// As those of points (CoarseSpace::near_null_modes).
+/// Returns near-null-space modes of an aggregate, as CoarseSpace::near_null_modes() does for
+/// points.
 SubdomainModes CoarseSystem::near_null_modes(Index large, const SubdomainMatrix& matrix,
                                              const SubdomainMatrix& inside) {
   const Index begin = large * boxes_of_large;
@@ -117,7 +118,7 @@ SubdomainModes CoarseSystem::near_null_modes(Index large, const SubdomainMatrix&
   return fields_of(fields);
 }
 
-/// P' A P.
+/// Returns P2' A P2.
 SubdomainMatrix CoarseSystem::of_large_boxes(const SubdomainMatrix& matrix) const {
   SubdomainMatrix large{first_large_, {}, {}};
   for (const auto& [a, b] : matrix.pairs) large.pairs.emplace_back(large_box(a), large_box(b));
@@ -128,7 +129,7 @@ SubdomainMatrix CoarseSystem::of_large_boxes(const SubdomainMatrix& matrix) cons
   }
   std::vector<std::vector<double>> fields;
   for (const SubdomainModes& of : fields_) fields.push_back(of.values());
-  const auto rows_of = [&](Index box) {  // those of a subdomain, transposed
+  const auto rows_of = [&](Index box) {  // rows of a subdomain, transposed
     const Index g = large_box(box), count = large.size(g);
     const std::size_t start =
         static_cast<std::size_t>(matrix.first[box] - matrix.first[g * boxes_of_large]);
@@ -177,7 +178,7 @@ void CoarseSystem::factorize_directly(const SubdomainMatrix& matrix) {
   coarse.resizeNonZeros(next);
   if (factor_ && pairs_ == matrix.pairs) return factor_->refactorize(coarse);
   pairs_ = matrix.pairs;
-  factor_ = make_factor(FactorRoute::in_place, 1);  // threads wait longer than they work
+  factor_ = make_factor(FactorRoute::in_place, 1);  // one thread: synchronisation would take longer
   factor_->factorize(coarse, group);
 }
 

@@ -15,7 +15,7 @@ namespace perilink {
 
 /// A symmetric matrix of the modes of subdomains, by its blocks.
 struct SubdomainMatrix {
-  std::vector<Index> first;                    ///< where each subdomain begins, and the end of all
+  std::vector<Index> first;  ///< where each subdomain begins, and the total at the end
   std::vector<std::pair<Index, Index>> pairs;  ///< subdomains (a, b), a <= b, ascending
   std::vector<Eigen::MatrixXd> blocks;         ///< per pair, shape (modes of b, modes of a)
 
@@ -27,18 +27,18 @@ struct SubdomainMatrix {
   const Eigen::MatrixXd& block(Index a, Index b) const;
 };
 
-/// Solves the coarse system P' S P of the modes of all subdomains. A factor solves it where there
-/// are few subdomains. A factor of many would take longer than the rest of an iteration: they are
-/// gathered in aggregates, whose near-null-space modes P2 have a factor beside the blocks D of the
-/// single subdomains, D^-1 + P2 (P2' A P2)^-1 P2'.
+/// Solves the coarse system P' S P of the modes of all subdomains. Few subdomains have a factor. A
+/// factor of many would take longer than the rest of an iteration. Then subdomains are joined to
+/// aggregates with near-null-space modes P2. The approximate solution is D^-1 + P2 (P2' A P2)^-1
+/// P2', with the diagonal blocks D of the subdomains.
 class CoarseSystem {
  public:
-  /// The aggregate of a subdomain.
+  /// Returns the aggregate of a subdomain.
   static Index large_box(Index box) { return box / boxes_of_large; }
   static bool is_nested(Index num_subdomains) { return num_subdomains > most_in_factor; }
 
-  /// \param matrix  of all variables
-  /// \param inside  of the variables inside aggregates; read by the first nested factorisation
+  /// \param matrix  matrix of all variables
+  /// \param inside  matrix of the variables inside aggregates, for the first nested factorisation
   void factorize(const SubdomainMatrix& matrix, const SubdomainMatrix& inside);
   bool has_fields() const { return !fields_.empty(); }
 
@@ -55,12 +55,12 @@ class CoarseSystem {
   void factorize_directly(const SubdomainMatrix& matrix);
 
   std::vector<Index> first_;
-  /// Inverse of the lower factor of each subdomain's own block, transposed, where the system is
-  /// nested: its square is definite in single precision, too.
+  /// Transposed inverse of the lower factor of each diagonal block, where the system is nested: its
+  /// square stays definite in single precision.
   std::vector<SubdomainModes> roots_;
   std::vector<SubdomainModes> fields_;  // per aggregate
   std::vector<Index> first_large_;
-  std::vector<std::pair<Index, Index>> pairs_;  // those of the factor
+  std::vector<std::pair<Index, Index>> pairs_;  // pairs of the factor
   std::unique_ptr<Factor> factor_;
 };
 

@@ -9,7 +9,7 @@
 
 namespace perilink {
 
-/// From so many numbers on vectors are worked on in so many parts, which threads share.
+/// Least size of vectors that threads share, and the number of their parts.
 constexpr std::size_t long_vector = 80000, parts_of_vectors = 8;
 
 /// Calls visit(part, begin, end), at the same time for the parts of long vectors.
@@ -22,9 +22,9 @@ void for_each_part_of(std::size_t size, Visit visit) {
   }
 }
 
-/// a'b, by the same order of sums for any number of threads.
+/// Returns a'b, with one order of sums for any number of threads.
 inline double dot(const std::vector<double>& a, const std::vector<double>& b) {
-  // A sum that waits for itself takes four cycles for each number.
+  // A single sum would take four cycles per number, because each addition depends on the last.
   constexpr std::size_t lanes = 8;
   double sums[parts_of_vectors] = {};
   for_each_part_of(a.size(), [&](std::size_t part, std::size_t k, std::size_t end) {
@@ -52,31 +52,31 @@ inline void combine(std::vector<double>& a, const std::vector<double>& b, double
 
 inline double norm(const std::vector<double>& a) { return std::sqrt(dot(a, a)); }
 
-/// Round-off that multipliers leave in the residual, over their norm (a tenth of an ulp, measured
-/// on strips of up to 60 000 particles). Those of long waves along thin bodies reach 1e9, and
-/// iterations below this only move digits that do not exist.
+/// Round-off of the residual over the norm of the multipliers (a tenth of an ulp, measured on
+/// strips of up to 60 000 particles). Multipliers of long waves along thin bodies reach 1e9.
+/// Iterations below this limit only change round-off.
 constexpr double round_off = 2e-17;
 
 /// State of a solution by conjugate gradients.
 struct DirectionSearch {
   const std::vector<double>& right;
-  double target;  ///< norm of the residual that is enough
+  double target;  ///< required norm of the residual
   std::vector<double> residual, direction;
   int iterations = 0;
-  int cheap_iterations = 0;  ///< until then a solution may as well be more exact
-  bool rounded = false;      ///< whether products of the steps have few digits
-  /// Whether directions are made conjugate to all former ones, see FormerDirections.
+  int cheap_iterations = 0;  ///< iterations that may continue below the target
+  bool rounded = false;      ///< whether products of the steps have single precision
+  /// Whether directions are made conjugate to all former directions (FormerDirections).
   bool keeps_directions = false;
 
   static constexpr double cheap_reduction = 0.1;
-  /// Products of few digits serve until residuals have fallen by this factor; where they have not
-  /// by the second one they do not serve.
+  /// Products of single precision are used until residuals have fallen by the first factor, and
+  /// abandoned where the fall is less than the second.
   static constexpr double digits_of_steps = 1e-4, least_gain = 0.1;
 };
 
 /// Directions of a solution with their products. In exact arithmetic a new direction is conjugate
-/// to all of them. Round-off breaks that after some tens of iterations and grows from each to the
-/// next: the end of a solution for few digits depends on the last bit of the equations.
+/// to all former directions. Round-off destroys this after some tens of iterations and grows:
+/// coarse solutions would depend on the last bit of the equations.
 class FormerDirections {
  public:
   void add(const std::vector<double>& direction, const std::vector<double>& product,
@@ -93,7 +93,7 @@ class FormerDirections {
   }
 
  private:
-  /// 128 MB; round-off grows less in larger bodies.
+  /// 128 MB; larger bodies have less growth of round-off.
   static constexpr std::size_t most_numbers = 8'000'000;
   static Eigen::Map<const Eigen::VectorXd> map(const std::vector<double>& vector) {
     return {vector.data(), static_cast<Eigen::Index>(vector.size())};
@@ -101,11 +101,11 @@ class FormerDirections {
   std::vector<Eigen::VectorXd> directions_, products_;  // products over curvatures
 };
 
-/// Iterates at most so often. Where products of the steps have few
-/// digits and more are asked for, the residual is computed by the matrix itself whenever it seems
-/// to have fallen by as many, and the next direction made conjugate to the last one; where it has
-/// hardly fallen, the matrix itself goes on.
-/// \param exact, product  the matrix: called as exact(vector, result)
+/// Iterates at most `most` times. Steps with products of single precision compute the exact
+/// residual whenever it seems to have fallen by digits_of_steps, and make the next direction
+/// conjugate to the last. Where the exact residual has hardly fallen, the iteration continues with
+/// exact products.
+/// \param exact, product  products with the matrix, called as exact(vector, result)
 /// \return whether the target is reached
 template <class Exact, class Product, class Precondition>
 bool descend(DirectionSearch& search, int most, Exact exact, Product product,

@@ -13,9 +13,9 @@
 namespace perilink {
 namespace {
 
-/// Added to the diagonal, relative to its mean at each point: round-off must not make rows negative
-/// that depend on others. What the factor misses by it the conjugate gradients make up for; more is
-/// needed only where many rows depend on others.
+/// Additions to the diagonal, relative to its mean at each point: round-off must not make pivots of
+/// dependent rows negative. Conjugate gradients correct the error of the factor. Larger values are
+/// needed only with many dependent rows.
 constexpr std::array<double, 3> floors = {1e-14, 1e-12, 1e-10};
 
 PointMatrix::Pairs shared_points(const PointEquations& equations) {

@@ -13,16 +13,16 @@ namespace perilink {
 /// boundaries in the plane and for few variables.
 class EquationsFactor {
  public:
-  /// The pattern, which does not depend on the weights.
+  /// Makes the pattern, which does not depend on the weights.
   explicit EquationsFactor(const PointEquations& equations);
 
-  /// Factorises for the same equations, again where their weights have changed.
-  /// \param active    per variable: its part in the system, from 0 to 1
-  /// \param diagonal  added to that of the system, shape (points, rows)
+  /// Factorises for the equations of the constructor; to be called again when the weights change.
+  /// \param active  active-set weight per variable, from 0 to 1
+  /// \param diagonal  added to the diagonal of the system, shape (points, rows)
   void factorize(const PointEquations& equations, const std::vector<double>& active,
                  const std::vector<double>& diagonal);
 
-  /// result = S^-1 residual, both of shape (points, rows).
+  /// Computes result = S^-1 residual, both of shape (points, rows).
   void solve(const std::vector<double>& residual, std::vector<double>& result) const;
 
  private:

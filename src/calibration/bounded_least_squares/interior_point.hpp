@@ -13,7 +13,7 @@ namespace perilink {
 /// Solves bounded_least_squares() by a primal-dual interior-point method. Weights w stay strictly
 /// between their bounds, whose multipliers are z, Z > 0: w = 1 + A'y + z - Z, A w + ridge y = r,
 /// and z (w - lower) = Z (upper - w) = mu, which goes to zero. Newton's method for all of these
-/// leaves the system of NormalEquations with the active-set weights
+/// reduces to the system of NormalEquations with the active-set weights
 /// 1 / (1 + z / (w - lower) + Z / (upper - w)).
 ///
 /// Newton's method on the dual function takes short steps where many weights pass their bounds at
@@ -21,8 +21,8 @@ namespace perilink {
 /// for any bounds. The residual of an equation with a penalty p is the difference of two positive
 /// variables, s (p - y) = S (p + y) = mu, which add s / (p - y) + S / (p + y) to the diagonal.
 ///
-/// Without a penalty the equations may be left by regularisation * y. Infeasible equations then end
-/// near the least squared residual; without it they would shorten every step.
+/// Without a penalty the residual of an equation may be regularisation * y. Infeasible equations
+/// then end near the least squared residual; without regularisation they would shorten every step.
 template <class Normal>
 class InteriorPoint {
  public:
@@ -41,34 +41,35 @@ class InteriorPoint {
         at_lower_(lower_.size()),
         at_upper_(lower_.size()) {}
 
-  /// \param target      norm of the scaled residual that is enough
-  /// \param most        iterations of conjugate gradients after which no step begins
-  /// \param iterations  are added
-  /// \return whether it was reached
+  /// \param target  required norm of the scaled residual
+  /// \param most  conjugate-gradient iterations after which no step begins
+  /// \param iterations  the iterations made are added
+  /// \return whether the target was reached
   bool solve(double target, int most, int& iterations);
-  /// Whether the equations are infeasible by more than Newton's method can mend.
+  /// Whether the equations are infeasible by more than Newton's method can correct.
   bool infeasible() const { return infeasible_; }
   const Vector& multipliers() const { return y_; }
   const std::vector<double>& weights() const { return weights_; }
 
  private:
-  /// Multipliers of the bounds to begin with. Multipliers of soft equations grow to this order. In
-  /// space a smaller gap saves steps; in the plane strips along a boundary diverge with it.
+  /// Returns the first multipliers of the bounds, the order of the multipliers of soft equations.
+  /// In space a smaller gap saves steps; in the plane strips along a boundary would diverge.
   double first_gap() const { return equations_.dim == 3 ? 3.0 : 30.0; }
-  /// z (w - lower) at the end: weights at a bound are off by its square root at most.
+  /// z (w - lower) at the end: the error of weights at a bound is at most its square root.
   static constexpr double last_gap = 1e-4;
   static constexpr int most_steps = 60;
-  /// Part of the way to the nearest bound that a step may take.
+  /// Largest fraction of the way to the nearest bound in a step.
   static constexpr double boldness = 0.99;
-  /// Reduction of the residual by a step while bounds are found out, and the least of the others.
+  /// Reduction of the residual by a step while the active bounds change, and the least reduction
+  /// later.
   static constexpr double coarse = 0.1, finest = 1e-8;
-  /// Steps in a row that leave more than this of the residual at settled multipliers leave
-  /// infeasible equations or round-off.
+  /// Equations are infeasible, or at round-off, where steps in a row leave more than this of the
+  /// residual at settled multipliers.
   static constexpr double infeasible_ratio = 0.9;
   static constexpr int most_stalls = 2;
   /// Below this gap the multipliers of infeasible equations are known to about a third.
   static constexpr double settling_gap = 1.0;
-  /// Equations that are left by less are none: Newton's method takes it away.
+  /// Smaller residuals do not show infeasibility: Newton's method removes them.
   static constexpr double infeasible_residual = 1e-4;
 
   void start();
@@ -94,7 +95,7 @@ class InteriorPoint {
   Vector y_;
   std::vector<double> weights_;
   std::vector<double> elongation_;           // A' y
-  std::vector<double> pull_;                 // on the weights, but for the change of y
+  std::vector<double> pull_;                 // on the weights, without the change of y
   std::vector<double> at_lower_, at_upper_;  // z, Z
   Vector over_, under_;                      // s, S; empty without a penalty
 };
@@ -122,7 +123,7 @@ void InteriorPoint<Normal>::for_each_rest(Visit visit) {
   }
 }
 
-/// Mean of z (w - lower) and Z (upper - w).
+/// Returns the mean of z (w - lower) and Z (upper - w).
 template <class Normal>
 double InteriorPoint<Normal>::gap() const {
   if (weights_.empty()) return 0.0;
@@ -133,14 +134,14 @@ double InteriorPoint<Normal>::gap() const {
   return 0.5 * sum / static_cast<double>(weights_.size());
 }
 
-/// Residual of the equations of the steps.
+/// Computes the residual of the equations of the steps.
 template <class Normal>
 void InteriorPoint<Normal>::measure(const std::vector<double>& weights, Vector& residual) const {
   normal_.measure(weights, y_, residual);
   for (std::size_t k = 0; k < y_.size(); ++k) residual[k] -= regularisation_ * y_[k];
 }
 
-/// The linear system of a Newton step towards z (w - lower) = mu. \return its right side
+/// Sets up the linear system of a Newton step towards z (w - lower) = mu. \return its right side
 template <class Normal>
 auto InteriorPoint<Normal>::linearize(double mu) -> Vector {
   const std::size_t count = weights_.size();
@@ -163,8 +164,8 @@ auto InteriorPoint<Normal>::linearize(double mu) -> Vector {
   return residual;
 }
 
-/// Calls visit(variable, slack, change of the slack) for weights from one number to another: the
-/// variable, positive, times its slack is on the way to mu.
+/// Calls visit(variable, slack, change of the slack) for a range of weights. The positive variable
+/// times its slack tends to mu.
 template <class Normal>
 template <class Visit>
 void InteriorPoint<Normal>::for_each_pair(const std::vector<double>& change, std::size_t begin,
@@ -185,7 +186,7 @@ void InteriorPoint<Normal>::for_each_pair_of_rests(const Vector& direction, Visi
   });
 }
 
-/// A Newton step towards mu, as far as the bounds allow. \return its length
+/// Takes a Newton step towards mu, as far as the bounds allow. \return its length
 template <class Normal>
 double InteriorPoint<Normal>::take_step(double mu, double reduction, int& iterations) {
   const Vector residual = linearize(mu);
@@ -230,7 +231,7 @@ double InteriorPoint<Normal>::take_step(double mu, double reduction, int& iterat
   return length;
 }
 
-/// Largest part by which an equation is left for its multiplier.
+/// Returns the largest residual due to the regularisation of an equation.
 template <class Normal>
 double InteriorPoint<Normal>::largest_rest() const {
   double largest = 0.0;
@@ -238,8 +239,8 @@ double InteriorPoint<Normal>::largest_rest() const {
   return regularisation_ * largest;
 }
 
-/// Whether a step that removes the residual of the multipliers would make them grow by as much
-/// again: multipliers of infeasible equations grow without bound, others move little.
+/// Whether a step that removes the residual due to the multipliers would double them. Multipliers
+/// of infeasible equations grow without bound, others change little.
 template <class Normal>
 bool InteriorPoint<Normal>::would_grow(int& iterations) {
   Vector rest(y_), change;
@@ -263,7 +264,7 @@ bool InteriorPoint<Normal>::solve(double target, int most, int& iterations) {
     });
     const double size = norm(residual), present = gap();
     const bool settled = present <= last_gap;
-    // The residual of infeasible equations needs no more digits.
+    // The residual of infeasible equations need not be more accurate.
     const double rest = regularisation_ * norm(y_), enough = std::max(target, 0.1 * rest);
     const double left = largest_rest();
     if (present < settling_gap && left > infeasible_above_) {
@@ -277,7 +278,7 @@ bool InteriorPoint<Normal>::solve(double target, int most, int& iterations) {
     stalls = settled && full && size > infeasible_ratio * last_size ? stalls + 1 : 0;
     if (stalls == most_stalls) break;
     last_size = size;
-    // Once the bounds are settled the steps only take the residual down.
+    // Once the active bounds are settled, steps only reduce the residual.
     const double reduction = settled ? std::clamp(0.1 * enough / size, finest, coarse) : coarse;
     const double mu = std::max(centring * present, 0.1 * last_gap);
     full = take_step(mu, reduction, iterations) > 0.8;

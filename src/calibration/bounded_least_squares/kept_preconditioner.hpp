@@ -8,7 +8,8 @@
 
 namespace perilink {
 
-/// Made for one problem and good for the next with the same points and about these coefficients.
+/// Preconditioner of one problem, kept for the next problem with equal points and similar
+/// coefficients.
 struct KeptPreconditioner {
   std::unique_ptr<CoarseSpace> boxes;
   std::unique_ptr<EquationsFactor> factor;

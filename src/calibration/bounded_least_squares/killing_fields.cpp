@@ -13,11 +13,11 @@ namespace {
 using Eigen::MatrixXd;
 using Triple = std::array<int, 3>;
 
-/// Squares of fields below this part of the largest are round-off of others: in space six of the 56
-/// products repeat, since the sum over the axes of motion times turn is zero.
+/// Squares of fields below this fraction of the largest are round-off. In space six of the 56
+/// products are dependent, since the sum over the axes of translation times rotation is zero.
 constexpr double smallest_square = 1e-10;
 
-/// Numbers below `count` in ascending order.
+/// Returns all triples of numbers below `count` in ascending order.
 std::vector<Triple> ascending_triples(int count) {
   std::vector<Triple> triples;
   for (int a = 0; a < count; ++a) {
@@ -28,7 +28,7 @@ std::vector<Triple> ascending_triples(int count) {
   return triples;
 }
 
-/// What n_a n_b n_c has in (u n) (v n) (w n).
+/// Returns the coefficient of n_a n_b n_c in (u n) (v n) (w n).
 double component(Triple abc, const Vector3& u, const Vector3& v, const Vector3& w) {
   double sum = 0.0;
   do {

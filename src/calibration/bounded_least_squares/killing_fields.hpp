@@ -10,8 +10,8 @@
 
 namespace perilink {
 
-/// Rigid motions of what lies between two corners, about its middle, turns scaled to about one at
-/// its rim.
+/// Rigid motions of the box between two corners, about its centre. Rotations are scaled to about
+/// one at its boundary.
 class RigidMotions {
  public:
   RigidMotions(int dim, const Vector3& lower, const Vector3& upper) : dim_(dim) {
@@ -44,14 +44,14 @@ class RigidMotions {
   double radius_ = 0.0;
 };
 
-/// Multipliers that no bond feels: a symmetric tensor Y of third order at each point is felt by a
-/// bond along n as the difference of Y n n n between its ends, and that is none for products of
-/// three rigid motions, Y n n n = (u n) (v n) (w n), since the motions of the ends along n are the
-/// same. These Killing tensors and their sums are all such fields that are smooth: ten in the
-/// plane, fifty in space (docs/theory/calibration.md).
-/// \param equations  their odd rows are the components of n n n, in ascending order
-/// \return orthonormal columns, shape (points * rows, fields); fewer fields where points are few
-///         or lie on a line
+/// Returns multipliers that do no work on any bond. A symmetric third-order tensor Y at each point
+/// does work on a bond along n by the difference of Y n n n between its ends. The difference
+/// vanishes for products of three rigid motions, Y n n n = (u n) (v n) (w n), since both ends move
+/// equally along n. Sums of these Killing tensors are the only smooth fields with this property:
+/// ten in the plane, fifty in space (docs/theory/calibration.md).
+/// \param equations  with the components of n n n as odd rows, in ascending order
+/// \return orthonormal columns, shape (points * rows, fields); fewer fields where points are few or
+///     on a line
 Eigen::MatrixXd killing_fields(const PointEquations& equations, std::span<const Index> points);
 
 }  // namespace perilink

@@ -39,7 +39,8 @@ class NormalEquations {
         kept_(kept),
         by_factor_(options.preconditioner == Preconditioner::factor ||
                    (options.preconditioner == Preconditioner::blocks_then_factor && kept.factor)),
-        // The first steps of an interior point have other fields: blocks serve better.
+        // The first steps of the interior-point method have other near-null-space modes: blocks are
+        // better.
         with_boxes_(options.preconditioner == Preconditioner::blocks_then_boxes && kept.boxes &&
                     options.method == Method::newton) {
     if (std::isfinite(options.penalty)) compliance.assign(size_, 0.0);
@@ -55,54 +56,52 @@ class NormalEquations {
   bool has_penalty(std::size_t k) const {
     return std::isfinite(penalty()) && equations_.ridge_of(k % Rows) == 0.0;
   }
-  /// Relaxation of equation k: the part of its multiplier y beyond the penalty.
+  /// Returns the relaxation of equation k: the excess of its multiplier y over the penalty.
   double relaxation(std::size_t k, double y) const {
     if (!has_penalty(k) || std::abs(y) <= penalty()) return 0.0;
     return y > 0.0 ? y - penalty() : y + penalty();
   }
-  /// Residual of the weights, less ridge times y and the relaxations.
+  /// Computes the residual of the weights minus ridge times y and the relaxations.
   void measure(const std::vector<double>& weights, const Vector& y, Vector& residual) const;
-  /// Makes the preconditioner for the present active-set weights. The factor of earlier ones stays
-  /// while it takes less time than a new one.
+  /// Makes the preconditioner for the present active-set weights. Keeps an earlier factor while
+  /// this takes less time than a new one.
   void prepare();
-  /// Makes the preconditioner, but keeps the factor of earlier active-set weights until it needs
-  /// too many iterations.
-  /// \param settled  the weights between their bounds are those of the last step
-  /// \param last     the step is to meet the equations
+  /// Makes the preconditioner, but keeps an earlier factor until it needs too many iterations.
+  /// \param settled  the active weights are unchanged since the last step
+  /// \param last  the step must satisfy the equations
   void prepare_if_stale(bool settled, bool last);
-  /// S direction = residual, the residual reduced by the factor. \return iterations
+  /// Solves S direction = residual until the residual is reduced by the factor. \return iterations
   int solve(const Vector& residual, double reduction, Vector& direction);
 
   std::vector<double> active_weight;
   /// Compliance of exact equations, relaxation per unit of the multiplier, shape (points, Rows);
   /// empty where no equation has a penalty.
   Vector compliance;
-  /// Proximal regularisation, relative to equations of order one: infeasible residuals decay by
-  /// this factor over the smallest squared singular value in each step. 0: the least.
+  /// Proximal regularisation, relative to equations of order one: infeasible residuals decay in
+  /// each step by this over the smallest squared singular value. 0: the least value.
   double regularisation = 0.0;
 
  private:
   using Block = Eigen::Matrix<double, Rows, Rows>;
-  static constexpr int own = Grouped ? Rows - 1 : Rows;  // rows that hold at each point
+  static constexpr int own = Grouped ? Rows - 1 : Rows;  // rows per point, without the group row
 
-  /// Least weights of the method of multipliers. Long waves along a boundary have singular values
-  /// that fall with the square of their length: a factor of the equations allows a smaller one.
+  /// Least regularisations of the method of multipliers. Singular values of waves along a boundary
+  /// fall with the square of their length; a factor allows a smaller regularisation.
   static constexpr double least_regularisation = 1e-10;
   static constexpr double factor_regularisation = 1e-18;
-  /// Residuals along long waves of unstructured particle sets take further steps: the last steps
-  /// have a smaller shift.
+  /// Regularisation of the last steps, smaller for long waves of unstructured particle sets.
   static constexpr double settled_regularisation = 1e-13;
-  /// Iterations that take about as long as a factor, and those of a solution that make it stale.
+  /// Iterations that take as long as a factor, and iterations after which a factor is stale.
   static constexpr int worth_of_factor = 15, stale_iterations = 40;
-  /// Iterations of a solution after which the coarse space is made, or gets other modes. Near-null
-  /// modes take the time of about 500 iterations of blocks alone, and serve several solutions; with
-  /// the modes of an earlier problem only the coarse system is made.
+  /// Iterations of a solution after which the coarse space is made, or gets other modes.
+  /// Near-null-space modes take about 500 iterations of blocks, and are used in several solutions.
+  /// With modes of an earlier problem only the coarse system is made.
   static constexpr int patience = 200, patience_with_fields = 100, stale_fields = 200;
-  /// The coarse system takes the time of about forty iterations.
+  /// Iterations after which the coarse system is made again, which takes about forty iterations.
   static constexpr int stale_coarse = 80;
-  /// Blocks take the time of so many iterations.
+  /// Iterations that take as long as the blocks.
   static constexpr int cheap_iterations = 10;
-  /// From so many on threads share them, and forces are summed up in so many parts.
+  /// Least number of points for threads, and the number of parts of their sums.
   static constexpr std::size_t points_for_threads = 8000, parts_of_sums = 8;
 
   template <class Values>
@@ -116,7 +115,7 @@ class NormalEquations {
   bool iterate(DirectionSearch& search, int most);
   void apply_system(const Vector& shift, const Vector& y, Vector& result);
   void precondition(const Vector& residual, Vector& result) const;
-  /// Whether blocks work alone so far, although they may get help.
+  /// Whether blocks have no coarse space or factor yet, but may get one.
   bool alone() const {
     return !by_factor_ && !with_boxes_ && !boxes_failed_ &&
            options_.preconditioner != Preconditioner::blocks;
@@ -137,17 +136,17 @@ class NormalEquations {
   KeptPreconditioner& kept_;
   bool by_factor_;
   bool with_boxes_;
-  bool boxes_failed_ = false;            // blocks go on alone
+  bool boxes_failed_ = false;            // only blocks are used
   std::optional<PackedProduct> packed_;  // for the steps of conjugate gradients
-  bool last_ = false;                    // whether the step is to meet the equations
-  bool own_factor_ = false;              // made for these equations, not for the last problem
+  bool last_ = false;                    // whether the step must satisfy the equations
+  bool own_factor_ = false;  // whether the factor is of these equations, not of the last problem
   int last_iterations_ = 0;
   std::vector<double>
       coarse_of_;  // active-set weights of the coarse system; empty: of another problem
   Vector compliance_of_factor_;
 };
 
-/// result_v = a_v . (s y at the first end -+ s y at the second).
+/// Computes result_v = a_v . (s y at the first end -+ s y at the second).
 template <int Rows, int Odd, bool Grouped>
 void NormalEquations<Rows, Odd, Grouped>::apply_transpose(const Vector& y,
                                                           std::vector<double>& result) {
@@ -195,7 +194,7 @@ void NormalEquations<Rows, Odd, Grouped>::apply(const std::vector<double>& w,
   for (std::size_t k = 0; k < size_; ++k) result[k] *= equations_.scale[k];
 }
 
-/// Adds the forces of the variables from one number to another, times their weights.
+/// Adds the forces of a range of variables, times their weights.
 template <int Rows, int Odd, bool Grouped>
 void NormalEquations<Rows, Odd, Grouped>::add_forces(const std::vector<double>& w,
                                                      std::size_t begin, std::size_t end,
@@ -220,7 +219,7 @@ void NormalEquations<Rows, Odd, Grouped>::add_forces(const std::vector<double>& 
   }
 }
 
-/// result = (A D A' + shift) y.
+/// Computes result = (A D A' + shift) y.
 template <int Rows, int Odd, bool Grouped>
 void NormalEquations<Rows, Odd, Grouped>::apply_system(const Vector& shift, const Vector& y,
                                                        Vector& result) {
@@ -258,14 +257,13 @@ void NormalEquations<Rows, Odd, Grouped>::build_blocks() {
   for (std::size_t p = 0; p < inverse_blocks_.size(); ++p) {
     inverse_blocks_[p] = Eigen::Map<const Block>(blocks.data() + p * Rows * Rows);
   }
-  // The coarse system serves other weights too; the blocks are cheap.
+  // The coarse system can be kept for other weights; the blocks are cheap.
   if (with_boxes_ && last_iterations_ > (kept_.boxes->is_nested() ? 2 : 1) * stale_coarse) {
     renew_coarse();
   }
 }
 
-/// Modes or the coarse factor may have too few digits where equations are infeasible: blocks go on
-/// alone.
+/// Makes the coarse space. Where this fails for infeasible equations, only blocks are used.
 template <int Rows, int Odd, bool Grouped>
 template <class Make>
 void NormalEquations<Rows, Odd, Grouped>::use_boxes(Make make) {
@@ -285,7 +283,7 @@ void NormalEquations<Rows, Odd, Grouped>::renew_coarse() {
   use_boxes([&] { kept_.boxes->refactorize(equations_, active_weight, diagonal()); });
 }
 
-/// Diagonal of the system beside A D A', shape (points, Rows).
+/// Returns the diagonal added to A D A', shape (points, Rows).
 template <int Rows, int Odd, bool Grouped>
 auto NormalEquations<Rows, Odd, Grouped>::diagonal() const -> Vector {
   Vector result(size_);
@@ -352,7 +350,7 @@ int NormalEquations<Rows, Odd, Grouped>::solve(const Vector& residual, double re
   return search.iterations;
 }
 
-/// Iterates with the present preconditioner, and with a stronger one whenever that takes long.
+/// Iterates with the present preconditioner, and with a stronger one when this takes too long.
 template <int Rows, int Odd, bool Grouped>
 void NormalEquations<Rows, Odd, Grouped>::find_direction(DirectionSearch& search) {
   const int times = kept_.boxes && kept_.boxes->is_nested() ? 2 : 1;
@@ -380,7 +378,7 @@ void NormalEquations<Rows, Odd, Grouped>::find_direction(DirectionSearch& search
   iterate(search, options_.iterations);
 }
 
-/// Iterates at most so often. \return whether the target is reached
+/// Iterates at most `most` times. \return whether the target is reached
 template <int Rows, int Odd, bool Grouped>
 bool NormalEquations<Rows, Odd, Grouped>::iterate(DirectionSearch& search, int most) {
   const Vector shift = diagonal();

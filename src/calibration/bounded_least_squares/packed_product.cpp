@@ -10,10 +10,10 @@
 namespace perilink {
 namespace {
 
-/// Points of a body that threads share, and the parts that it has then.
+/// Least number of points for threads, and the number of parts.
 constexpr Index points_for_parts = 8000;
 constexpr std::size_t most_parts = 8;
-/// Neighbours that stay in the first cache.
+/// Points per block, whose neighbours stay in the first cache.
 constexpr Index points_of_box = 96;
 
 using Doubles = Lanes<double, 4>;
@@ -34,11 +34,11 @@ struct Row {
   Doubles parts[3];
 };
 
-/// Forces act against each other at the two ends, energies together.
+/// Forces are opposite at the two ends, energies have equal signs.
 constexpr Doubles all_odd = {-1.0, -1.0, -1.0, -1.0};
 constexpr Doubles signs[3] = {all_odd, all_odd, {-1.0, -1.0, 1.0, 0.0}};
 
-/// a.(s y) of both ends, times the active-set weight.
+/// Returns a.(s y) of both ends, times the active-set weight.
 inline double pull(const Row& a, const Row& near, const Row& far, float active_weight) {
   Doubles sum = a.parts[0] * (near.parts[0] - far.parts[0]);
   sum += a.parts[1] * (near.parts[1] - far.parts[1]);
@@ -75,7 +75,7 @@ void PackedProduct::order_points() {
   }
 }
 
-/// Calls visit(row, other place, whether the row is that of the second end).
+/// Calls visit(row, other position, whether the row is of the second end).
 template <class Visit>
 void PackedProduct::for_each_row(Index variable, Visit visit) const {
   const Index first = place_[equations_.first[variable]];
@@ -123,7 +123,7 @@ void PackedProduct::set(std::span<const double> active_weight) {
   }
 }
 
-/// Sums of the places of a part.
+/// Computes the sums at the positions of a part.
 void PackedProduct::multiply(std::size_t part) {
   const std::size_t first = part == 0 ? 0 : part_end_[part - 1], last = part_end_[part];
   std::fill(sums_.begin() + static_cast<std::ptrdiff_t>(first * width),
@@ -184,7 +184,7 @@ void PackedProduct::apply(std::span<const double> y, std::span<double> result) {
   }
 }
 
-/// Products of the odd coefficients: signs of the ends drop out.
+/// Adds the products of odd coefficients, which do not depend on the signs of the ends.
 /// \param sums  shape (places, odd, width)
 void PackedProduct::add_blocks(std::size_t part, double* sums) const {
   const std::size_t first = part == 0 ? 0 : part_end_[part - 1], last = part_end_[part];
@@ -210,7 +210,7 @@ void PackedProduct::add_blocks(std::size_t part, double* sums) const {
   }
 }
 
-/// The row of the group, in the blocks of the points at which it counts.
+/// Adds the row of the group to the blocks of its points.
 void PackedProduct::add_last_rows(std::vector<double>& blocks) const {
   const std::size_t rows = static_cast<std::size_t>(equations_.rows);
   const std::vector<Index>& group = equations_.group;

@@ -5,7 +5,7 @@
 namespace perilink {
 namespace {
 
-/// Variables that act at both ends in all rows; the last row at the points of `group`.
+/// Adds variables that act at both ends in all rows, with the last row at the points of `group`.
 template <int Rows, int Odd, bool Grouped>
 void add_paired(const PointEquations& equations, std::span<const double> active_weight, Index end,
                 const double* y, double* result) {
@@ -38,7 +38,7 @@ void add_paired(const PointEquations& equations, std::span<const double> active_
   }
 }
 
-/// Variables that act in the rows that are not odd at their first end only.
+/// Adds variables that act on rows that are not odd only at their first end.
 template <int Rows, int Odd, bool Grouped>
 void add_one_ended(const PointEquations& equations, std::span<const double> active_weight,
                    Index begin, const double* y, double* result) {

@@ -11,17 +11,17 @@ using Without = std::vector<NotFor>;
 constexpr std::string_view delete_it = "delete it";
 constexpr std::string_view no_bonds = "is given, but linear elements have no bonds";
 constexpr std::string_view bonds_instead = "delete it, or the line method = \"linear_elements\"";
-constexpr std::string_view another_model = "delete it, or take another model in [body]";
+constexpr std::string_view another_model = "delete it, or choose another model in [body]";
 constexpr std::string_view lattice_instead = "delete it, or set model = \"lattice\" in [body]";
-constexpr std::string_view whole_body = "take the whole body";
+constexpr std::string_view whole_body = "model the whole body";
 constexpr std::string_view no_lattice_table =
-    "is given, but a body with model = \"lattice\" knows none";
+    "is given, but a body with model = \"lattice\" cannot have it";
 constexpr std::string_view no_particle_table =
-    "is given, but a body with model = \"particles\" knows none";
+    "is given, but a body with model = \"particles\" cannot have it";
 constexpr std::string_view only_lattices =
     "is given, but only bodies with model = \"lattice\" have it";
 
-constexpr std::string_view flat_instead = "delete it, or take another problem in [body]";
+constexpr std::string_view flat_instead = "delete it, or choose another problem in [body]";
 
 constexpr std::string_view damage_instead = "delete it, or set type = \"damage\" in [analysis]";
 
@@ -34,7 +34,7 @@ const NotFor on_lattice{
     "of a given spacing",
     "delete it; `pattern`, `spacing`, `rotation` and `offset` say where they are"};
 
-/// What a beam has no choice of.
+/// Keys without a meaning for beams.
 const NotFor of_beams{
     beam, "is given, but a beam is a row of particles whose bonds share its section", delete_it};
 constexpr std::string_view no_beam = "is given, but beams have none";
@@ -49,7 +49,7 @@ const Without horizons = {
      "plane and eighteen in space",
      delete_it},
 };
-/// Those that say which bonds there are.
+/// Keys of bonds within a horizon that beams do not have.
 const Without neighbourhoods = [] {
   Without keys = horizons;
   keys.push_back(of_beams);
@@ -58,7 +58,8 @@ const Without neighbourhoods = [] {
 constexpr std::string_view no_torsion =
     "delete it; three-dimensional bodies with model = \"micropolar\" have it";
 const Without torsion = {
-    {shell, "is given, but how bonds of a shell twist follows from its Poisson's ratio", delete_it},
+    {shell, "is given, but torsion of bonds of a shell follows from its Poisson's ratio",
+     delete_it},
     {elements, no_bonds, bonds_instead},
     on_lattice,
     {micropolar | plane, "is given, but bonds of a two-dimensional body do not twist", no_torsion},
@@ -67,33 +68,33 @@ const Without torsion = {
 const Without lattices = {{bonds | particles | elements, "is given, but model is \"{model}\"",
                            "delete it, or set model = \"lattice\""}};
 
-/// What a kind of body cannot be analysed by.
+/// Methods, models and types of analysis that a kind of body excludes.
 const Without methods = {
     {elements | shell | beam, "is \"linear_elements\", but shells and beams are made of bonds",
-     "delete the line, or take another problem"},
+     "delete the line, or choose another problem"},
     {elements | damage | relaxation, "is \"linear_elements\", which cannot break",
      "set analysis.type = \"elastic\", or delete the line"}};
 constexpr std::string_view other_type =
-    "set type = \"explicit\" or \"elastic\" in [analysis], or take another model";
+    "set type = \"explicit\" or \"elastic\" in [analysis], or choose another model";
 const Without models = {
     {elements, no_bonds, bonds_instead},
     {bond_based | lattice | particles | shell | beam,
      "is \"{model}\", but the bonds of shells and beams bend: model = \"micropolar\"",
-     "delete the line, or take another problem"},
+     "delete the line, or choose another problem"},
     {lattice | particles | damage | relaxation, "is \"{model}\", but analysis.type is \"{type}\"",
      other_type},
 };
-const Without types = {{elements | explicit_, "is \"explicit\", but linear elements have no masses",
-                        "set method = \"bonds\" in [body], or type = \"elastic\""},
-                       {shell | beam | explicit_ | relaxation,
-                        "is \"{type}\", but shells and beams are at rest: nobody has given them "
-                        "masses and damped steps",
-                        "set type = \"elastic\" or \"damage\""}};
+const Without types = {
+    {elements | explicit_, "is \"explicit\", but linear elements have no masses",
+     "set method = \"bonds\" in [body], or type = \"elastic\""},
+    {shell | beam | explicit_ | relaxation,
+     "is \"{type}\", but shells and beams have no masses: they need a quasistatic analysis",
+     "set type = \"elastic\" or \"damage\""}};
 
 const Without softening = {{elements, no_bonds, bonds_instead}};
 const Without bond_softening = {
     {elements, no_bonds, bonds_instead},
-    {lattice | particles, "is given, but only bonds that carry no states have it",
+    {lattice | particles, "is given, but state-based particles do not have it",
      "delete it; `critical_opening` and the knee give the law of these particles"}};
 const Without crack_opening = {
     {bonds | elements,
@@ -130,9 +131,9 @@ std::vector<KeySchema> motions(bool in_stages) {
   return keys;
 }
 const Without velocities = {
-    {still, "is given, but analysis.type is \"{type}\", which knows no time",
+    {still, "is given, but analysis.type is \"{type}\", and velocities need type = \"explicit\"",
      "give [[displacements]], or set type = \"explicit\""},
-    {lattice, "is given, but only regions of bonds have velocities",
+    {lattice, "is given, but only bodies of bonds have prescribed velocities",
      "give [[displacements]], which follow the smooth load factor"}};
 
 const Without tractions = {
@@ -151,14 +152,14 @@ const Without symmetry = {
      whole_body}};
 const Without springs = {
     {lattice, no_lattice_table, another_model},
-    {elements, "is \"linear_elements\", but the case has [[springs]], which only bonds know",
+    {elements, "is \"linear_elements\", but the case has [[springs]], which need bonds",
      "delete one of the two", "body.method"}};
 const Without spring_stiffness = {
     {beam, "is given per area, but a beam has no faces", "give `total`"}};
 const Without outside_of_mid_surfaces = {
     {plane, "is an axis that a two-dimensional body does not have",
      "delete it, or set problem = \"three_dimensional\" in [body]"},
-    {shell, "is given, but places of a shell are those of its flat sheet, x and y", delete_it}};
+    {shell, "is given, but positions in a shell have two coordinates, x and y", delete_it}};
 const Without cracks = {
     {beam, no_beam, flat_instead},
     {particles, no_particle_table, another_model},
@@ -167,29 +168,29 @@ const Without cracks = {
      "delete one of the two, or leave the crack out of the mesh", "body.method"}};
 const Without interfaces = {
     {beam, no_beam, flat_instead},
-    {shell, "is given, but bonds of a shell have one strength all over", flat_instead},
+    {shell, "is given, but shells cannot have interfaces", flat_instead},
     {particles, no_particle_table, another_model},
     {lattice, no_lattice_table, another_model},
-    {elements, "is \"linear_elements\", but the case has [[interfaces]], which bonds cross",
+    {elements, "is \"linear_elements\", but the case has [[interfaces]], which need bonds",
      "delete one of the two", "body.method"},
     {elastic, {}, {}}};
 const Without rebar = {
     {beam, no_beam, flat_instead},
-    {shell, "is given, but bars are not tied to shells", flat_instead},
+    {shell, "is given, but shells cannot have rebar", flat_instead},
     {particles, no_particle_table, another_model},
     {lattice, no_lattice_table, another_model},
-    {elements, "is \"linear_elements\", but the case has [[rebar]], which bonds tie",
+    {elements, "is \"linear_elements\", but the case has [[rebar]], which needs bonds",
      "delete one of the two", "body.method"}};
 
 const Without hosts = {
-    {shell, "is given, but elements do not carry particles of shells", flat_instead},
+    {shell, "is given, but elements cannot constrain particles of shells", flat_instead},
     {particles, no_particle_table, another_model},
     {lattice, no_lattice_table, another_model},
-    {elements, "is \"linear_elements\", but the case has [elements], which carry particles",
+    {elements, "is \"linear_elements\", but the case has [elements], which constrain particles",
      "delete one of the two", "body.method"},
     {explicit_ | relaxation, {}, {}}};
 
-/// A key that these analyses set aside.
+/// Returns the exceptions of a key that these analyses do not use.
 Without set_aside(Kinds analyses) { return {{analyses, {}, {}}}; }
 
 const Without of_events = set_aside(explicit_ | relaxation);
@@ -197,20 +198,20 @@ const Without of_damage = set_aside(elastic | explicit_ | relaxation);
 const Without of_relaxation = set_aside(damage | elastic | explicit_);
 const Without of_time = set_aside(still);
 const NotFor no_lattice_key{lattice | explicit_, "is given, but lattice particles do not have it",
-                            "delete it; damping of lattices is a matter of [[materials]]"};
+                            "delete it; [[materials]] set the damping of lattices"};
 const Without of_bonds_in_time = {{still, {}, {}}, no_lattice_key};
 const Without strains = {
     {damage | elastic, {}, {}},
-    {lattice, "is given, but lattice particles stretch by their true lengths", delete_it}};
+    {lattice, "is given, but lattice particles always use true lengths", delete_it}};
 
 const Without stages = {
     {shell | beam, "is given, but all loads of shells and beams grow together", delete_it},
     {elastic | explicit_ | relaxation,
-     "is given, but type = \"{type}\" lets all loads grow together", damage_instead}};
+     "is given, but type = \"{type}\" makes all loads grow together", damage_instead}};
 
 const Without release_strains = {
     {elastic, {}, {}},
-    {beam, "is given, but the mean strain of a bent line tells nothing of its faces",
+    {beam, "is given, but the mean strain of a bent beam leaves out the strain at its faces",
      "give `alert`"}};
 
 const std::vector<KeySchema> body_keys = {
@@ -308,14 +309,14 @@ const std::vector<KeySchema> rebar_keys = plain(
     "concrete_strength rib_spacing bond_failure bond_conditions megapascal millimetre "
     "ties_break perimeter hooks bends prestrain stage");
 
-/// A line in the plane and on sheets, a polygon in space.
+/// A line in the plane and on mid-surfaces, a polygon in space.
 const std::vector<KeySchema> crack_keys = {
     {"points",
      {{space, "is given, but the body has 3 dimensions", "give the `corners` of a plane polygon"}}},
     {"corners",
      {{plane, "is given, but the body has 2 dimensions",
        "give the `points` of a line: [[0, 1], [2, 1]]"},
-      {shell, "is given, but cracks of a shell are lines on its sheet",
+      {shell, "is given, but cracks of a shell are lines on its mid-surface",
        "give the `points` of a line: [[0, 1], [2, 1]]"}}}};
 
 const std::vector<KeySchema> interface_keys = {
@@ -367,7 +368,7 @@ const std::vector<TableSchema>& case_schema() {
         "region",
         "axis",
         {"stress",
-         {{shell | beam, "is given, but stresses of shells and beams are not read",
+         {{shell | beam, "is given, but stresses of shells and beams are not computed",
            "give `axis`"}}}}},
       {"analysis", false, analysis_keys},
       {"stop", false, {"broken_bonds", "load_fraction", "displacement"}, of_damage},

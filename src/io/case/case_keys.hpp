@@ -7,10 +7,10 @@
 
 namespace perilink {
 
-/// Every table and key of a case, each with the kinds of cases that do not use it.
+/// Returns every table and key of a case, with the kinds of cases that do not use it.
 const std::vector<TableSchema>& case_schema();
 
-/// Keys of [body] that linear elements have no use for because they have no bonds.
+/// Returns the keys of [body] that need bonds, so that linear elements cannot have them.
 std::vector<std::string_view> keys_of_bonds();
 
 }  // namespace perilink

@@ -8,7 +8,7 @@
 namespace perilink {
 namespace {
 
-/// Keys of [body] that a key takes the place of, itself left out.
+/// Returns the other keys of [body] that a key replaces.
 std::vector<std::string_view> replaced_by(const TomlValue& key) {
   if (key.key == "spacing") return {"columns"};
   if (key.key == "columns") return {"spacing"};

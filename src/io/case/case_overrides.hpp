@@ -9,7 +9,7 @@
 
 namespace perilink {
 
-/// A key for override_body. It has no line, for no line of the case holds it.
+/// Returns a key for override_body, without a line of the case file.
 TomlValue body_key(const std::string& key, double value);
 TomlValue body_key(const std::string& key, int value);
 TomlValue body_key(const std::string& key, const std::string& value);
@@ -18,9 +18,9 @@ requires std::is_enum_v<Enumeration> TomlValue body_key(const std::string& key, 
   return body_key(key, std::string(word_of(value)));
 }
 
-/// Puts keys into [body] of a case's document, in place of those of the same name and of those that
-/// say the same otherwise: `spacing` takes the place of `columns` too, `horizon_ratio` that of
-/// `horizon` and `horizon_level`, and `method = "linear_elements"` that of all keys of bonds.
+/// Sets keys in [body] of a case's document and removes the keys that they replace. `spacing` also
+/// replaces `columns`, `horizon_ratio` also replaces `horizon` and `horizon_level`, and `method =
+/// "linear_elements"` replaces all keys of bonds.
 void override_body(TomlValue& document, const std::vector<TomlValue>& keys);
 
 }  // namespace perilink

@@ -10,10 +10,10 @@
 namespace perilink {
 namespace {
 
-/// Longer words are no misspelling of a key, and comparing them would only cost time.
+/// Longer words are not misspellings of keys, and comparing them takes time.
 constexpr std::size_t longest_word = 64;
 
-/// Names in a list of allowed words before it is cut.
+/// Most names in a list of allowed words.
 constexpr std::size_t longest_list = 20;
 
 bool is_bare_key(const std::string& key) {
@@ -39,14 +39,14 @@ bool has_key(const TableSchema& schema, const std::string& key) {
                      [&](const KeySchema& known) { return known.name == key; });
 }
 
-/// What is checked against what, for messages.
+/// A document and its schema, for messages.
 struct SchemaDocument {
   const std::string& path;
   const std::vector<TableSchema>& schema;
   std::string_view name;
 };
 
-/// A key that another table has was probably written below the wrong header.
+/// Suggests the tables that have the key: it may stand below the wrong header.
 std::string suggest_key(const SchemaDocument& document, const TableSchema& here,
                         const std::string& key) {
   std::string homes;
@@ -82,8 +82,8 @@ void check_table(const SchemaDocument& document, const TableSchema& schema,
   if (!schema.list) {
     if (value.kind == TomlValue::Kind::array) {
       throw InputError({document.path, value.line, name},
-                       fmt::format("is a list of tables [[{}]]", name),
-                       fmt::format("a {} has one; write {}", document.name, header(schema)));
+                       fmt::format("is written as a list of tables [[{}]]", name),
+                       fmt::format("a {} has only one; write {}", document.name, header(schema)));
     }
     check_keys(document, schema, value, name);
     return;

@@ -12,8 +12,8 @@
 namespace perilink {
 namespace {
 
-/// Numbers beyond these bounds are no measured quantity in any units, and powers of them (the
-/// micromodulus has the horizon to the sixth) would leave the range of double precision.
+/// Bounds of numbers: powers of numbers beyond them would leave the range of double precision (the
+/// micromodulus has the horizon to the sixth).
 constexpr double largest_number = 1e50;
 constexpr double smallest_number = 1e-50;
 
@@ -23,7 +23,7 @@ constexpr std::size_t longest_text = 200;
 /// Linux's PATH_MAX.
 constexpr std::size_t longest_path = 4096;
 
-/// Body forces of manufactured solutions are long.
+/// Characters, enough for body forces of manufactured solutions.
 constexpr std::size_t longest_formula = 2000;
 
 }  // namespace
@@ -51,7 +51,7 @@ void CaseTable::need_one_of(const std::vector<std::string>& keys) const {
   }
   if (given.size() == 1) return;
   if (given.empty()) refuse("", fmt::format("has none of {}", list), "give exactly one of them");
-  refuse(given[1], fmt::format("is given beside `{}`", given[0]),
+  refuse(given[1], fmt::format("is given together with `{}`", given[0]),
          fmt::format("give only one of {}", list));
 }
 
@@ -62,7 +62,8 @@ double CaseTable::checked_number(const std::string& key, const TomlValue& value)
            value.kind == Kind::text ? "write numbers without quotes" : "");
   }
   if (!std::isfinite(value.number)) {
-    refuse(key, fmt::format("is {}, but must be a finite number", describe(value)), "");
+    refuse(key, fmt::format("is {}, but must be a finite number", describe(value)),
+           "write digits, for example 1.5e3");
   }
   const double size = std::abs(value.number);
   if (size > largest_number || (size > 0.0 && size < smallest_number)) {
@@ -121,7 +122,7 @@ std::optional<std::string> CaseTable::choice(const std::string& key,
                                              const std::vector<std::string_view>& allowed) const {
   const std::optional<std::string> word = text(key);
   if (word && std::find(allowed.begin(), allowed.end(), *word) == allowed.end()) {
-    refuse(key, fmt::format("is {}, which is none of the choices", quoted(*word)),
+    refuse(key, fmt::format("is {}, which is not one of the choices", quoted(*word)),
            suggest(*word, allowed));
   }
   return word;
@@ -152,7 +153,8 @@ std::optional<double> CaseTable::number(const std::string& key) const {
 std::optional<double> CaseTable::positive(const std::string& key) const {
   const std::optional<double> value = number(key);
   if (value && *value <= 0.0) {
-    refuse(key, fmt::format("is {}, but must be greater than zero", *value), "");
+    refuse(key, fmt::format("is {}, but must be greater than zero", *value),
+           "give a positive number");
   }
   return value;
 }

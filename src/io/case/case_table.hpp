@@ -15,8 +15,8 @@
 
 namespace perilink {
 
-/// Reads checked values of one table of a case. Every reader returns nothing where the key is
-/// absent and throws InputError where the value is of the wrong type or out of its range.
+/// Reads checked values of one table of a case. Every reader returns std::nullopt where the key is
+/// absent. It throws InputError for a wrong type or a value out of range.
 class CaseTable {
  public:
   /// \param table     must outlive this object
@@ -28,14 +28,14 @@ class CaseTable {
   bool exists() const { return table_.line > 0; }
   bool has(const std::string& key) const { return table_.find(key) != nullptr; }
 
-  /// One printable line.
+  /// Reads one printable line.
   std::optional<std::string> text(const std::string& key) const;
-  /// The same, long enough for the name of a file with its folders.
+  /// Reads the path of a file.
   std::optional<std::string> path(const std::string& key) const;
-  /// The same, one of a few words.
+  /// Reads one of the allowed words.
   std::optional<std::string> choice(const std::string& key,
                                     const std::vector<std::string_view>& allowed) const;
-  /// The same, one of the words of an enumeration.
+  /// Reads a word of an enumeration.
   template <class Enumeration>
   std::optional<Enumeration> choice(const std::string& key) const {
     constexpr auto words = words_of(Enumeration{});
@@ -45,43 +45,44 @@ class CaseTable {
   }
   std::optional<bool> boolean(const std::string& key) const;
   std::optional<int> integer(const std::string& key, int lowest, int highest) const;
-  /// Integers count as numbers.
+  /// Reads a number; integers are allowed.
   std::optional<double> number(const std::string& key) const;
   std::optional<double> positive(const std::string& key) const;
-  /// A number above zero and below one.
+  /// Reads a number above zero and below one.
   std::optional<double> fraction(const std::string& key) const;
   std::optional<std::vector<double>> numbers(const std::string& key) const;
-  /// As many numbers as the body has dimensions.
+  /// Reads as many numbers as the body has dimensions.
   std::optional<Vector3> vector(const std::string& key, int dim) const;
-  /// A number, or text that is a formula of the position.
+  /// Reads a number or a formula of the position.
   std::optional<Expression> expression(const std::string& key, int dim) const;
-  /// As many of them as the body moves along axes, of a position in `dim` dimensions.
+  /// Reads one number or formula for each of the axes, with formulas of a position in `dim`
+  /// dimensions.
   std::optional<ExpressionVector> expressions(const std::string& key, int axes, int dim) const;
-  /// A list of them.
+  /// Reads a list of points.
   std::optional<std::vector<Vector3>> vectors(const std::string& key, int dim) const;
   std::optional<std::vector<int>> integers(const std::string& key, int lowest, int highest) const;
   std::optional<std::vector<std::string>> texts(const std::string& key) const;
 
-  /// The value, or a refusal that says what is missing.
+  /// Returns the value, or refuses the table with what is missing.
   template <class T>
   T need(const std::string& key, std::optional<T> value, const std::string& meaning) const {
     if (!value) refuse_missing(key, meaning);
     return *std::move(value);
   }
 
-  /// The name of a region. \param use  what the region is for: "that is held"
+  /// Returns the name of a region. \param use  purpose of the region: "that is held"
   std::string need_region(const std::string& use) const {
     return need("region", text("region"), "the name of the region " + use);
   }
 
-  /// Refuses both and none of keys that exclude each other.
+  /// Refuses a table that does not have exactly one of these keys.
   void need_one_of(const std::vector<std::string>& keys) const;
 
   [[noreturn]] void refuse(const std::string& key, const std::string& fault,
                            const std::string& suggestion) const;
   [[noreturn]] void refuse_missing(const std::string& key, const std::string& meaning) const;
 
-  /// Value as written, for messages.
+  /// Returns the value as written, for messages.
   const TomlValue* value(const std::string& key) const { return table_.find(key); }
 
  private:

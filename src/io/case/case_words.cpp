@@ -5,7 +5,7 @@
 namespace perilink {
 namespace {
 
-/// In letters of either case.
+/// Compares without regard to upper and lower case.
 bool ends_with(std::string_view path, std::string_view extension) {
   if (path.size() < extension.size()) return false;
   return std::equal(

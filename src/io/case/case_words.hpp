@@ -15,65 +15,64 @@
 #include "solver/factor_route.hpp"
 #include "solver/linear_solver.hpp"
 
-/// \file
-/// The words of case and study files: axes, reserved names, and one table for every enumeration.
+/// \file The words of case and study files: axes, reserved names, and a table of words for every
+///     enumeration.
 
 namespace perilink {
 
 inline constexpr std::array<const char*, 3> axis_names = {"x", "y", "z"};
 
-/// Rotations of the particles of micropolar bodies: "rotation" in two dimensions, where they turn
-/// about z; "rx", "ry", "rz" in three.
+/// Rotations of the particles of micropolar bodies: "rotation" in two dimensions (about z); "rx",
+/// "ry", "rz" in three.
 inline constexpr std::array<const char*, 3> rotation_names = {"rx", "ry", "rz"};
 inline const char* rotation_name(int dim, std::size_t axis) {
   return dim == 2 ? "rotation" : rotation_names[axis];
 }
 
-/// Key of a displacement along an axis (0 to 2) or of a rotation about one (3 to 5).
+/// Returns the key of a displacement along an axis (0 to 2) or of a rotation about one (3 to 5).
 inline const char* motion_name(int dim, std::size_t component) {
   return component < 3 ? axis_names[component] : rotation_name(dim, component - 3);
 }
 
-/// Regions that every case has besides its own: the particles and facets of the surface, and all of
-/// the body.
+/// Regions that every case has: the particles and facets of the surface, and the whole body.
 inline constexpr const char* surface_region = "surface";
 inline constexpr const char* body_region = "body";
 
-/// What a body is made of.
+/// Discretisation of a body.
 enum class BodyMethod { bonds, linear_elements };
 
-/// What its bonds are.
+/// Material model of a body of bonds.
 enum class BodyModel {
   bond_based,
   micropolar,
   lattice,    ///< state-based particles on a lattice
-  particles,  ///< state-based particles that stand anywhere
+  particles,  ///< state-based particles at any positions
 };
 
-/// What a crack's fracture energy counts.
+/// Measure of a crack's fracture energy.
 enum class CriticalStretch { dissipated, lattice, continuum };
 
 enum class AnalysisType { damage, elastic, explicit_, relaxation };
 
-/// What a quasistatic analysis steps by.
+/// Control of the steps of a quasistatic analysis.
 enum class LoadControl { events, steps };
 
-/// What holds the nodes of a bar in the solid.
+/// Bond between the nodes of a bar and the solid.
 enum class RebarBond {
-  perfect,     ///< it does not slip
-  linear,      ///< a stiffness, and a strength from which on it stays
+  perfect,     ///< no slip
+  linear,      ///< constant stiffness up to a strength, then constant bond stress
   model_code,  ///< ModelCodeBond
-  curve,       ///< given points
+  curve,       ///< points of the curve
   concrete,    ///< bonds like those between particles of the solid
 };
 
 /// Ends of a bar that do not slip.
 enum class Hooks { none, from, to, both };
 
-/// What becomes of a body that is not held.
+/// Treatment of a body with free rigid-body modes.
 enum class RigidBodyModes { refuse, pin };
 
-/// Keys of [body] that a study refines by.
+/// Keys of [body] that a study can refine.
 enum class Refinement { spacing, columns, mesh, mesh_size };
 
 /// Numbers of a run that a study can measure.
@@ -88,14 +87,14 @@ enum class Quantity {
   dissipated_energy,
 };
 
-/// What the error of a quantity is measured against.
+/// Reference of the error of a quantity.
 enum class Reference {
   finest,        ///< the finest member of the same combination
-  extrapolated,  ///< the limit of its three finest members
-  number,        ///< a given one, which no word stands for
+  extrapolated,  ///< the limit extrapolated from the three finest members
+  number,        ///< a given number, without a word
 };
 
-/// What becomes of a rigid motion before a displacement is compared.
+/// Treatment of a rigid motion before displacements are compared.
 enum class RigidMotion { kept, removed };
 
 template <class... Word>
@@ -103,8 +102,8 @@ constexpr std::array<std::string_view, sizeof...(Word)> words(Word... word) {
   return {word...};
 }
 
-/// The words of an enumeration in the order of its enumerators; the last enumerators may have none
-/// (Pattern::irregular is what a mesh has).
+/// Returns the words of an enumeration in the order of its enumerators. The last enumerators may
+/// have no word (Pattern::irregular is for meshes).
 constexpr auto words_of(Problem) {
   return words("plane_stress", "plane_strain", "three_dimensional", "shell", "beam");
 }
@@ -153,14 +152,14 @@ std::string_view word_of(Enumeration value) {
   return words_of(value)[static_cast<std::size_t>(value)];
 }
 
-/// Whether the file of a mesh is a geometry that has to be meshed, by its name: .geo, .step, .stp
-/// or .brep in letters of either case.
+/// Whether the file of a mesh is a geometry that has to be meshed: .geo, .step, .stp or .brep, in
+/// upper or lower case.
 bool is_geometry(std::string_view path);
 
 /// Whether a geometry is a script of gmsh (.geo).
 bool is_gmsh_script(std::string_view path);
 
-/// Whether a pattern fills a plane and not space.
+/// Whether a pattern is two-dimensional.
 bool is_flat(Pattern pattern);
 
 }  // namespace perilink

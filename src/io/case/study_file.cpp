@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 constexpr int most_repeats = 1000;
 constexpr int most_study_columns = 100000;
 
-/// `error` may be one table or a list of them.
+/// Returns the schema with `error` as one table or a list of tables.
 std::vector<TableSchema> study_schema(bool several_errors) {
   return {
       {"", false, {"title", "case", "repeats"}},
@@ -35,12 +35,12 @@ std::vector<TableSchema> study_schema(bool several_errors) {
   };
 }
 
-/// A path that is relative to the folder of a file, as the program opens it.
+/// Turns a path relative to the folder of a file into one relative to the working directory.
 std::string beside(const std::string& file, const std::string& path) {
   return (fs::path(file).parent_path() / path).lexically_normal().string();
 }
 
-/// A path from one folder to a file, whatever the working directory.
+/// Returns the path from a folder to a file, independent of the working directory.
 std::string path_from(const std::string& directory, const std::string& file) {
   const fs::path base = fs::absolute(directory.empty() ? "." : directory);
   return fs::proximate(fs::absolute(file), base).lexically_normal().string();
@@ -65,7 +65,8 @@ std::vector<double> positive_list(const CaseTable& table, const std::string& key
   std::vector<double> values = distinct(table, key, *table.numbers(key));
   for (const double value : values) {
     if (value > 0.0) continue;
-    table.refuse(key, fmt::format("holds {}, but the values must be greater than zero", value), "");
+    table.refuse(key, fmt::format("holds {}, but the values must be greater than zero", value),
+                 "give positive numbers");
   }
   return values;
 }
@@ -79,7 +80,7 @@ std::vector<Enumeration> choices(const CaseTable& table, const std::string& key)
     const auto found = std::find(words.begin(), words.end(), word);
     if (found == words.end()) {
       table.refuse(key,
-                   fmt::format("holds {}, which is none of the choices", perilink::quoted(word)),
+                   fmt::format("holds {}, which is not one of the choices", perilink::quoted(word)),
                    suggest(word, {words.begin(), words.end()}));
     }
     result.push_back(static_cast<Enumeration>(found - words.begin()));
@@ -102,7 +103,7 @@ void read_refinement(const CaseTable& table, VarySection& vary, const StudyFile&
     }
   } else if (vary.refinement == Refinement::mesh) {
     for (const std::string& mesh : distinct(table, key, *table.texts(key))) {
-      // From the folder of the case, as the case itself would name it.
+      // Relative to the folder of the case, as in the case file.
       vary.values.push_back(
           body_key(key, path_from(folder_of(study.case_path), beside(study.path, mesh))));
     }
@@ -111,7 +112,7 @@ void read_refinement(const CaseTable& table, VarySection& vary, const StudyFile&
       vary.values.push_back(body_key(key, value));
   }
   if (vary.values.size() < 2) {
-    table.refuse(key, "holds one value, which leaves no order of convergence to see",
+    table.refuse(key, "holds one value, but an order of convergence needs at least two",
                  "give at least two values");
   }
 }
@@ -154,7 +155,7 @@ void read_reference(const CaseTable& table, ErrorSection& error, std::size_t mem
   }
 }
 
-/// As many formulas as the case has dimensions, which is looked at later.
+/// The number of formulas is checked later against the dimensions of the case.
 std::vector<Expression> read_field(const CaseTable& table) {
   const std::size_t count = table.value("displacement")->items.size();
   if (table.value("displacement")->kind == TomlValue::Kind::array && count != 2 && count != 3) {
@@ -215,7 +216,7 @@ std::vector<ErrorSection> read_errors(const TomlValue& root, const std::string& 
     table.refuse(
         "name",
         fmt::format("is {}, the name of another error", perilink::quoted(errors.back().name)),
-        "give every error a `name` of its own");
+        "give every error a different `name`");
   }
   return errors;
 }
@@ -269,7 +270,8 @@ StudyFile parse_study(const std::string& text, const std::string& path) {
   const TomlValue* errors = root.find("error");
   const bool several = errors != nullptr && errors->kind == TomlValue::Kind::array;
   if (const TomlValue* body = root.find("body")) {
-    throw InputError({path, body->line, "body"}, "belongs to a case, and this is to be a study",
+    throw InputError({path, body->line, "body"},
+                     "belongs to a case, but this command needs a study",
                      fmt::format("run the case by `perilink run {}`", path));
   }
   check_against_schema(root, path, study_schema(several), "study");

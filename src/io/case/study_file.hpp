@@ -11,17 +11,16 @@
 #include "io/text/formula.hpp"
 #include "io/text/toml_tree.hpp"
 
-/// \file
-/// The study file: which case is run over which refinements and options, and what its error is.
-/// docs/studies.md is the user's page.
+/// \file The study file: the case, its refinements and options, and the error to measure.
+///     docs/studies.md is the user's page.
 
 namespace perilink {
 
 /// [vary]: the case is run for every combination. An empty list leaves the case's own value.
 struct VarySection {
   Refinement refinement = Refinement::spacing;
-  SourceLocation where;           ///< where that key stands
-  std::vector<TomlValue> values;  ///< values that it takes: numbers, integers or texts
+  SourceLocation where;           ///< location of the refinement's key
+  std::vector<TomlValue> values;  ///< its values: numbers, integers or texts
   std::vector<double> horizon_ratio;
   std::vector<Surface> surface;
   std::vector<BodyMethod> method;
@@ -30,7 +29,7 @@ struct VarySection {
 /// [error]: exactly one of displacement, gauge and quantity.
 struct ErrorSection {
   SourceLocation where;
-  std::string name;                      ///< as columns and pictures give it
+  std::string name;                      ///< in columns and pictures
   std::vector<Expression> displacement;  ///< closed form, one formula of x, y, z for each axis
   RigidMotion rigid_motion = RigidMotion::kept;  ///< in the difference to the closed form
   std::string gauge;                             ///< column of the history
@@ -45,8 +44,8 @@ struct ErrorSection {
 struct StudyFile {
   std::string path;
   std::string title;
-  std::string case_path;  ///< as the program opens it
-  int repeats = 1;        ///< runs of every member; the shortest time counts
+  std::string case_path;  ///< relative to the working directory
+  int repeats = 1;        ///< runs of every member; the shortest time is reported
   VarySection vary;
   std::vector<ErrorSection> errors;
   bool trust_geometry = false;  ///< from the command line, as in CaseFile
@@ -57,11 +56,11 @@ struct StudyFile {
 /// \throws FileError   when the file cannot be read
 StudyFile read_study_file(const std::string& path);
 
-/// The same from text.
+/// Reads and checks a study from text.
 StudyFile parse_study(const std::string& text, const std::string& path);
 
-/// The study as TOML text that reads back to the same study from a file in `directory`: paths of
-/// files are relative to it.
+/// Returns the study as TOML text that reads back to an equal study. Paths of files are relative to
+/// `directory`.
 std::string write_study(const StudyFile& study, const std::string& directory);
 
 }  // namespace perilink

@@ -17,7 +17,7 @@ constexpr std::size_t block_bytes = std::size_t{1} << 18;
 constexpr std::string_view alphabet =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-/// Value of each base64 letter, -1 for every other character.
+/// Returns the value of each base64 letter, and -1 for other characters.
 constexpr std::array<std::int8_t, 256> make_letter_values() {
   std::array<std::int8_t, 256> values{};
   values.fill(-1);
@@ -31,10 +31,10 @@ constexpr std::array<std::int8_t, 256> letter_values = make_letter_values();
 std::size_t base64_length(std::size_t bytes) { return (bytes + 2) / 3 * 4; }
 
 /// \param out  compressBound() bytes
-/// \return compressed bytes; 0: it could not
+/// \return compressed bytes; 0 after a failure
 std::size_t compress_block(std::span<const std::byte> block, std::byte* out) {
   uLongf length = compressBound(static_cast<uLong>(block.size()));
-  // The fastest level: doubles shrink hardly more at the others, which take several times longer.
+  // The fastest level: others take several times longer, and doubles get hardly smaller.
   const int status = compress2(reinterpret_cast<Bytef*>(out), &length,
                                reinterpret_cast<const Bytef*>(block.data()),
                                static_cast<uLong>(block.size()), Z_BEST_SPEED);
@@ -63,7 +63,7 @@ std::vector<std::uint64_t> decode_numbers(std::string_view text, std::size_t cou
   return numbers;
 }
 
-/// Refuses headers that would make us allocate far more than the text can hold.
+/// Refuses headers that would allocate far more memory than the text can hold.
 void check(const BlockHeader& header, std::size_t text_size) {
   constexpr std::uint64_t largest_ratio = 1100;  // zlib shrinks at most 1032-fold
   const bool absurd = header.blocks > text_size || header.last_size > header.block_size ||

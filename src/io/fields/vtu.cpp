@@ -40,7 +40,7 @@ void check_arrays(const std::string& path, const std::vector<VtuArray>& arrays, 
   }
 }
 
-/// A grid that breaks these rules makes ParaView crash, not complain.
+/// Refuses grids that would make ParaView crash.
 void check_grid(const std::string& path, const VtuGrid& grid) {
   if (grid.points.size() % 3 != 0) throw FileError(path + ": points are not triples");
   const std::size_t num_points = grid.points.size() / 3;
@@ -105,7 +105,7 @@ void save(const std::string& path, const pugi::xml_document& document) {
 
 // ---------------------------------------------------------------------------------- reading
 
-/// Tells which file is wrong whatever the fault in it.
+/// Reads a file, and names it in every message.
 class VtuReader {
  public:
   VtuReader(const std::string& path, const char* type) : path_(path) {
@@ -122,11 +122,11 @@ class VtuReader {
 
   pugi::xml_node file() const { return file_; }
 
-  /// The file in the same folder that an attribute names.
+  /// Returns the path of the file in the same folder that an attribute names.
   std::string neighbour(pugi::xml_node node, const char* attribute) const {
     const std::string file = node.attribute(attribute).as_string();
     if (file.empty() || file == "." || file == ".." || file.find('/') != std::string::npos) {
-      fail("names the file '" + file + "'; only files of its own folder are read");
+      fail("names the file '" + file + "'; only files of the same folder are read");
     }
     return file;
   }
@@ -160,7 +160,7 @@ class VtuReader {
 
   std::vector<double> numbers(pugi::xml_node array) const {
     std::vector<double> result = values<double>(array, "Float64");
-    // Squares of what is larger leave the range of double precision.
+    // Squares of larger numbers leave the range of double precision.
     const auto usable = [](double value) { return std::abs(value) <= 1e150; };
     if (!std::all_of(result.begin(), result.end(), usable)) {
       fail(std::string("array '") + array.attribute("Name").as_string() +

@@ -53,12 +53,12 @@ VtuGrid read_vtu(const std::string& path);
 /// One file of a series.
 struct PvdEntry {
   double time = 0.0;  ///< row of the history, or time
-  std::string file;   ///< its name; it lies beside the .pvd
+  std::string file;   ///< its name, in the folder of the .pvd file
 };
 
 /// \throws FileError
 void write_pvd(const std::string& path, const std::vector<PvdEntry>& entries);
-/// \throws FileError, also where a file of the series would lie in another folder
+/// \throws FileError, also where a file of the series is in another folder
 std::vector<PvdEntry> read_pvd(const std::string& path);
 
 }  // namespace perilink

@@ -16,7 +16,7 @@ namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
-/// As for the numbers of a case: beyond, powers leave the range of double precision.
+/// Powers of larger numbers leave the range of double precision.
 constexpr double largest_coordinate = 1e50;
 
 }  // namespace
@@ -112,7 +112,7 @@ double GmshCursor::number() {
 
 std::size_t GmshCursor::count(std::size_t values_each, const char* things) {
   const std::int64_t value = size();
-  // As text, a digit and a blank each; the last one may end the file.
+  // As text, each value takes at least a digit and a blank; the file may end after the last digit.
   const std::size_t least = std::max<std::size_t>(values_each, 1) * (binary_ ? 4 : 2);
   const std::size_t left = bytes_.size() - at_ + 1;
   if (static_cast<std::uint64_t>(value) > left / least) {

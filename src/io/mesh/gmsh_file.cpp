@@ -16,11 +16,11 @@
 namespace perilink {
 namespace {
 
-/// More would overflow the 32-bit numbers of bonds at the usual horizons.
+/// More nodes would overflow the 32-bit numbers of bonds at usual horizons.
 constexpr std::size_t most_nodes = 30'000'000;
 
-/// What a mesh takes while it is read, its file included [bytes per byte of the file]; 2.7 were
-/// measured, for a million triangles as text and in binary.
+/// Memory while a mesh is read, with the file [bytes per byte of the file]; 2.7 measured for a
+/// million triangles, text and binary.
 constexpr double memory_per_byte = 3.0;
 
 /// Two-dimensional meshes lie in a plane of constant z to this fraction of their extent.
@@ -95,7 +95,7 @@ void add_positions(const GmshSections& sections, const std::string& path, Mesh& 
   }
 }
 
-/// Nodes that belong to no element of the mesh may lie anywhere.
+/// Refuses two-dimensional meshes that are not plane. Nodes without elements are ignored.
 void refuse_bent(const GmshSections& sections, const std::string& path, const Mesh& mesh) {
   double lower = INFINITY, upper = -INFINITY, extent = 0.0;
   const double* first =
@@ -109,7 +109,7 @@ void refuse_bent(const GmshSections& sections, const std::string& path, const Me
     }
   }
   if (upper - lower > flatness * extent) {
-    refuse(path, fmt::format("is no plane mesh: z goes from {:.6g} to {:.6g}", lower, upper),
+    refuse(path, fmt::format("is not a plane mesh: z is from {:.6g} to {:.6g}", lower, upper),
            "draw two-dimensional bodies in the plane of x and y");
   }
 }
@@ -117,7 +117,8 @@ void refuse_bent(const GmshSections& sections, const std::string& path, const Me
 using Groups = std::map<GmshKey, MeshGroup>;
 using FirstTags = std::map<std::pair<int, std::string>, int>;  // by dimension and name
 
-/// The group of a physical tag, made when it is first met. Tags of one dimension and name share it.
+/// Returns the group of a physical tag, and adds it at first use. Tags of equal dimension and name
+/// share a group.
 MeshGroup& group_of(Groups& groups, FirstTags& first, const GmshSections& sections,
                     const GmshKey& key) {
   const auto found = sections.names.find(key);

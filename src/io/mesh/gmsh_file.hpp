@@ -9,14 +9,14 @@ namespace perilink {
 
 /// Reads a mesh of gmsh's format 4.1, text or binary: triangles and lines in two dimensions,
 /// tetrahedra and triangles in three, with the physical groups of every dimension. A group without
-/// a name is called by its number. Cells of no group are kept, other elements of no group are not.
-/// Groups are sorted by dimension and tag; those of one dimension and name are one.
+/// a name is named by its number. Cells without a group are kept, other elements without a group
+/// are not. Groups are sorted by dimension and tag; groups of equal dimension and name are merged.
 /// \param dim  2 or 3
 /// \throws FileError   where the file cannot be read
-/// \throws InputError  where it holds something else, is damaged, or is not of this dimension
+/// \throws InputError  where the file is not a mesh, is damaged, or has another dimension
 Mesh read_gmsh_file(const std::string& path, int dim);
 
-/// The same from the bytes of a file, for tests and fuzzing.
+/// Reads a mesh from the bytes of a file, for tests and fuzzing.
 Mesh parse_gmsh(std::string_view bytes, const std::string& path, int dim);
 
 }  // namespace perilink

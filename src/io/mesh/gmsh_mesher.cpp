@@ -42,7 +42,7 @@ Mesh mesh_geometry(const std::string& path, int dim, std::optional<double> /*siz
 
 namespace {
 
-/// The functions of the library that are used, found when it is loaded.
+/// Functions of the library, found when it is loaded.
 struct Gmsh {
   decltype(&gmshInitialize) initialize = nullptr;
   decltype(&gmshOpen) open = nullptr;
@@ -79,7 +79,7 @@ Gmsh load_gmsh() {
   return gmsh;
 }
 
-/// gmshInitialize has gained an argument in gmsh 4.10.
+/// gmshInitialize has one argument more since gmsh 4.10.
 void initialize(void (*function)(int, char**, int, int*), std::vector<char*>& arguments,
                 int& error) {
   function(static_cast<int>(arguments.size()), arguments.data(), 0, &error);
@@ -89,7 +89,7 @@ void initialize(void (*function)(int, char**, int, int*), std::vector<char*>& ar
   function(static_cast<int>(arguments.size()), arguments.data(), 0, 0, &error);
 }
 
-/// Calls gmsh; to be used once in a process, because gmsh keeps constants of one script for the
+/// Calls gmsh. To be used once in a process, because gmsh keeps constants of one script for the
 /// next.
 class Session {
  public:
@@ -120,7 +120,7 @@ class Session {
   }
   /// Whether there are entities of a dimension, and all of them have elements.
   bool is_meshed(int dim) {
-    int *pairs = nullptr, *types = nullptr;  // they go with the process
+    int *pairs = nullptr, *types = nullptr;  // freed when the process ends
     std::size_t count = 0, num_types = 1;
     gmsh_.entities(&pairs, &count, dim, &error_);
     for (std::size_t k = 0; error_ == 0 && num_types > 0 && k < count; k += 2) {
@@ -129,7 +129,7 @@ class Session {
     check();
     return count > 0 && num_types > 0;
   }
-  /// Writes format 4.1, also where the script has asked for another one.
+  /// Writes format 4.1, even where the script sets another format.
   void write(const std::string& target) {
     set("Mesh.MshFileVersion", 4.1);
     set("Mesh.Binary", 1.0);
@@ -159,18 +159,19 @@ void write_mesh(const std::string& path, int dim, std::optional<double> size,
     session.set("Mesh.MeshSizeMin", *size);
     session.set("Mesh.MeshSizeMax", *size);
   }
-  // A script that meshes itself may have changed the mesh since, for one by Plugin(Crack).
+  // A script that meshes by itself may have changed its mesh afterwards, for example by
+  // Plugin(Crack).
   if (!session.is_meshed(dim) || (dim == 2 && session.is_meshed(3))) session.generate(dim);
   session.write(target);
 }
 
-/// What became of a child process.
+/// Result of a child process.
 struct Outcome {
-  int status = 0;       // as waitpid() gives it
-  std::string message;  // what it wrote
+  int status = 0;       // from waitpid()
+  std::string message;  // its output
 };
 
-/// Makes the child end with its parent, whose lock of the results it holds, too, and at the first
+/// Ends the child with its parent, whose lock of the results it also holds, and at the first
 /// Ctrl-C.
 void follow_parent(pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -180,8 +181,8 @@ void follow_parent(pid_t parent) {
   }
 }
 
-/// Runs gmsh in a process of its own: it keeps what one script defined, and where it crashes on a
-/// geometry the program can still say so.
+/// Runs gmsh in its own process: gmsh keeps definitions of earlier scripts, and the program can
+/// report its crashes.
 Outcome mesh_in_child(const std::string& path, int dim, std::optional<double> size,
                       const std::string& target) {
   int ends[2];
@@ -199,7 +200,7 @@ Outcome mesh_in_child(const std::string& path, int dim, std::optional<double> si
       message = error.what();
     }
     const auto written = write(ends[1], message.data(), message.size());
-    // Nothing of the parent may be flushed or destroyed twice.
+    // The parent's buffers and objects must not be flushed or destroyed twice.
     _exit(message.empty() && written == 0 ? 0 : 1);
   }
   close(ends[1]);
@@ -215,7 +216,7 @@ Outcome mesh_in_child(const std::string& path, int dim, std::optional<double> si
   return outcome;
 }
 
-/// A file of its own that goes away with the object.
+/// A temporary file that is removed with the object.
 class TemporaryMesh {
  public:
   TemporaryMesh() {
@@ -255,7 +256,7 @@ void check_script(const std::string& path) {
 bool has_gmsh() { return true; }
 
 Mesh mesh_geometry(const std::string& path, int dim, std::optional<double> size, bool trusted) {
-  read_regular_file(path, 0);  // refuses what gmsh would wait for
+  read_regular_file(path, 0);  // refuses pipes, on which gmsh would block
   if (!trusted) refuse_unsafe_geometry(path);
   if (is_gmsh_script(path) && size) check_script(path);
   const TemporaryMesh target;

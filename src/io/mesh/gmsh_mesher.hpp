@@ -7,12 +7,12 @@
 
 namespace perilink {
 
-/// Whether the program was built with gmsh's library. It is loaded when it is first used: linking
-/// it would cost every run a tenth of a second.
+/// Whether the program was built with gmsh's library. The library is loaded on first use: linking
+/// it would add 0.1 s to every run.
 bool has_gmsh();
 
 /// Meshes a geometry with gmsh's library.
-/// \param size  wanted for all cells [length]; a script gets it as the value of its constant `h`
+/// \param size  size of all cells [length]; in a script the value of its constant `h`
 /// \param trusted  scripts may run commands and write files (gmsh_script.hpp)
 /// \throws FileError   where the geometry cannot be read
 /// \throws InputError  where gmsh is missing or cannot mesh it, or a script has no constant `h` to

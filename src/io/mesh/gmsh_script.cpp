@@ -34,7 +34,7 @@ constexpr std::string_view geometry_commands = R"(
  Str StrCat Surface Symmetry ThickSolid ThruSections Torus TransfQuadTri Transfinite Translate
  Using View Visible Volume Warning Wedge Wire
 )";
-/// Words that reach out of gmsh, also where they look like variables.
+/// Commands that act outside of gmsh, refused even where they look like variables.
 constexpr std::string_view outside_commands =
     " SystemCall NonBlockingSystemCall System OnelabRun OnelabAction ExternalProcess Solver Save "
     "Print CreateDir SendToServer Exit S2N StringToName GetEnv ListFromFile Slide Open ";
@@ -61,15 +61,15 @@ struct Token {
                    "the .msh file, or give --trust-geometry if you trust whoever wrote it");
 }
 
-/// Whether gmsh may run a text or comment: branches end within them, and after loops, macros and
-/// included files gmsh goes on where a line begins.
+/// Whether gmsh may run a text or comment: branches can end within them, and gmsh continues at the
+/// beginning of a line after loops, macros and included files.
 bool may_run(const std::string& hidden, bool behind_code) {
   const auto holds = [&](std::string_view part) { return hidden.find(part) != hidden.npos; };
   return holds("EndIf") || holds("EndFor") || holds("Else") || holds("Return") ||
          holds({"\0", 1}) || (behind_code && (holds("\n") || holds("\r") || hidden.size() > 1000));
 }
 
-/// Cuts a script between two line breaks as gmsh does; two signs stand before it and five behind.
+/// Splits a script into tokens as gmsh does, with two empty tokens before it and five after it.
 std::vector<Token> cut_script(const std::string& script, const fs::path& path) {
   std::vector<Token> tokens(2, {";", 0});
   int line = 0;
@@ -95,7 +95,7 @@ std::vector<Token> cut_script(const std::string& script, const fs::path& path) {
   return tokens;
 }
 
-/// Whether a word is no variable or function.
+/// Whether a word is a command and not a variable or function.
 bool is_command(const Token* word) {
   const Token &before = word[-1], &next = word[1];
   if (!word->is_word() || before.is(" Macro Function ")) return word->is(outside_commands);
@@ -104,7 +104,7 @@ bool is_command(const Token* word) {
          (next.begins("([") && word[2].is_text()) || (before.begins(";}") && next.begins(";"));
 }
 
-/// Checks a file and all that it reads.
+/// Checks a script and all files that it reads.
 void check_script(const fs::path& path, bool included, std::set<std::string>& seen) {
   static const std::regex data(".*\\.(step|STEP|stp|STP|brep|iges|IGES|igs|stl|STL)");
   static const std::regex name_within("[\"'][\\w-][\\w+/-]*(\\.[\\w+/-]+)*[\"']");
@@ -114,7 +114,7 @@ void check_script(const fs::path& path, bool included, std::set<std::string>& se
   refuse_large_input(text, path.string());
   const std::vector<Token> tokens = cut_script('\n' + text + '\n', path);
   const auto end = std::find(text.rbegin(), text.rend(), '\n');
-  const bool cuts = std::count(text.rbegin(), end, ';') > 1;  // gmsh 4.8 takes one of them only
+  const bool cuts = std::count(text.rbegin(), end, ';') > 1;  // gmsh 4.8 allows only one of them
   if (cuts) refuse_script(path, tokens.back().line, "ends without a line break");
   bool prints = false;
   for (const Token* token = &tokens[2]; token != &tokens.end()[-5]; ++token) {

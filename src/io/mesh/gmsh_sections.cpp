@@ -11,8 +11,8 @@
 namespace perilink {
 namespace {
 
-/// Most groups that one entity may belong to. Every element is entered in each of them, so a
-/// damaged file could ask for any amount of memory.
+/// Most groups of one entity. Every element is entered in each group, so a damaged file could
+/// request any amount of memory.
 constexpr std::size_t most_physical_groups = 1000;
 
 void read_format(GmshCursor& file) {
@@ -37,7 +37,7 @@ void read_format(GmshCursor& file) {
   file.expect_end_of("MeshFormat");
 }
 
-/// Names stand between quotes on lines of their own, as text in binary files too.
+/// Names are in quotes, one per line, as text also in binary files.
 void read_names(GmshCursor& file, GmshSections& sections) {
   const std::int64_t count = file.text_integer();
   for (std::int64_t i = 0; i < count; ++i) {
@@ -61,13 +61,13 @@ void read_entities(GmshCursor& file, GmshSections& sections) {
   for (int dim = 0; dim <= 3; ++dim) {
     for (std::size_t i = 0; i < counts[dim]; ++i) {
       const int tag = file.integer();
-      for (int k = 0; k < (dim == 0 ? 3 : 6); ++k) file.number();  // place or bounding box
+      for (int k = 0; k < (dim == 0 ? 3 : 6); ++k) file.number();  // position or bounding box
       std::vector<int> physical(file.count(1, "physical groups"));
       if (physical.size() > most_physical_groups) {
         file.refuse(fmt::format("has an entity in {} physical groups", physical.size()),
                     fmt::format("{} are possible", most_physical_groups));
       }
-      // A negative tag turns the group's elements round, which they do not notice here.
+      // A negative tag reverses the elements of the group; their orientation is not used.
       for (int& group : physical) group = std::abs(std::max(file.integer(), -INT32_MAX));
       for (auto k = dim > 0 ? file.count(1, "bounding entities") : 0; k > 0; --k) file.integer();
       sections.physical_tags[{dim, tag}] = std::move(physical);
@@ -161,7 +161,7 @@ void read_section(GmshCursor& file, const std::string& name, GmshSections& secti
 }  // namespace
 
 GmshSections read_gmsh_sections(std::string_view bytes, const std::string& path) {
-  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);  // mark of UTF-8
+  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);  // byte order mark of UTF-8
   GmshCursor file(bytes, path);
   GmshSections sections;
   bool format_known = false;

@@ -17,10 +17,10 @@ struct GmshBlock {
   GmshKey entity;
   int type = 0;                     ///< gmsh's number: 1 line, 2 triangle, 4 tetrahedron, 15 point
   std::vector<std::int64_t> tags;   ///< tags that the elements have
-  std::vector<std::int64_t> nodes;  ///< their tags, element after element
+  std::vector<std::int64_t> nodes;  ///< tags of their nodes, element after element
 };
 
-/// What a .msh 4.1 file says of a mesh, as it says it.
+/// Contents of a .msh 4.1 file, unprocessed.
 struct GmshSections {
   std::map<GmshKey, std::string> names;               ///< by physical group
   std::map<GmshKey, std::vector<int>> physical_tags;  ///< by entity
@@ -30,7 +30,7 @@ struct GmshSections {
 };
 
 /// Reads the sections of a file. Element types other than points, lines, triangles and tetrahedra
-/// of first order are refused, and so are partitioned meshes; sections of results are passed over.
+/// of first order are refused, and so are partitioned meshes. Sections of results are skipped.
 /// \param path  for messages
 /// \throws InputError
 GmshSections read_gmsh_sections(std::string_view bytes, const std::string& path);

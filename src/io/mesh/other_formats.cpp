@@ -23,7 +23,8 @@ std::string conversion_to_first_order(const std::string& path) {
 
 std::string conversion_of_others(const std::string& path) {
   return fmt::format(
-      "give a mesh of gmsh's format 4.1: gmsh FILE.geo -2 -format msh41 (-3 for solids). If this is "
+      "give a mesh of gmsh's format 4.1: gmsh FILE.geo -2 -format msh41 (-3 for solids). If this "
+      "is "
       "a mesh of I-deas, MED, CGNS, VTK, Nastran or Medit, {}. Save other meshes as .unv, .med or "
       ".bdf first, and give geometries as .step, .brep or .geo",
       conversion_to_41(path));

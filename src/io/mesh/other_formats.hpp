@@ -4,13 +4,13 @@
 
 namespace perilink {
 
-/// Advice with the command by which gmsh saves a mesh that it can read in format 4.1.
+/// Returns advice with the gmsh command that converts a mesh to format 4.1.
 std::string conversion_to_41(const std::string& path);
 
-/// Advice that makes a mesh of first order from one of second order.
+/// Returns advice to convert a mesh of second order to first order.
 std::string conversion_to_first_order(const std::string& path);
 
-/// Advice for a file that is no mesh of gmsh.
+/// Returns advice for a file that is not a gmsh mesh.
 std::string conversion_of_others(const std::string& path);
 
 }  // namespace perilink

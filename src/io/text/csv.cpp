@@ -19,8 +19,8 @@ namespace {
 constexpr std::size_t pending_limit = 64 * 1024;
 constexpr std::size_t npos = std::string::npos;
 
-/// Shortest text that reads back as `value`. Whole numbers keep their digits: shortest alone would
-/// write 100000 as 1e+05.
+/// Appends the shortest text that reads back as `value`. Whole numbers keep their digits: the
+/// shortest text of 100000 would be 1e+05.
 void append_number(std::string& text, double value) {
   constexpr double exact_integers = 9007199254740992.0;  // 2^53
   char buffer[32];
@@ -99,7 +99,7 @@ CsvWriter::~CsvWriter() {
   try {
     flush();
   } catch (const FileError&) {
-    // A destructor cannot report; callers that care call finish() before.
+    // A destructor cannot throw; call finish() first to get errors.
   }
 }
 
@@ -126,7 +126,7 @@ void CsvWriter::finish() {
 }
 
 CsvRow& CsvRow::text(const std::string& value) {
-  // A spreadsheet would take such a text for a formula; after an apostrophe it is text.
+  // A leading apostrophe keeps spreadsheets from reading the text as a formula.
   const bool formula = !value.empty() && std::string_view("=+-@\t\r").find(value[0]) != npos;
   const std::string text = printable((formula ? "'" : "") + value);
   const bool quote = formula || text.find_first_of(",\"\n") != npos;
@@ -162,7 +162,7 @@ CsvTable read_csv(const std::string& path, EmptyCells empty) {
   CsvTable table;
   for (int number = 1; !rest.empty(); ++number) {
     const std::size_t end = rest.find('\n');
-    // Without its end a number may have lost digits.
+    // A number in a row without its end may have lost digits.
     if (end == std::string_view::npos) {
       table.cut_off = true;
       break;

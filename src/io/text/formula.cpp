@@ -11,7 +11,7 @@
 namespace perilink {
 namespace {
 
-/// muParser would take x = 3 for an assignment; comparisons hold an equals sign too.
+/// Refuses equals signs: muParser would read x = 3 as an assignment.
 void refuse_assignment(const std::string& text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] != '=') continue;
@@ -61,7 +61,7 @@ Formula::Formula(const Expression& expression, int dim) : number_(expression.num
   } catch (const mu::Parser::exception_type& error) {
     std::string message = error.GetMsg();
     if (!message.empty() && message.back() == '.') message.pop_back();
-    // muParser names places as "position 4", counted from zero, in some messages and not in others.
+    // Only some messages of muParser have a position ("position 4"), counted from zero.
     const std::size_t place = message.find(" found at position");
     if (place != std::string::npos) message.resize(place);
     const std::size_t at =

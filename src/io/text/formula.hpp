@@ -9,13 +9,13 @@
 
 namespace perilink {
 
-/// A value of the case file that is a number, or a formula of the reference position.
+/// A value of the case file: a number or a formula of the reference position.
 struct Expression {
   Expression(double value = 0.0) : number(value) {}
   explicit Expression(std::string text) : formula(std::move(text)) {}
 
   double number = 0.0;
-  std::string formula;  ///< "1 - y^2/4"; empty: the number counts
+  std::string formula;  ///< "1 - y^2/4"; empty: the number is used
 
   bool is_constant() const { return formula.empty(); }
   bool is_zero() const { return formula.empty() && number == 0.0; }
@@ -31,11 +31,11 @@ struct ExpressionVector : std::array<Expression, 3> {
   bool is_zero() const;
 };
 
-/// An expression made ready to be evaluated. muParser stays behind it.
+/// A parsed expression, which hides muParser.
 class Formula {
  public:
   /// \param dim  2: the formula may hold x and y; 3: also z
-  /// \throws std::invalid_argument  saying what is wrong and at which character, from one
+  /// \throws std::invalid_argument  with the fault and its character, from one
   Formula(const Expression& expression, int dim);
   ~Formula();
   Formula(Formula&&) noexcept;
@@ -47,7 +47,7 @@ class Formula {
  private:
   struct Parsed;
   double number_;
-  std::unique_ptr<Parsed> parsed_;  // none: a number
+  std::unique_ptr<Parsed> parsed_;  // null: a number
 };
 
 }  // namespace perilink

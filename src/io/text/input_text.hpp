@@ -3,21 +3,20 @@
 #include <string>
 #include <string_view>
 
-/// \file
-/// The text of files that people write: cases and studies.
+/// \file The text of cases and studies.
 
 namespace perilink {
 
-/// Reads a file, of one that is too large only as much as refuse_large_input needs.
+/// Reads a file. Of a file that is too large it reads only as much as refuse_large_input() needs.
 /// \throws FileError when the file cannot be read
 std::string read_input_text(const std::string& path);
 
-/// Refuses a text that nobody writes by hand: a mesh or an image named by mistake.
+/// Refuses a text too large for a case: a mesh or an image named by mistake.
 /// \param path  only named in the message
 /// \throws InputError
 void refuse_large_input(const std::string& text, const std::string& path);
 
-/// Text without the blanks and line ends around it.
+/// Returns text without leading and trailing blanks and line ends.
 std::string_view trimmed(std::string_view text);
 
 }  // namespace perilink

@@ -18,7 +18,7 @@ constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 bool is_ascii(char c) { return static_cast<unsigned char>(c) < 0x80; }
 
-/// Copies the document once, outside of strings, within strings and within comments.
+/// Copies and checks the document, in one pass.
 class Guard {
  public:
   Guard(std::string_view text, const std::string& path) : text_(text), path_(path) {
@@ -61,7 +61,7 @@ class Guard {
     }
     if (at_ > 0 &&
         std::string_view(" \t\r\n=,[{.").find(text_[at_ - 1]) == std::string_view::npos) {
-      refuse("a quote stands in the midst of a word", "put whole words between quotes");
+      refuse("a quote is in the middle of a word", "put whole words between quotes");
     }
     copy();
     while (at_ < text_.size() && text_[at_] != '\n') {

@@ -5,14 +5,14 @@
 namespace perilink {
 
 /// Makes a document safe for toml++ 3.3, or refuses it:
-/// - Brackets, headers or dotted keys that nest deeper than any case can are refused. The parser
-///   and the destructors of its tables recurse once per level, so a file of a few hundred kilobytes
-///   of `a.a.a.` could otherwise exhaust the stack.
-/// - The parser asks of characters beyond ASCII whether they are blanks, and its answer for many of
-///   them is undefined behaviour. They become escapes (\u00fc) within strings and question marks
-///   within comments; TOML allows them nowhere else.
-/// - Strings of several lines are refused: no case needs them, and strings that end with their line
-///   keep this function simple enough to be trusted.
+/// - It refuses brackets, headers and dotted keys that nest too deep. The parser and the
+///   destructors of its tables recurse once per level: a few hundred kilobytes of `a.a.a.` could
+///   exhaust the stack.
+/// - It replaces characters beyond ASCII by escapes (\u00fc) within strings and by question marks
+///   within comments. TOML allows them nowhere else. The parser's test for blanks has undefined
+///   behaviour for many of them.
+/// - It refuses strings of several lines: no case needs them, and the guard stays simple without
+///   them.
 /// \param text  UTF-8
 /// \return the same document, line by line, in ASCII
 /// \throws InputError

@@ -14,15 +14,15 @@ namespace {
 
 class BrokenAssumption {};
 
-/// A function of its own, for a throw within the assertions of functions that are noexcept would
-/// draw a warning at each.
+/// A separate function: a throw in the assertions of noexcept functions would give a warning at
+/// each.
 [[noreturn]] void break_assumption() { throw BrokenAssumption(); }
 
 }  // namespace
 }  // namespace perilink
 
-// toml++ 3.3 asserts what some malformed documents violate (`[= 1]`), and compiled with NDEBUG it
-// takes these assertions for granted. Here they end the parse instead, in every build.
+// Some malformed documents (`[= 1]`) violate assertions of toml++ 3.3. With NDEBUG this would be
+// undefined behaviour. Here failed assertions end the parse in every build.
 #undef NDEBUG
 #define TOML_ASSERT(condition) ((condition) ? void() : perilink::break_assumption())
 #include <toml++/toml.h>
@@ -34,7 +34,7 @@ int line_of(const toml::source_region& region) { return static_cast<int>(region.
 
 TomlValue convert(const toml::node& node, int line);
 
-/// Tables of toml++ are sorted by key; messages should come in the file's order.
+/// Converts the entries in the file's order, for the order of messages; toml++ sorts them by key.
 void convert_entries(const toml::table& table, TomlValue& result) {
   struct Entry {
     toml::source_position position;
@@ -82,7 +82,7 @@ TomlValue convert(const toml::node& node, int line) {
   return result;
 }
 
-/// Bytes of a UTF-8 character that begins with `lead`; 0 where none begins so.
+/// Returns the number of bytes of a UTF-8 character that begins with `lead`; 0 for an invalid byte.
 std::size_t utf8_length(unsigned char lead) {
   if (lead < 0x80) return 1;
   if (lead >= 0xC2 && lead < 0xE0) return 2;
@@ -91,14 +91,14 @@ std::size_t utf8_length(unsigned char lead) {
   return 0;
 }
 
-/// Whether TOML forbids the character, even within comments. toml++ relies on its absence in places
-/// where a release build would go on undefined.
+/// Whether TOML forbids the character, even within comments. In release builds toml++ has undefined
+/// behaviour for some of them.
 bool is_forbidden(unsigned char c) {
   return (c < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7F;
 }
 
-/// Line of the first byte that is not UTF-8 text, or 0. The parser's own message for such a file
-/// shows the byte but names no line that an editor would show.
+/// Returns the line of the first byte that is not UTF-8 text, or 0. The parser's own message does
+/// not name the line.
 int line_without_text(const std::string& text) {
   int line = 1;
   for (std::size_t i = 0; i < text.size();) {

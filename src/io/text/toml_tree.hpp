@@ -4,9 +4,8 @@
 #include <string>
 #include <vector>
 
-/// \file
-/// The TOML document as plain data. toml++ stays behind parse_toml: it is slow to compile, and the
-/// reader of cases needs of it only values and the lines that they stand on.
+/// \file The TOML document as plain data. parse_toml hides toml++, which is slow to compile; the
+///     reader of cases needs only values and their lines.
 
 namespace perilink {
 
@@ -24,19 +23,19 @@ struct TomlValue {
   std::vector<TomlValue> items;    ///< values in an array
   std::vector<TomlValue> entries;  ///< entries in a table, in the file's order
 
-  /// Value of a key of a table, or nullptr.
+  /// Returns the value of a key of a table, or nullptr.
   const TomlValue* find(const std::string& name) const;
 };
 
 /// Reads a document.
 /// \param path  only named in messages
-/// \throws InputError  where the text is not TOML, or nested deeper than any case can be
+/// \throws InputError  where the text is not TOML, or nested too deep
 TomlValue parse_toml(const std::string& text, const std::string& path);
 
-/// What a value is and says, for messages: `the integer 3`, `an array of 2 values`.
+/// Describes type and value for messages: `the integer 3`, `an array of 2 values`.
 std::string describe(const TomlValue& value);
 
-/// Text between quotes as a message can carry it: one line, printable, cut where it is long.
+/// Returns text in quotes for messages: one line, printable, cut where it is long.
 std::string quoted(const std::string& text);
 
 }  // namespace perilink

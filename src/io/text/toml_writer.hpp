@@ -14,19 +14,19 @@
 
 namespace perilink {
 
-/// TOML in the making: one call per line of the file.
+/// Writes TOML, one call per line.
 class TomlWriter {
  public:
   void header(std::string_view name) { append("\n{}\n", name); }
 
-  /// `value` is TOML already.
+  /// \param value  TOML text
   void line(std::string_view key, std::string_view value) { append("{} = {}\n", key, value); }
 
   void write(std::string_view key, double value) { line(key, fmt::format("{}", value)); }
   void write(std::string_view key, int value) { line(key, fmt::format("{}", value)); }
   void write(std::string_view key, bool value) { line(key, value ? "true" : "false"); }
   void write(std::string_view key, std::string_view value) { line(key, text(value)); }
-  /// Without this a literal would turn into a bool.
+  /// Without this overload a string literal would be converted to bool.
   void write(std::string_view key, const char* value) { line(key, text(value)); }
   void write(std::string_view key, const Vector3& value, int dim) {
     line(key, list(std::vector<double>(value.begin(), value.begin() + dim)));

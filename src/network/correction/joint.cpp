@@ -9,17 +9,18 @@
 namespace perilink {
 namespace {
 
-/// Facets whose normals differ by less are parallel; particles this close to a plane, in spacings,
-/// lie in it.
+/// Facets whose normals differ by less are parallel. Particles closer to a plane, in spacings, are
+/// in it.
 constexpr double same_direction = 1e-6, same_plane = 1e-6;
 
-/// What a corner of a facet between two materials says.
+/// A corner of a facet between two materials.
 struct Corner {
   double height;
   Index below, above;
 };
 
-/// None where facets are not parallel, or glued. Sets the normal.
+/// Returns the corners between materials and sets the normal; std::nullopt where facets are not
+/// parallel or are tied.
 std::optional<std::vector<Corner>> corners_between(const Facets& facets, const Particles& particles,
                                                    const std::vector<LameConstants>& materials,
                                                    Joint& joint) {
@@ -45,7 +46,7 @@ std::optional<std::vector<Corner>> corners_between(const Facets& facets, const P
   return corners;
 }
 
-/// Fills the planes and layers of a joint. False where the layers are not the same all over.
+/// Fills the planes and layers of a joint. Returns false where the layers change along the planes.
 bool stack(const std::vector<Corner>& corners, const std::vector<LameConstants>& materials,
            Joint& joint) {
   const auto same = [&](Index a, Index b) { return materials[a] == materials[b]; };

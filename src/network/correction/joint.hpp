@@ -11,22 +11,22 @@
 
 namespace perilink {
 
-/// Materials in layers, which meet in parallel planes. Particles lie in the planes and hold the
-/// layers together.
+/// Materials in layers that meet in parallel planes. Particles in the planes join the layers.
 struct Joint {
   int dim = 2;
-  Vector3 normal{};            ///< to the planes, of length one
+  Vector3 normal{};            ///< unit normal of the planes
   std::vector<double> planes;  ///< coordinates along the normal, ascending [length]
-  std::vector<Index> layers;   ///< materials between them, one more than planes
-  double tolerance = 0.0;      ///< this close to a plane a particle lies in it [length]
+  std::vector<Index> layers;   ///< materials between the planes, one more than planes
+  double tolerance = 0.0;      ///< distance at which a particle counts as in a plane [length]
 
   double height(std::span<const double> position) const;
   bool in_plane(double height) const;
-  /// Number of the layer at a height, the upper one in a plane.
+  /// Returns the number of the layer at a height; in a plane the upper layer.
   std::size_t layer_at(double height) const;
 };
 
-/// Nothing where materials of different constants meet otherwise, or not at all.
+/// Returns the layers of a body; std::nullopt where materials of different constants meet in other
+/// ways, or do not meet.
 /// \param materials  constants, by Particles::material and Facets
 /// \param spacing    between particles [length]
 std::optional<Joint> find_joint(const Facets& facets, const Particles& particles,

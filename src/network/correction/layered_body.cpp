@@ -13,13 +13,13 @@
 namespace perilink {
 namespace {
 
-/// A joint is left alone where more than this part of a force on a cell stays out of balance, in
-/// the mean over the particles in its planes.
+/// Largest unbalanced force of calibrated layers, over the force on a cell, in the mean over the
+/// particles in the planes.
 constexpr double balanced = 0.15;
 
 enum class Side : std::uint8_t { none, inside, outside };
 
-/// Picks out what belongs to a layer.
+/// Selects the particles, facets and bonds of a layer.
 class Cut {
  public:
   Cut(const Body& body, const NetworkInput& input, const Network& whole, const Joint& joint,
@@ -51,8 +51,8 @@ class Cut {
   std::size_t layer_;
   std::vector<LameConstants> constants_;
   std::vector<MicropolarModuli> moduli_;
-  std::vector<Index> number_;         // per particle: in the layer, no_index outside
-  std::vector<std::uint8_t> shared_;  // per particle: with the layer above or below
+  std::vector<Index> number_;         // per particle: number in the layer, no_index outside
+  std::vector<std::uint8_t> shared_;  // per particle: whether a neighbouring layer shares it
 };
 
 double Cut::facet_height(Index facet) const {
@@ -66,7 +66,7 @@ bool Cut::between_planes(double height) const {
          (layer_ == joint_.planes.size() || height <= joint_.planes[layer_] + joint_.tolerance);
 }
 
-/// On which side of a facet the layer lies; none also where the layer is on both.
+/// Returns the side of a facet on which the layer lies; none also where it is on both sides.
 Side Cut::side_of(Index facet) const {
   const Index inside = whole_.facets.inside[facet], outside = whole_.facets.outside[facet];
   if (!between_planes(facet_height(facet))) return Side::none;
@@ -77,7 +77,8 @@ Side Cut::side_of(Index facet) const {
   return is_inside ? Side::inside : Side::outside;
 }
 
-/// Those between the planes and the corners of the layer's facets, of the material on its side.
+/// Selects particles between the planes, and corners of the layer's facets, with the material of
+/// the layer.
 void Cut::choose_particles(LayerBody& cut) {
   const auto count = static_cast<std::size_t>(whole_.particles.size());
   std::vector<std::uint8_t> member(count, 0);
@@ -130,7 +131,7 @@ void Cut::add_facets(LayerBody& cut) const {
   }
 }
 
-/// Each side has half of the volume of particles in a plane of a lattice.
+/// Sets volumes: each side has half of a particle in a plane of a lattice.
 void Cut::measure(LayerBody& cut) const {
   Particles& particles = cut.body.particles;
   if (body_.cells.size() == 0) {
@@ -151,8 +152,8 @@ void Cut::measure(LayerBody& cut) const {
   particles.volumes = shape_integrals(cells, particles.positions, input_.thickness);
 }
 
-/// With the moduli of the layer in place of the mean of their ends, its volumes, and the critical
-/// stretches that its continuum has; where they carry moments, hinged at the particles in a plane.
+/// Adds the bonds with moduli and volumes of the layer and the critical stretches of its continuum.
+/// Bonds that carry moments are hinged at particles in a plane.
 void Cut::add_bonds(LayerBody& cut) const {
   Network& layer = cut.network;
   layer.bonds.dim = joint_.dim;
@@ -199,19 +200,19 @@ LayerBody Cut::make() {
   return cut;
 }
 
-/// Every stretch of soft bonds costs a law: rounded to one percent.
+/// Rounds a stretch to one percent: every stretch of softening bonds needs its own law.
 double in_few_steps(double stretch) {
   return std::exp(0.01 * std::round(100.0 * std::log(stretch)));
 }
 
-/// What the bonds of the body become.
+/// New stiffness and critical stretch of the body's bonds.
 struct NewBonds {
-  std::vector<double> stiffness;  // zero so far
-  std::vector<double> stretch;    // critical; empty where none is asked for
+  std::vector<double> stiffness;  // zero at first
+  std::vector<double> stretch;    // critical stretch; may be empty
 };
 
-/// Stiffnesses and shares of a layer are added to those of the body. Each bond with moments
-/// belongs to a single layer.
+/// Adds stiffnesses and facet fractions of a layer to the body. Each bond with moments belongs to a
+/// single layer.
 void put_back(const LayerBody& layer, NewBonds& made, Network& whole) {
   const Bonds& bonds = layer.network.bonds;
   Index at = 0;  // both are sorted by their ends
@@ -220,7 +221,7 @@ void put_back(const LayerBody& layer, NewBonds& made, Network& whole) {
     while (whole.bonds.first[at] != i || whole.bonds.second[at] != j) ++at;
     const double own = layer.network.stiffness[b];
     double& stiffness = made.stiffness[at];
-    const bool again = stiffness > 0.0;  // in a plane: of both its layers
+    const bool again = stiffness > 0.0;  // in a plane: the bond is in both layers
     if (!made.stretch.empty()) {
       const double limit = layer.network.critical_stretch[b];
       double& stretch = made.stretch[at];

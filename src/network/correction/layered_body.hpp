@@ -10,16 +10,16 @@
 
 namespace perilink {
 
-/// A layer of a joint as a body of its own: what lies between two planes, the particles in them
-/// included. Its faces there are glued.
+/// A layer of a joint as a separate body: everything between two planes, with the particles in the
+/// planes. Its faces in the planes are tied.
 struct LayerBody {
   Body body;                       ///< particles, of one material, and the lattice
-  Network network;                 ///< with bonds as they are before they are calibrated
-  std::vector<Index> particle_of;  ///< number of each particle in the whole body
-  std::vector<Index> facet_of;     ///< and of each facet
+  Network network;                 ///< with bonds before calibration
+  std::vector<Index> particle_of;  ///< particle of the whole body, per particle
+  std::vector<Index> facet_of;     ///< facet of the whole body, per facet
 };
 
-/// \param whole  the body's bonds before they are calibrated
+/// \param whole  the body's bonds before calibration
 LayerBody cut_layer(const Body& body, const NetworkInput& input, const Network& whole,
                     const Joint& joint, std::size_t layer);
 
@@ -27,11 +27,11 @@ LayerBody cut_layer(const Body& body, const NetworkInput& input, const Network& 
 /// Network::calibration.
 using LayerCalibration = std::function<void(std::size_t, const Body&, Network&)>;
 
-/// Calibrates the layers one by one and puts them together: bonds in a plane are those of both
-/// sides, and break when they hold what both may, bonds that cross one are taken out, and
-/// displacements that are linear in every layer and in equilibrium across the planes are in
-/// equilibrium (docs/theory/calibration.md, section 3). False, and the network as it was, where the
-/// particles of a layer find no balance.
+/// Calibrates the layers one by one and joins them (docs/theory/calibration.md, section 3). Bonds
+/// in a plane get the stiffness and strength of both sides; bonds that cross a plane are removed.
+/// Displacements that are linear in every layer and in equilibrium across the planes are then in
+/// equilibrium. Returns false, with the network unchanged, where the particles of a layer cannot be
+/// balanced.
 bool calibrate_layers(const Body& body, const NetworkInput& input, const Joint& joint,
                       const LayerCalibration& calibrate, Network& whole);
 

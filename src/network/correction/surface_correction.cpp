@@ -16,7 +16,7 @@
 namespace perilink {
 namespace {
 
-/// 1/2 sum k xi^2 of every particle, axial [force length].
+/// Returns 1/2 sum k xi^2 of the axial bonds of every particle [force length].
 std::vector<double> moduli_of_particles(const Network& network, std::span<const double> stiffness) {
   std::vector<double> modulus(static_cast<std::size_t>(network.particles.size()), 0.0);
   for (Index b = 0; b < network.bonds.size(); ++b) {
@@ -27,7 +27,7 @@ std::vector<double> moduli_of_particles(const Network& network, std::span<const 
   return modulus;
 }
 
-/// The same per volume in the infinite body: the integral of c xi / 2 over the horizon.
+/// Returns the modulus per volume of an infinite body: the integral of c xi / 2 over the horizon.
 double continuum_modulus(const NetworkInput& input, double micromodulus) {
   const double delta = input.horizon;
   if (dimension_of(input.problem) == 3) {
@@ -36,17 +36,17 @@ double continuum_modulus(const NetworkInput& input, double micromodulus) {
   return std::numbers::pi / 3.0 * micromodulus * input.thickness * std::pow(delta, 3);
 }
 
-/// In space moments find no balance where a plane between layers meets the surface of a lattice
-/// with fewer neighbours (cubic ones with horizons of two spacings have 32): about three variables
-/// to each of the 18 equations of a particle.
+/// Least number of neighbours to balance moments in space where a plane between layers meets the
+/// surface: about three variables for each of the 18 equations of a particle. Cubic lattices with
+/// horizons of two spacings have only 32.
 constexpr std::size_t least_neighbours = 36;
 
-/// So many neighbours leave bonds of a thin layer enough freedom: cubic lattices of equal steps
-/// have 56 with horizons of 2.24 spacings and 80 from 2.45 on, face-centred ones 54 with two and 78
+/// Number of neighbours that is enough for thin layers. Cubic lattices of equal steps have 56 with
+/// horizons of 2.24 spacings and 80 from 2.45 on. Face-centred lattices have 54 with two and 78
 /// with 2.24.
 constexpr Index enough_in_space = 78;
 
-/// Whether the stretches of all bonds are given, whatever they take.
+/// Whether the stretches of all bonds are given.
 bool have_stretches(const NetworkInput& input) {
   return std::all_of(input.materials.begin(), input.materials.end(),
                      [](const SolidMaterial& m) { return m.softening.stretches[0] > 0.0; });
@@ -88,7 +88,7 @@ class Correction {
   Network& network_;
 };
 
-/// Neighbours at the horizon count with the part of their cells that lies within it.
+/// Weights neighbours at the horizon by the part of their cells within it.
 void Correction::fade_at_horizon() {
   for (Index b = 0; b < network_.bonds.size(); ++b) {
     const double part =
@@ -98,9 +98,9 @@ void Correction::fade_at_horizon() {
   }
 }
 
-/// Stiffnesses like 1/xi^(d+1): bonds of each length carry the same part of the energy inside the
-/// body, and a wave is felt too soft by about half as much as with 1/xi. Cracks would be held back
-/// by the shortest bonds (docs/theory/calibration.md).
+/// Sets stiffnesses proportional to 1/xi^(d+1), so that bonds of each length have the same part of
+/// the energy. The error of the stiffness for waves is about half of that with 1/xi. Short bonds
+/// would trap cracks (docs/theory/calibration.md).
 void Correction::favor_short_bonds() {
   for (Index b = 0; b < network_.bonds.size(); ++b) {
     const double part = std::pow(input_.horizon / network_.bonds.length(b), network_.dim());
@@ -109,7 +109,7 @@ void Correction::favor_short_bonds() {
   }
 }
 
-/// Which of the families bonds of each kind are.
+/// Returns the neighbourhood of each translation class of bonds.
 std::vector<Index> neighbourhoods_of_kinds(const LatticeNeighbourhoods& neighbourhoods,
                                            const Bonds& bonds) {
   std::vector<Index> result;
@@ -120,7 +120,7 @@ std::vector<Index> neighbourhoods_of_kinds(const LatticeNeighbourhoods& neighbou
   return result;
 }
 
-/// Stiffness of the isotropic families, in proportion to the volumes of the ends.
+/// Sets the stiffness of the isotropic neighbourhoods, in proportion to the volumes of the ends.
 void Correction::take_bulk_neighbourhoods(const LatticeNeighbourhoods& neighbourhoods,
                                           std::span<const Index> of_kinds) {
   const double volume = body_.lattice.cell_volume;
@@ -137,7 +137,7 @@ void Correction::take_bulk_neighbourhoods(const LatticeNeighbourhoods& neighbour
   }
 }
 
-/// What moduli_of_particles() would be inside the body.
+/// Returns moduli_of_particles() of interior particles.
 std::vector<double> Correction::wanted_moduli(const LatticeNeighbourhoods* neighbourhoods) const {
   std::vector<double> per_volume;
   for (std::size_t m = 0; m < input_.materials.size(); ++m) {
@@ -153,7 +153,7 @@ std::vector<double> Correction::wanted_moduli(const LatticeNeighbourhoods* neigh
   return wanted;
 }
 
-/// \param free  the bonds that are scaled; empty: all
+/// \param free  bonds to scale; empty: all
 void Correction::scale_to(const std::vector<double>& wanted, std::span<const std::uint8_t> free) {
   const std::vector<double> present = moduli_of_particles(network_, network_.stiffness);
   for (Index b = 0; b < network_.bonds.size(); ++b) {
@@ -165,15 +165,15 @@ void Correction::scale_to(const std::vector<double>& wanted, std::span<const std
   }
 }
 
-/// Bonds with an end that lacks neighbours, or has some of another material. In micropolar bodies,
-/// and in space where neighbours are few, the particles bonded to such ends count as well: the
-/// equations of a thinner layer are nearly singular there, and those of forces and moments along a
-/// side have no positive weights.
+/// Returns the bonds with an end that lacks neighbours or has neighbours of another material. In
+/// micropolar bodies, and in space with few neighbours, particles bonded to such ends count as
+/// well. A thinner layer has nearly singular equations, or no positive weights for forces and
+/// moments along a side.
 std::vector<std::uint8_t> Correction::free_bonds(const LatticeNeighbourhoods& neighbourhoods,
                                                  std::span<const Index> of_kinds) const {
   std::vector<Index> regular(static_cast<std::size_t>(network_.particles.size()), 0);
   const Bonds& bonds = network_.bonds;
-  std::vector<LameConstants> constants;  // materials may differ in strength only
+  std::vector<LameConstants> constants;  // materials may differ only in strength
   for (const SolidMaterial& m : input_.materials) constants.push_back(lame_constants(input_, m));
   for (Index b = 0; b < bonds.size(); ++b) {
     const Index i = bonds.first[b], j = bonds.second[b];
@@ -201,7 +201,7 @@ std::vector<std::uint8_t> Correction::free_bonds(const LatticeNeighbourhoods& ne
 void Correction::energy() {
   std::vector<double> wanted = wanted_moduli(nullptr);
   if (on_lattice()) {
-    // Moduli of the lattice's own family, so that nothing changes inside.
+    // Moduli of the lattice's interior neighbourhood, so that interior bonds do not change.
     double sum = 0.0;
     for (const Vector3& x : interior_neighbourhood(body_.lattice, input_.horizon).offsets) {
       sum += std::hypot(x[0], x[1], x[2]);
@@ -248,7 +248,7 @@ void Correction::calibrate(bool give_up) {
   for (const SolidMaterial& m : input_.materials) {
     calibration.materials.push_back(lame_constants(input_, m));
   }
-  // What single bonds lose or gain from here on is no measure of their strength.
+  // Later changes of single bonds do not affect their strength.
   if (!input_.elastic) network_.bending_ratio = own_bending_ratios(network_);
   if (input_.estimates_cost) {
     network_.calibration = expected_calibration(calibration, micropolar());
@@ -259,7 +259,7 @@ void Correction::calibrate(bool give_up) {
   if (!input_.elastic) set_strength(neighbourhood);
 }
 
-/// Nothing turns in the planes of a joint, where the layers turn unlike.
+/// Hinges bonds at particles in the planes of a joint, where rotations of the layers differ.
 void Correction::hinge() {
   if (network_.hinged.empty()) return;
   network_.inflection.assign(network_.hinged.size(), 0.5);
@@ -271,7 +271,7 @@ void Correction::hinge() {
   }
 }
 
-/// By the stiffnesses as they are now.
+/// Sets critical stretches by the present stiffnesses.
 void Correction::set_strength(const LatticeNeighbourhoods* neighbourhoods) {
   if (neighbourhoods == nullptr) {
     set_strength_of_unstructured(input_, network_);
@@ -280,7 +280,7 @@ void Correction::set_strength(const LatticeNeighbourhoods* neighbourhoods) {
   }
 }
 
-/// Layers of materials that meet in planes, each as a body of its own.
+/// Calibrates layers of materials that meet in planes, each as a separate body.
 bool Correction::calibrate_layers() {
   if (input_.materials.size() < 2 || !input_.interfaces.empty()) return false;
   if (input_.draft || input_.shell) return false;
@@ -308,7 +308,7 @@ bool Correction::calibrate_layers() {
   return true;
 }
 
-/// Bonds that may carry nothing are taken out.
+/// Calibrates the bonds, and removes bonds without stiffness.
 void Correction::balance(const CalibrationInput& calibration) {
   BondStiffness stiffness{std::move(network_.stiffness), std::move(network_.bending),
                           std::move(network_.inflection)};

@@ -8,16 +8,16 @@
 namespace perilink {
 namespace {
 
-/// Each takes most of what is left of a cut's lack.
+/// Rounds of corrections; each removes most of the remaining deficits.
 constexpr int rounds = 200;
 
 /// Cuts in each spacing of particles.
 constexpr int cuts_in_spacing = 2;
 
-/// Every stretch of soft bonds costs a law: factors on stretches are multiples of this.
+/// Factors on stretches are multiples of this: every stretch of softening bonds needs its own law.
 constexpr double steps = 0.01;
 
-/// Energies and forces of cuts along one glued face.
+/// Energies and forces of cuts along one tied face.
 class CutsAlongFace {
  public:
   /// \param inwards  1 where the layer lies above the face, -1 below
@@ -33,7 +33,7 @@ class CutsAlongFace {
         factor_(energy_.size(), 1.0),
         wanted_(count_, 0.0) {}
 
-  /// \param share    part of each bond that counts: its ends away from other faces, in halves
+  /// \param share  fraction of each bond that is used: a half for each end away from other faces
   /// \param per_force  energy over force of a cut inside the layer [length]
   void measure(const std::vector<double>& share, double per_force);
   void even_out();
@@ -56,12 +56,12 @@ class CutsAlongFace {
   double face_, inwards_, step_;
   std::size_t count_;
   const Network& network_;
-  std::vector<double> energy_;  // k xi^2 of the bonds that cross the same cuts, by first and end
-  std::vector<double> factor_;  // on it
+  std::vector<double> energy_;  // k xi^2 of bonds across the same cuts, by first and last cut
+  std::vector<double> factor_;  // factor on the stretch
   std::vector<double> wanted_;  // per cut
 };
 
-/// Cuts lie at (k + 1/2) steps of depth.
+/// Returns the cuts that a bond crosses; cuts are at (k + 1/2) steps of depth.
 CutsAlongFace::Range CutsAlongFace::crossed(Index bond) const {
   const double a = depth(network_.bonds.first[bond]), b = depth(network_.bonds.second[bond]);
   const auto first_below = [&](double at) {
@@ -84,7 +84,7 @@ void CutsAlongFace::measure(const std::vector<double>& share, double per_force) 
   }
 }
 
-/// Bonds that cross cuts with too little get more, never less than they have.
+/// Raises the energy of bonds that cross cuts with a deficit.
 void CutsAlongFace::even_out() {
   std::vector<double> lack(count_);
   for (int round = 0; round < rounds; ++round) {
@@ -109,7 +109,7 @@ void CutsAlongFace::even_out() {
   }
 }
 
-/// Particles on facets, of all or those that are not glued, and those bonded to them.
+/// Marks particles on facets, on tied ones only with `tied_too`, and particles bonded to them.
 std::vector<std::uint8_t> near_facets(const Network& network, bool tied_too) {
   std::vector<std::uint8_t> on_facet(static_cast<std::size_t>(network.particles.size()), 0);
   for (Index f = 0; f < network.facets.size(); ++f) {
@@ -124,7 +124,7 @@ std::vector<std::uint8_t> near_facets(const Network& network, bool tied_too) {
   return near;
 }
 
-/// Halves of bonds that end at particles which are not near.
+/// Returns the fraction of each bond: a half for each end that is not near.
 std::vector<double> far_shares(const Network& network, const std::vector<std::uint8_t>& near) {
   std::vector<double> share;
   for (Index b = 0; b < network.bonds.size(); ++b) {
@@ -134,8 +134,8 @@ std::vector<double> far_shares(const Network& network, const std::vector<std::ui
   return share;
 }
 
-/// Energy over force of a cut inside the layer, in the mean over its height; zero where there is no
-/// inside.
+/// Returns energy over force of a cut inside the layer, averaged over its height; zero without
+/// interior.
 double energy_per_force(const Joint& joint, const Network& network) {
   const std::vector<double> share = far_shares(network, near_facets(network, true));
   double energy = 0.0, force = 0.0;

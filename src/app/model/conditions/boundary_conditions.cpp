@@ -223,7 +223,7 @@ void choose_axes(const CaseFile& input, Model& model, AppliedLoads& applied,
   if (!(model.reference.value >= smallest_load)) {
     throw InputError(
         input.where(key_of_loads(input, stage)),
-        "nothing loads the body: all formulas are zero on their particles, or too "
+        "the case has no load: all formulas are zero on their particles, or too "
         "small to compute with",
         fmt::format("write a formula that is {:.0e} or more somewhere", smallest_load));
   }

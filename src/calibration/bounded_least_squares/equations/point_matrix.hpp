@@ -7,19 +7,19 @@
 
 namespace perilink {
 
-/// Lower triangle of a symmetric matrix that is dense in the blocks of pairs of points, its pattern
-/// known before its numbers.
+/// Lower triangle of a symmetric matrix with dense blocks of pairs of points. Its pattern is known
+/// before its values.
 class PointMatrix {
  public:
   using Pairs = std::vector<std::pair<Index, Index>>;
 
-  /// \param first_row  where the rows of each point begin, and at the end the number of all
-  /// \param pairs      points that share a variable, the lower number first, in any order and more
-  ///                   than once
+  /// \param first_row  where the rows of each point begin, and the total at the end
+  /// \param pairs  points that share a variable, the lower number first, in any order; pairs may
+  ///     repeat
   PointMatrix(std::vector<Index> first_row, Pairs pairs);
 
-  /// Where the rows of a point begin in a column of another one before it, or in its own (where
-  /// those above the column are not stored).
+  /// Returns where the rows of the lower point begin in a column of the upper point. In a point's
+  /// own column, rows above the diagonal are not stored.
   double* block(Index upper, Index lower, Index column);
 
   void set_zero();
@@ -32,7 +32,7 @@ class PointMatrix {
 
   std::vector<Index> first_row_;
   std::vector<Index> offsets_, later_;  // points after each one that share a variable with it
-  std::vector<Index> below_;            // per later point: rows behind those of the point itself
+  std::vector<Index> below_;  // per later point: number of rows after the rows of the point itself
   SparseMatrix matrix_;
 };
 

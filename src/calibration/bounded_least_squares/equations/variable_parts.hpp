@@ -9,9 +9,8 @@
 
 namespace perilink {
 
-/// Calls part(point, from, to, sign) for every place where a variable acts: on the rows [from, to)
-/// of a point, with its coefficients times the sign. One-ended variables do not act in the rows of
-/// groups.
+/// Calls part(point, from, to, sign) for all rows on which a variable acts: [from, to) of a point,
+/// with its coefficients times the sign. One-ended variables do not act on the rows of groups.
 template <class Part>
 void for_each_part(const PointEquations& equations, Index variable, Part part) {
   const Index p = equations.first[variable], q = equations.second[variable];
@@ -25,8 +24,8 @@ void for_each_part(const PointEquations& equations, Index variable, Part part) {
   part(equations.group[q], own, equations.rows, 1.0);
 }
 
-/// Gives the last row of every group the length one, so that a ridge weighs as much for large
-/// groups as for small ones. Rows without variables are switched off.
+/// Scales the last row of every group to the length one, so that a ridge has equal weight in large
+/// and small groups. Switches off rows without variables.
 inline void scale_last_rows(PointEquations& equations) {
   const std::size_t rows = static_cast<std::size_t>(equations.rows);
   std::vector<double> square(equations.group.size(), 0.0);
@@ -42,14 +41,14 @@ inline void scale_last_rows(PointEquations& equations) {
   }
 }
 
-/// A column of the equations by its blocks: one variable acts on four points at most.
+/// A column of the equations by its blocks. A variable acts on at most four points.
 template <class Vector>
 struct ColumnBlocks {
   std::array<Index, 4> keys;
   std::array<Vector, 4> blocks;
   int count = 0;
 
-  /// The block of a point (or of a box of points), zero at first.
+  /// Returns the block of a point or subdomain, zero at first.
   Vector& of(Index key) {
     for (int k = 0; k < count; ++k) {
       if (keys[k] == key) return blocks[k];
@@ -60,7 +59,7 @@ struct ColumnBlocks {
   }
 };
 
-/// The scaled column of a variable.
+/// Adds the scaled coefficients of a variable to its column.
 template <class Vector>
 void gather_column(const PointEquations& equations, Index variable, ColumnBlocks<Vector>& column) {
   const std::size_t rows = static_cast<std::size_t>(equations.rows);
@@ -72,8 +71,8 @@ void gather_column(const PointEquations& equations, Index variable, ColumnBlocks
   });
 }
 
-/// Calls visit with the number of rows as a constant of the compiler where bodies in space have so
-/// many, else with -1 (Eigen::Dynamic).
+/// Calls visit with the number of rows as a compile-time constant for numbers of bodies in space,
+/// else with -1 (Eigen::Dynamic).
 template <class Visit>
 void with_rows(int rows, Visit visit) {
   switch (rows) {

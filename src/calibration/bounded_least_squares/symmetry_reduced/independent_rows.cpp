@@ -12,21 +12,22 @@
 namespace perilink {
 namespace {
 
-/// Squares of rows below this part of the largest of their point, or of what they were, are none.
-/// Round-off leaves 1e-17 of the first and 4e-15 of the second, rows that count 1e-9.
+/// Squares of rows are zero below this fraction of the largest of their point or of their former
+/// size. Round-off gives 1e-17 of the first and 4e-15 of the second; independent rows have 1e-9.
 constexpr double independent = 1e-13;
-/// Part of the squares of its rows that a basis of an earlier search may miss.
+/// Fraction of the squares of the rows that an earlier basis may leave out.
 constexpr double missed = 1e-9;
 
-/// Rows of points that share so much of their variables may follow from each other, ...
+/// Points that share at least this fraction of their variables may have linearly dependent rows,
+/// ...
 constexpr double alike = 0.5;
-/// ... and are looked at together, up to so many.
+/// ... which are examined together, up to this number.
 constexpr std::size_t most_together = 600;
-/// What contradictions leave of the right side of a row that follows from others, over the largest.
-/// Round-off leaves 1e-12.
+/// Least inconsistency of the right side of a dependent row, over the largest right side. Round-off
+/// gives 1e-12.
 constexpr double implied_right = 1e-10;
 
-/// The independent directions of the rows of a point, as columns, and zeros behind them.
+/// Returns an orthonormal basis of the rows of a point as columns, filled with zeros.
 /// \param products  A A'
 Eigen::MatrixXd basis_of(const Eigen::MatrixXd& products) {
   const Eigen::Index rows = products.rows();
@@ -39,7 +40,7 @@ Eigen::MatrixXd basis_of(const Eigen::MatrixXd& products) {
   return basis;
 }
 
-/// Points that share most of their variables.
+/// Returns groups of points that share most of their variables.
 std::vector<std::vector<Index>> alike_points(const ReducedEquations& reduced) {
   const Index num_points = reduced.equations.num_points();
   const auto pairs = shared_variables(reduced.matrix.transpose(), reduced.equations.rows);
@@ -67,8 +68,8 @@ std::vector<std::vector<Index>> alike_points(const ReducedEquations& reduced) {
   return groups;
 }
 
-/// Marks the rows among those given that follow from others.
-/// \param before  marks of an earlier search: where there is a choice the same ones
+/// Marks linearly dependent rows among the given rows.
+/// \param before  marks of an earlier problem, which are preferred
 void find_implied(const ReducedEquations& reduced, const std::vector<Index>& rows,
                   const std::vector<std::uint8_t>& before, std::vector<std::uint8_t>& implied) {
   if (rows.size() < 2) return;
@@ -85,7 +86,7 @@ void find_implied(const ReducedEquations& reduced, const std::vector<Index>& row
   }
   own.finalize();
   const Eigen::MatrixXd products = (own * own.transpose()).toDense();
-  Eigen::MatrixXd factor(size, size);  // Cholesky's, of the rows that are taken
+  Eigen::MatrixXd factor(size, size);  // Cholesky factor of the independent rows
   Eigen::VectorXd left = products.diagonal();
   const double largest = right.cwiseAbs().maxCoeff();
   std::vector<std::uint8_t> open(rows.size(), 1);

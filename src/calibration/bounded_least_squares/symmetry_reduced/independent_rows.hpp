@@ -7,25 +7,26 @@
 
 namespace perilink {
 
-/// The scaled rows of a point, dense in the unknowns that take part, and their right sides.
+/// Scaled rows of a point, dense in their unknowns, with their right sides.
 struct PointRows {
   std::vector<int> columns;  ///< ascending
   Eigen::MatrixXd values;    ///< shape (rows, columns)
   Eigen::VectorXd right;
 };
 
-/// Symmetry of a point makes some of its forces vanish and others linearly dependent. Such points
-/// get U'A in place of their rows A, U an orthonormal basis of their span: A'A stays, and with it
-/// the solution and the steps towards it.
-/// \param basis  U with zeros behind it, of an earlier problem where it still holds all
+/// Replaces the rows A of a point by U'A, with an orthonormal basis U of their span. Symmetry makes
+/// some forces of the point vanish and others linearly dependent. A'A, the solution and the steps
+/// stay unchanged.
+/// \param basis  U, filled with zeros; a basis of an earlier problem is kept where it still spans
+///     all rows
 void turn_rows(PointRows& own, Eigen::MatrixXd& basis);
 
-/// Places that differ only far away share nearly all of their bonds, and symmetry makes some of
-/// their rows follow from those of the others: one that looks to its left like a first and to its
-/// right like a second follows from both. Such rows are left out, which a factor feels with the
-/// third power of their number; the answer is the same. Where the right sides contradict each other
-/// all stay.
-/// \param implied  per row; those of an earlier search are left out again where they can be
+/// Removes linearly dependent rows of different points, where their right sides are consistent. The
+/// solution does not change, and the time of a factor falls with the third power of their number.
+/// Points with environments that differ only far away share nearly all bonds. Symmetry then makes
+/// some of their rows linearly dependent.
+/// \param implied  per row: whether it is removed; marks of an earlier problem are kept where
+///     possible
 void leave_out_implied(ReducedEquations& reduced, std::vector<std::uint8_t>& implied);
 
 }  // namespace perilink

@@ -12,11 +12,11 @@
 namespace perilink {
 namespace {
 
-/// Rows are left out of systems of so many. Smaller ones have cheap factors, and without such rows
-/// the search for a strip of one row of cells took 121 iterations, more than its test allows.
+/// Least number of rows for the removal of dependent rows. Smaller systems have cheap factors. With
+/// removal, a strip of one row of cells took 121 iterations, more than its test allows.
 constexpr std::size_t dear = 2000;
 
-/// Variables at each point.
+/// Returns the variables at each point.
 Csr variables_at_points(const PointEquations& equations) {
   return sorted_into_rows(equations.num_points(), [&](auto act) {
     for (Index v = 0; v < equations.num_variables(); ++v) {
@@ -29,7 +29,7 @@ Csr variables_at_points(const PointEquations& equations) {
   });
 }
 
-/// \param variables  those at the point
+/// \param variables  variables at the point
 PointRows rows_of_point(const PointEquations& equations, const ReducedEquations& reduced,
                         Index point, std::span<const Index> variables) {
   const std::size_t rows = static_cast<std::size_t>(equations.rows), first = point * rows;
@@ -58,7 +58,7 @@ PointRows rows_of_point(const PointEquations& equations, const ReducedEquations&
   return own;
 }
 
-/// Takes over what is not zero.
+/// Appends the nonzero entries.
 void append(const PointRows& own, Index first, ReducedEquations& reduced) {
   for (Eigen::Index r = 0; r < own.values.rows(); ++r) {
     reduced.matrix.startVec(first + r);
@@ -70,7 +70,7 @@ void append(const PointRows& own, Index first, ReducedEquations& reduced) {
   }
 }
 
-/// Names of unknowns become numbers; bounds are those of the unknowns.
+/// Numbers the unknowns and sets their bounds.
 void number_unknowns(const PointEquations& equations, ReducedEquations& reduced) {
   std::unordered_map<Index, Index> numbers;
   for (const Index name : equations.unknown) {
@@ -99,7 +99,8 @@ ReducedEquations reduce(const PointEquations& equations, IndependentRows& kept) 
   reduced.equations.ridge = equations.ridge;
   reduced.equations.scale.assign(equations.scale.size(), 1.0);
   number_unknowns(equations, reduced);
-  // With couples the search for a wall of one cell ended in round-off, at 2e-9 of the forces.
+  // Not with couples: the solution for a wall of one cell ended in round-off, at 2e-9 of the
+  // forces.
   const bool turns = equations.one_ended >= equations.num_variables();
   const Index num_points = equations.num_points();
   if (turns) kept.bases.resize(static_cast<std::size_t>(num_points));

@@ -5,7 +5,7 @@
 
 namespace perilink {
 
-/// The equations with a column for each unknown, without rows that follow from others.
+/// Returns the equations with a column for each unknown, without linearly dependent rows.
 /// \param equations  without groups
 /// \param kept       empty at first
 ReducedEquations reduce(const PointEquations& equations, IndependentRows& kept);

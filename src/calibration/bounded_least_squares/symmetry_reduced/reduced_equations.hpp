@@ -15,32 +15,33 @@ namespace perilink {
 /// Symmetry-reduced equations of bounded_least_squares(): variables share unknowns
 /// (PointEquations::unknown), and the matrix has a column for each unknown. The unknown of n
 /// variables is sqrt(n) times their change, w = 1 + (u - 1) / sqrt(n), so that squares of changes
-/// count for each variable.
+/// are summed over all variables.
 struct ReducedEquations {
   using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 
   PointEquations equations;  ///< scaled right sides, ridge; bounds of the unknowns
-  /// Scaled, shape (points * rows, unknowns). Where rows of a point follow from each other they are
-  /// those of a basis, and zero behind it.
+  /// Scaled, shape (points * rows, unknowns). Linearly dependent rows of a point are replaced by a
+  /// basis, filled with zeros.
   Matrix matrix;
-  bool independent = false;       ///< rows that follow from others are left out
+  bool independent = false;       ///< whether linearly dependent rows are removed
   std::vector<double> root;       ///< sqrt(n) of each unknown
   std::vector<Index> unknown_of;  ///< per variable
 
-  /// Weights of the variables from the unknowns.
+  /// Returns the weights of the variables from the unknowns.
   std::vector<double> weights(std::span<const double> unknowns) const;
 };
 
-/// Choice of linearly independent rows, kept for the next problem, which goes on with the factor
-/// and the multipliers.
+/// Choice of linearly independent rows. The next problem needs an equal choice, because it
+/// continues with the factor and the multipliers.
 struct IndependentRows {
   std::vector<Eigen::MatrixXd> bases;  ///< per point, shape (rows, rows)
-  std::vector<std::uint8_t> implied;   ///< per row: whether it follows from others, and is left out
+  std::vector<std::uint8_t> implied;   ///< per row: whether it depends on other rows and is removed
 };
 
-/// Calls visit(first, last) for the entries of a column, [first, last), at one point each.
+/// Calls visit(first, last) for the ranges [first, last) of entries of a column, one range per
+/// point.
 /// \param columns  the matrix of symmetry-reduced equations, transposed
-/// \param rows     how many each point has
+/// \param rows  number per point
 template <class Visit>
 void for_each_point(const ReducedEquations::Matrix& columns, Index column, Index rows,
                     Visit visit) {
@@ -52,8 +53,8 @@ void for_each_point(const ReducedEquations::Matrix& columns, Index column, Index
   }
 }
 
-/// Pairs of points that share a variable, the lower number first, one for each such variable, in
-/// ascending order; each point with itself for every variable that it has.
+/// Returns the pairs of points of every variable, the lower number first, in ascending order, with
+/// repetitions. Pairs of a point with itself are included.
 std::vector<std::pair<Index, Index>> shared_variables(const ReducedEquations::Matrix& columns,
                                                       Index rows);
 

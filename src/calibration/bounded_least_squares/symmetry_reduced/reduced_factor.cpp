@@ -14,8 +14,8 @@
 namespace perilink {
 namespace {
 
-/// Added to the diagonal of the factor beside that, relative to its mean: round-off of single
-/// precision must not make rows negative that depend on others. More where it does.
+/// Further additions to the diagonal of the factor, relative to its mean: round-off of single
+/// precision must not make pivots of dependent rows negative. Larger values are used where it does.
 constexpr std::array<double, 3> pivot_floors = {1e-7, 1e-6, 1e-5};
 
 std::vector<std::pair<Index, Index>> shared_points(const ReducedEquations::Matrix& columns,
@@ -76,7 +76,7 @@ void ReducedFactor::sort(ReducedEquations::Matrix& columns) const {
   }
 }
 
-/// Where the entries of the rows are among those of their unknowns.
+/// Returns the positions of the entries of rows among the entries of their unknowns.
 std::vector<int> ReducedFactor::own_entries(const ReducedEquations::Matrix& matrix,
                                             const ReducedEquations::Matrix& columns) const {
   std::vector<int> own(static_cast<std::size_t>(matrix.nonZeros()));
@@ -118,7 +118,7 @@ void ReducedFactor::factorize(const ReducedEquations::Matrix& matrix,
     };
     if (factor_->factorize(add)) return;
   }
-  throw SolverError("the equations of bonds that are made alike have no factor");
+  throw SolverError("the symmetry-reduced calibration equations have no factor");
 }
 
 void ReducedFactor::solve(std::span<const double> residual, std::span<double> result) const {
@@ -130,7 +130,8 @@ void ReducedFactor::solve(std::span<const double> residual, std::span<double> re
 }
 
 double ReducedFactor::iterations_of_factor() const {
-  // An operation of a solution, at the speed of the memory, takes as long as so many of a factor.
+  // An operation of a solution, limited by memory, takes as long as this many operations of a
+  // factorisation.
   constexpr double slower = 5.5;
   const FactorStatistics statistics = factor_->statistics();
   return statistics.flops / (4.0 * slower * statistics.entries);

@@ -17,20 +17,20 @@ class ReducedFactor {
   /// \throws SolverError  where there is no memory for the factor
   ReducedFactor(const ReducedEquations& reduced, const ReducedEquations::Matrix& columns);
 
-  /// Whether it can be made for these columns, too.
+  /// Whether the pattern of the factor fits these columns.
   bool fits(const ReducedEquations& reduced, const ReducedEquations::Matrix& columns) const;
-  /// Sorts the entries of each unknown in the order of elimination, which factorize() asks for.
+  /// Sorts the entries of each unknown in the order of elimination, for factorize().
   void sort(ReducedEquations::Matrix& columns) const;
-  /// The system is not stored: the factor asks for one column after the other.
+  /// Factorises the system, column by column, without storing it.
   /// \param matrix    M
-  /// \param columns   the same, transposed and sorted
-  /// \param active-set weight  D
+  /// \param columns  M transposed and sorted
+  /// \param active_weight  D
   /// \param shift     added to the diagonal
-  /// \throws SolverError  where there is none
+  /// \throws SolverError  where the system has no factor
   void factorize(const ReducedEquations::Matrix& matrix, const ReducedEquations::Matrix& columns,
                  std::span<const double> active_weight, std::span<const double> shift);
   void solve(std::span<const double> residual, std::span<double> result) const;
-  /// Solutions that take as long as a factorisation.
+  /// Returns the number of solutions that take as long as a factorisation.
   double iterations_of_factor() const;
 
  private:
@@ -39,8 +39,8 @@ class ReducedFactor {
 
   Index rows_;
   std::vector<std::pair<Index, Index>> pairs_;  // points that share a variable, ascending
-  std::vector<Index> row_;    // those that hold something, in the order of elimination
-  std::vector<Index> place_;  // per row: where it comes there; no_index: not
+  std::vector<Index> row_;                      // nonzero rows in the order of elimination
+  std::vector<Index> place_;                    // per row: position in row_; no_index: zero row
   std::unique_ptr<PreconditionerFactor> factor_;
 };
 

@@ -12,8 +12,8 @@ Eigen::Map<const Column> map(const std::vector<double>& values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
 
-/// product = matrix x, by one thread: Eigen would take all, and they wait longer for each other
-/// than the work takes.
+/// Computes product = matrix x with one thread: Eigen would use all threads, whose synchronisation
+/// takes longer than the work.
 void multiply(const ReducedEquations::Matrix& matrix, const Column& x, Column& product) {
   product.resize(matrix.rows());
   for (Eigen::Index k = 0; k < matrix.outerSize(); ++k) {
@@ -25,16 +25,16 @@ void multiply(const ReducedEquations::Matrix& matrix, const Column& x, Column& p
   }
 }
 
-/// Proximal regularisation. With less, Newton's method diverges where many weights
-/// pass their bounds and rows depend on each other. Where none passes its bound any more a part of
-/// it does: with all, a step would leave a half of the residual along the softest fields.
+/// Proximal regularisation. With less, Newton's method diverges where many weights pass their
+/// bounds and rows are dependent. A part is enough once the active bounds are settled: with all of
+/// it, a step would leave half of the residual along the modes of least stiffness.
 constexpr double least_regularisation = 1e-10, independent_regularisation = 1e-12;
 constexpr double settled_regularisation = 1e-13;
-/// Infeasible equations gain nothing from more iterations.
+/// More iterations do not help infeasible equations.
 constexpr int most_reduced_iterations = 400;
-/// Iterations that a new factor is worth, at least. A larger factor of other active-set weights is
-/// replaced in the midst of a solution after the iterations that take as long as a new one, and
-/// before a solution that would take a quarter as many: a new factor serves later solutions, too.
+/// Least number of iterations that justify a new factor. A stale factor is replaced within a
+/// solution after as many iterations as take the time of a new factor. It is replaced before a
+/// solution that would need a quarter of them, since later solutions use the new factor too.
 constexpr double least_of_stale = 10.0;
 
 }  // namespace

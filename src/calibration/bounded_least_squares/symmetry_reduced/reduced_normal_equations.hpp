@@ -12,8 +12,8 @@
 namespace perilink {
 
 /// The counterpart of NormalEquations for symmetry-reduced variables. The matrices are small but
-/// full, and symmetry makes some rows linearly dependent: a factor preconditions the conjugate
-/// gradients, and is renewed when it serves badly.
+/// full, and symmetry makes some rows linearly dependent. A factor preconditions the conjugate
+/// gradients and is renewed when it needs too many iterations.
 class ReducedNormalEquations {
  public:
   using Vector = std::vector<double>;  // shape (points, rows)
@@ -22,13 +22,14 @@ class ReducedNormalEquations {
   ReducedNormalEquations(const ReducedEquations& reduced, std::unique_ptr<ReducedFactor>& kept);
 
   void apply_transpose(const Vector& y, std::vector<double>& result) const;
-  /// Residual of the unknowns, less ridge times y.
+  /// Computes the residual of the unknowns minus ridge times y.
   void measure(const std::vector<double>& unknowns, const Vector& y, Vector& residual) const;
   /// Makes the factor for the present active-set weights.
   void prepare();
   void prepare_if_stale(bool settled, bool last);
-  /// S direction = residual, the residual reduced by the factor. A stale preconditioner is made
-  /// anew where it would take longer to go on with it, by the last solution or by this one.
+  /// Solves S direction = residual until the residual is reduced by the factor. Renews a stale
+  /// preconditioner where continuing would take longer, estimated from the last or the present
+  /// solution.
   /// \return iterations
   int solve(const Vector& residual, double reduction, Vector& direction);
 
@@ -39,16 +40,16 @@ class ReducedNormalEquations {
 
   std::vector<double> active_weight;
   Vector compliance;            // stays empty
-  double regularisation = 0.0;  // stays zero: only lattices are reduced
+  double regularisation = 0.0;  // stays zero: only lattices are symmetry-reduced
 
  private:
   const ReducedEquations& reduced_;
   ReducedEquations::Matrix transposed_;
   double regularisation_;
   Eigen::VectorXd shift_;  // added to the diagonal
-  double eased_ = 0.0;     // and taken back in the products, but not in the factor
+  double eased_ = 0.0;     // part of the shift subtracted in products, not in the factor
   std::unique_ptr<ReducedFactor>& factor_;
-  bool stale_ = true;  // the factor is of other active-set weights
+  bool stale_ = true;  // whether the factor is of other active-set weights
   /// Decrease of the logarithm of the residual per iteration of the last solution.
   double gain_ = std::numeric_limits<double>::infinity();
 };

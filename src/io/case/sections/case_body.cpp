@@ -40,13 +40,14 @@ void read_lattice(const CaseTable& table, BodySection& body) {
   body.spacing = table.positive("spacing");
 }
 
-/// The mesh says where the particles are, and has no lattice for other keys to speak of.
+/// Reads the mesh, which determines the particles and excludes keys of lattices.
 void read_mesh(const CaseTable& table, BodySection& body) {
   read_mesh_file(table, body.mesh, body.mesh_size);
   body.pattern = Pattern::irregular;
   body.micromodulus = Constants::continuum;
   if (table.has("pattern")) {
-    table.refuse("pattern", "is given beside `mesh`", "delete it: the mesh places the particles");
+    table.refuse("pattern", "is given together with `mesh`",
+                 "delete it: the mesh places the particles");
   }
   assign(body.surface, table.choice<Surface>("surface"));
   if (body.surface == Surface::ghost) {
@@ -59,14 +60,14 @@ void read_mesh(const CaseTable& table, BodySection& body) {
   }
 }
 
-/// Where the constants of bonds come from.
+/// Reads the source of the bonds' constants.
 void read_constants(const CaseTable& table, BodySection& body) {
   assign(body.micromodulus, table.choice<Constants>("micromodulus"));
   assign(body.critical_stretch, table.choice<CriticalStretch>("critical_stretch"));
   if (body.pattern != Pattern::irregular) return;
   const auto refuse_lattice = [&](const char* key, bool counts) {
     if (!counts) return;
-    table.refuse(key, "is \"lattice\", but a mesh has no lattice to count on",
+    table.refuse(key, "is \"lattice\", but a mesh has no lattice to count bonds on",
                  "delete it, or write \"continuum\"");
   };
   refuse_lattice("micromodulus", body.micromodulus == Constants::lattice);
@@ -98,8 +99,8 @@ void read_horizon(const CaseTable& table, BodySection& body) {
   }
 }
 
-/// On a lattice calibrated bonds are stiff by equations of their own; a mesh has nothing but the
-/// continuum's formula to start from.
+/// On a lattice, calibration replaces the micromodulus. On a mesh, calibration starts from the
+/// continuum's formula.
 void refuse_unused_micromodulus(const CaseTable& table, const BodySection& body) {
   if (body.surface != Surface::calibrated || body.mesh || body.micromodulus != Constants::continuum)
     return;
@@ -111,17 +112,17 @@ void check_element_ratio(const CaseTable& table, double given) {
   if (given > -1.0 && given < 0.5) return;
   table.refuse("poissons_ratio",
                fmt::format("is {}, but an elastic solid has ratios above -1 and below 1/2", given),
-               "an incompressible solid would need other elements");
+               "incompressible solids are not available");
 }
 
-/// What else a material can be made of whose ratio no bonds have.
+/// Suggests linear elements for Poisson's ratios that bonds cannot have.
 std::string other_model(double given) {
   if (!(given > -1.0 && given < 0.5)) return "";
   return "; where no bond is to break, method = \"linear_elements\" in [body] with "
          "analysis.type = \"elastic\" has ratios up to 1/2";
 }
 
-/// How messages write bond_poissons_ratio().
+/// Returns bond_poissons_ratio() as messages write it.
 const char* ratio_word(Problem problem) {
   return bond_poissons_ratio(problem) > 0.3 ? "1/3" : "1/4";
 }
@@ -165,8 +166,8 @@ std::optional<double> read_poissons_ratio(const CaseTable& table, const BodySect
   return given;
 }
 
-/// Bonds of a shell or a beam are as thick as it is: where one face of a crack is pressed, the
-/// other gapes.
+/// Bonds of shells and beams extend through the thickness. In bending, one side of a crack is in
+/// compression while the other opens, so these bonds cannot close.
 void settle_thick_softening(const CaseTable& table, SofteningMaterial& softening) {
   if (softening.shape.kind == Softening::concrete) {
     table.refuse("softening", "is \"concrete\", a law that bonds of shells and beams do not have",

@@ -11,21 +11,21 @@ namespace {
 
 constexpr int most_iterations = 2000000000;
 
-/// A run at rest is left with a residual of some 1e-15 of its forces.
+/// A converged run has a residual of about 1e-15 of its forces.
 constexpr double least_tolerance = 1e-13;
 
 void check_strain(const CaseFile& input) {
   if (input.analysis.strain != Strain::green || input.body.model == BodyModel::bond_based) return;
   const SourceLocation where = input.where("analysis.strain");
   if (is_particles(input.body)) {
-    throw InputError(where, "is \"green\", but state-based particles know small strains",
+    throw InputError(where, "is \"green\", but state-based particles are for small strains only",
                      "delete it");
   }
-  throw InputError(where,
-                   fmt::format("is \"green\", but model is \"{}\", whose moments know small "
-                               "rotations only",
-                               word_of(input.body.model)),
-                   "set model = \"bond_based\" in [body], or strain = \"small\"");
+  throw InputError(
+      where,
+      fmt::format("is \"green\", but model is \"{}\", whose moments are for small rotations only",
+                  word_of(input.body.model)),
+      "set model = \"bond_based\" in [body], or strain = \"small\"");
 }
 
 void check_velocities(const CaseFile& input) {
@@ -34,10 +34,11 @@ void check_velocities(const CaseFile& input) {
   for (std::size_t k = 0; k < input.displacements.size(); ++k) {
     for (const auto& value : input.displacements[k].value) {
       if (!value || value->is_zero()) continue;
-      throw InputError(input.where(key),
-                       fmt::format("is given beside [[displacements]] that drive region \"{}\"",
-                                   input.displacements[k].region),
-                       "drive all regions by one of the two");
+      throw InputError(
+          input.where(key),
+          fmt::format("is given together with [[displacements]] that move region \"{}\"",
+                      input.displacements[k].region),
+          "move all regions by one of the two");
     }
   }
 }

@@ -25,7 +25,7 @@ std::optional<ElementsSection> read_elements(const CaseTable& table) {
   assign(elements.release_threshold, table.fraction("alert"));
   elements.release_strain = table.positive("alert_strain");
   if (elements.release_strain && table.has("alert")) {
-    table.refuse("alert_strain", "is given beside `alert`", "delete one of the two");
+    table.refuse("alert_strain", "is given together with `alert`", "delete one of the two");
   }
   elements.buffer_zone = table.positive("halo");
   return elements;
@@ -33,23 +33,24 @@ std::optional<ElementsSection> read_elements(const CaseTable& table) {
 
 namespace {
 
-/// What ordinary elements cannot do.
+/// Refuses tied finite elements where they are not supported.
 void check_tied(const CaseFile& input) {
   if (input.elements->tied.empty()) return;
   const auto refuse = [&](const char* why, const char* hint) {
     throw InputError(input.where("elements.glued"), why, hint);
   };
   if (!input.body.mesh) {
-    refuse("is for bodies of a mesh, whose cells the elements are",
-           "give `mesh` in [body], or spacings = 8 here: elements that carry particles");
+    refuse("is for bodies of a mesh, whose cells become the elements",
+           "give `mesh` in [body], or spacings = 8 here: elements that constrain particles");
   }
   if (input.analysis.type == AnalysisType::explicit_ ||
       input.analysis.type == AnalysisType::relaxation) {
-    refuse("is for elastic and damage analyses: explicit runs and relaxation move particles alone",
-           "delete the key, and mesh the whole body at one size");
+    refuse(
+        "is for elastic and damage analyses: explicit runs and relaxation have no finite elements",
+        "delete the key, and mesh the whole body at one size");
   }
   if (!input.rebar.empty()) {
-    refuse("is given beside [[rebar]], which is tied to particles", "delete the key");
+    refuse("is given together with [[rebar]], which needs particles", "delete the key");
   }
 }
 
@@ -63,8 +64,7 @@ void check_elements(const CaseFile& input) {
       (section.spacings || section.size || section.mesh)) {
     throw InputError(
         input.where("analysis.solver"),
-        "is \"iterative\", but the elements of [elements] carry particles, which only a "
-        "factor serves",
+        "is \"iterative\", but [elements] constrain particles, which needs the direct solver",
         "delete one of the two, or set solver = \"direct\"");
   }
   if (input.body.surface != Surface::calibrated) {

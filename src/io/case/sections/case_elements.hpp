@@ -4,14 +4,13 @@
 #include "io/case/case_table.hpp"
 #include "io/text/toml_writer.hpp"
 
-/// \file
-/// [elements]: finite elements that carry particles.
+/// \file [elements]: finite elements that constrain particles (hosts).
 
 namespace perilink {
 
 std::optional<ElementsSection> read_elements(const CaseTable& table);
 
-/// Refuses elements beside what they cannot carry.
+/// Refuses elements together with tables and models that they do not support.
 /// \throws InputError
 void check_elements(const CaseFile& input);
 

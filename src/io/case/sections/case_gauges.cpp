@@ -14,7 +14,8 @@
 namespace perilink {
 namespace {
 
-/// Names head columns of a table, where a minus sign would begin a formula, and name pictures.
+/// Names are column headings, where a leading minus sign would begin a formula, and file names of
+/// pictures.
 bool is_plain(const std::string& name) {
   const auto plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
@@ -52,7 +53,7 @@ GaugeSection read_gauge(const CaseTable& table, const BodySection& body) {
   assign(gauge.region, table.text("region"));
   if (table.has("between")) {
     if (table.has("stress")) {
-      table.refuse("stress", "is given beside `between`",
+      table.refuse("stress", "is given together with `between`",
                    "measure a stress `at` a point or in a `region`");
     }
   } else {
@@ -85,14 +86,15 @@ void write_gauges(TomlWriter& out, const CaseFile& input) {
 
 namespace {
 
-/// Stresses of bodies that move are those of small strains, and of bonds.
+/// Refuses stresses where they are not computed: Green strains, and state-based particles in
+/// motion.
 void refuse_stress(const CaseFile& input, const std::string& key) {
   const AnalysisType type = input.analysis.type;
   if (type == AnalysisType::elastic) return;
   if (has_state_based_particles(input.body)) {
     throw InputError(input.where(key),
-                     fmt::format("is given, but analysis.type is \"{}\": of state-based particles "
-                                 "only elastic analyses have it",
+                     fmt::format("is given, but analysis.type is \"{}\": stresses of state-based "
+                                 "particles need an elastic analysis",
                                  word_of(type)),
                      "measure a displacement, or set analysis.type = \"elastic\"");
   }
@@ -113,7 +115,7 @@ void check_gauges(const CaseFile& input) {
     if (first - input.gauges.begin() != static_cast<std::ptrdiff_t>(k)) {
       throw InputError(input.where(item_key("gauges", k, "name")),
                        fmt::format("is {}, the name of another gauge", quoted(gauge.name)),
-                       "give every gauge a name of its own");
+                       "give every gauge a different name");
     }
     if (gauge.stress) refuse_stress(input, item_key("gauges", k, "stress"));
   }

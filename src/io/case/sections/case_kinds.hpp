@@ -6,24 +6,23 @@
 #include "io/case/case_schema.hpp"
 #include "io/case/case_table.hpp"
 
-/// \file
-/// What kind of body a case has, and the keys that several kinds share.
+/// \file Kinds of bodies, and keys that several kinds share.
 
 namespace perilink {
 
-/// The kind of a case, for the columns of case_schema(): its body, dimensions and analysis.
+/// Returns the kind of a case for case_schema(): its body, dimensions and analysis.
 Kinds kinds_of(const CaseFile& input);
 
-/// Coordinates of a place in the body: 2 or 3; 2 in shells, whose places are those of the sheet.
+/// Returns the number of coordinates of a position: 2 or 3; 2 on the mid-surface of a shell.
 int dimension_of(const BodySection& body);
 
-/// Axes along which the body moves and is loaded: as many, but 3 in shells.
+/// Returns the number of axes of displacements and loads: 2 or 3; 3 in shells.
 int axes_of(const BodySection& body);
 
 bool is_shell(const BodySection& body);
 bool is_beam(const BodySection& body);
 
-/// Whether an analysis of the type finds equilibria one after the other, without motion.
+/// Whether an analysis of the type finds a sequence of static equilibria.
 inline bool is_quasistatic(AnalysisType type) {
   return type == AnalysisType::damage || type == AnalysisType::elastic;
 }
@@ -34,29 +33,28 @@ bool is_lattice(const BodySection& body);
 /// Whether [body] says model = "particles".
 bool is_particles(const BodySection& body);
 
-/// Whether it says either.
+/// Whether [body] says model = "lattice" or "particles".
 bool has_state_based_particles(const BodySection& body);
 
-/// The event tolerance of a damage analysis: the one given, else 0.01 where a material or an
-/// interface softens, and 0 where none does.
+/// Returns the event tolerance of a damage analysis: the given one, else 0.01 where a material or
+/// an interface softens, else 0.
 double event_tolerance_of(const CaseFile& input);
 
-/// Why particles have no rotations where the body is not micropolar, and what would give them some:
-/// parts of refusals.
+/// Return parts of refusals: why particles have no rotations, and which model has rotations.
 std::string why_nothing_rotates(const BodySection& body);
 std::string what_rotates(const BodySection& body);
 
-/// `mesh` and `mesh_size`, where a table has them.
+/// Reads `mesh` and `mesh_size`, where a table has them.
 void read_mesh_file(const CaseTable& table, std::optional<std::string>& mesh,
                     std::optional<double>& size);
 
-/// The word for an energy that no crack or flow takes up.
+/// Word for the fracture energy of unbreakable materials.
 inline constexpr const char* infinite_energy = "infinite";
 
-/// A positive number, or infinity for that word.
-/// \param meaning  what the key is, where it is missing
+/// Reads a positive number, or infinity for the word "infinite".
+/// \param meaning  description of the key, for the message where it is missing
 double read_energy(const CaseTable& table, const std::string& key, const std::string& meaning);
-/// Infinity where an elastic analysis, which does not need it, has none.
+/// Reads the fracture energy. Elastic analyses do not need it: infinity where it is missing.
 double read_fracture_energy(const CaseTable& table, AnalysisType type);
 
 }  // namespace perilink

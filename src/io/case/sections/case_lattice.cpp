@@ -16,7 +16,7 @@ namespace perilink {
 namespace {
 
 constexpr int most_rows = 1000000;
-/// Keys of [[materials]] that an unbreakable one has no use for.
+/// Keys of [[materials]] that unbreakable materials cannot have.
 constexpr std::array softening_keys = {"tensile_strength",      "knee_stress_ratio",
                                        "knee_opening_ratio",    "compression_ratio",
                                        "compression_threshold", "boundary_factor"};
@@ -37,7 +37,7 @@ void read_crack_opening(const CaseTable& table, const BodySection& body,
   assign(section.knee_stress_ratio, table.fraction("knee_stress_ratio"));
   assign(section.knee_opening_ratio, table.fraction("knee_opening_ratio"));
   assign(section.compression_ratio, table.positive("compression_ratio"));
-  // What the papers of each variant have.
+  // Defaults of the papers of each variant.
   section.compression_threshold = body.variant == LatticeRules::least_2018 ? 0.8 : 1.0 / 3.0;
   section.boundary_factor = body.variant == LatticeRules::consistent ? 1.0 : 0.2;
   assign(section.compression_threshold, table.fraction("compression_threshold"));
@@ -64,7 +64,7 @@ void need_densities(const CaseFile& input) {
   for (std::size_t i = 0; i < input.materials.size(); ++i) {
     if (input.materials[i].density) continue;
     throw InputError(input.where(item_key("materials", i)),
-                     "has no density, which resists the motion of an explicit analysis",
+                     "has no density, which an explicit analysis needs",
                      "give `density`, mass per volume");
   }
 }
@@ -92,8 +92,8 @@ void read_lattice_body(const CaseTable& table, BodySection& body) {
   const std::string_view only = word_of(body.pattern);
   if (const auto given = table.choice<Pattern>("pattern"); given && *given != body.pattern) {
     table.refuse("pattern",
-                 fmt::format("is \"{}\", but lattice particles in {} stand on another",
-                             word_of(*given), dim == 2 ? "the plane" : "space"),
+                 fmt::format("is \"{}\", but lattice particles in {} need another", word_of(*given),
+                             dim == 2 ? "the plane" : "space"),
                  fmt::format("Allowed here: {}", only));
   }
   body.spacing =
@@ -129,8 +129,8 @@ void read_state_material(const CaseTable& table, const CaseFile& input, Material
   const bool breakable = !std::isinf(material.fracture_energy);
   if (breakable && dimension_of(body) == 3 && body.variant == LatticeRules::least_2018) {
     table.refuse(table.has("fracture_energy") ? "fracture_energy" : "critical_opening",
-                 "lets the material break, but the rules of 2018 have no damage in space",
-                 "write fracture_energy = \"infinite\", or take another variant in [body]");
+                 "is finite, but the rules of 2018 have no damage in space",
+                 "write fracture_energy = \"infinite\", or choose another variant in [body]");
   }
   if (breakable) read_crack_opening(table, body, section);
   for (const char* key : softening_keys) {
@@ -144,14 +144,14 @@ void read_state_material(const CaseTable& table, const CaseFile& input, Material
 }
 
 void read_explicit_analysis(const CaseTable& table, AnalysisSection& analysis) {
-  const bool runs = analysis.type == AnalysisType::explicit_;  // else the keys are only checked
+  const bool runs = analysis.type == AnalysisType::explicit_;  // other types only check these keys
   const auto duration = table.positive("duration");
   if (runs) analysis.duration = table.need("duration", duration, "the time that the run covers");
   analysis.ramp_time = analysis.duration;
   assign(analysis.ramp_time, table.positive("ramp_time"));
   analysis.time_step = table.positive("time_step");
   if (runs && analysis.time_step && table.has("safety")) {
-    table.refuse("safety", "is given beside `time_step`",
+    table.refuse("safety", "is given together with `time_step`",
                  "give the time step, or its part of the critical one; delete one of the two");
   }
   assign(analysis.safety, table.positive("safety"));

@@ -4,22 +4,20 @@
 #include "io/case/case_table.hpp"
 #include "io/text/toml_writer.hpp"
 
-/// \file
-/// Lattice bodies and the explicit analyses that move them: what their keys in [body],
-/// [[materials]] and [analysis] have of their own.
+/// \file Keys of lattice bodies and explicit analyses in [body], [[materials]] and [analysis].
 
 namespace perilink {
 
-/// The keys of [body] below `model`.
+/// Reads the keys of [body] for model = "lattice".
 void read_lattice_body(const CaseTable& table, BodySection& body);
 
-/// What materials of state-based particles have, on a lattice or anywhere.
+/// Reads the keys of materials of state-based particles, on a lattice or at any positions.
 void read_state_material(const CaseTable& table, const CaseFile& input, MaterialSection& material);
-/// Yield strength and what goes with it.
+/// Reads the yield strength and the keys of hardening.
 void read_lattice_yielding(const CaseTable& table, const BodySection& body,
                            LatticeMaterialSection& section);
 
-/// Keys of [analysis] that only type = "explicit" has; it must have a duration.
+/// Reads the keys of [analysis] for type = "explicit", which needs a duration.
 void read_explicit_analysis(const CaseTable& table, AnalysisSection& analysis);
 
 void write_lattice_body(TomlWriter& out, const BodySection& body);
@@ -27,7 +25,7 @@ void write_state_material(TomlWriter& out, const LatticeMaterialSection& section
 void write_lattice_yielding(TomlWriter& out, const LatticeMaterialSection& section);
 void write_explicit_analysis(TomlWriter& out, const CaseFile& input);
 
-/// Refuses what lattice bodies and explicit analyses cannot be combined with.
+/// Refuses tables that lattice bodies and explicit analyses cannot have.
 void check_lattice(const CaseFile& input);
 
 }  // namespace perilink

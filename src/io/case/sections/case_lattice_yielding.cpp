@@ -17,12 +17,12 @@ void read_lattice_yielding(const CaseTable& table, const BodySection& body,
   }
   if (!section.yield_strength) return;
   if (dimension_of(body) == 3 && body.variant == LatticeRules::least_2018) {
-    table.refuse("yield_strength", "is given, but the rules of 2018 have no flow in space",
-                 "take another variant in [body], or a body in the plane");
+    table.refuse("yield_strength", "is given, but the rules of 2018 have no yielding in space",
+                 "choose another variant in [body], or a body in the plane");
   }
-  section.ultimate_strength =
-      table.need("ultimate_strength", table.positive("ultimate_strength"),
-                 "the yield stress where hardening ends; that of `yield_strength` for none");
+  section.ultimate_strength = table.need(
+      "ultimate_strength", table.positive("ultimate_strength"),
+      "the yield stress where hardening ends; equal to `yield_strength` without hardening");
   if (*section.ultimate_strength < *section.yield_strength) {
     table.refuse("ultimate_strength",
                  fmt::format("is {}, less than the yield strength {}", *section.ultimate_strength,
@@ -38,10 +38,10 @@ void read_lattice_yielding(const CaseTable& table, const BodySection& body,
         "the energy per area that crushing takes, or \"infinite\" for a material that keeps its "
         "ultimate strength");
   } else if (table.has("crushing_energy")) {
-    table.refuse(
-        "crushing_energy",
-        fmt::format("is given, but the rules of {} soften in their own way", word_of(body.variant)),
-        "delete it, or take variant = \"consistent\" in [body]");
+    table.refuse("crushing_energy",
+                 fmt::format("is given, but the rules of {} have their own softening",
+                             word_of(body.variant)),
+                 "delete it, or set variant = \"consistent\" in [body]");
   }
 }
 

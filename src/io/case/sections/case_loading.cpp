@@ -1,5 +1,4 @@
-// Tables that load the body or hold it in other ways than [[supports]]: [[tractions]],
-// [[point_loads]], [[symmetry]], [[springs]].
+// Loads and supports: [[tractions]], [[point_loads]], [[symmetry]], [[springs]].
 
 #include <fmt/format.h>
 
@@ -13,14 +12,14 @@
 namespace perilink {
 namespace {
 
-/// Moments turn about z in two dimensions: a number; about each axis in three.
+/// Reads a moment: a number (about z) in two dimensions, a vector in three.
 Vector3 read_moment(const CaseTable& table, const BodySection& body) {
   if (!table.has("moment")) return {};
   if (axes_of(body) == 2) return {0.0, 0.0, *table.number("moment")};
   return *table.vector("moment", 3);
 }
 
-/// A stiffness along each axis; none may push.
+/// Reads a stiffness along each axis, which must not be negative.
 std::optional<Vector3> read_stiffness(const CaseTable& table, const std::string& key, int dim) {
   const std::optional<Vector3> values = table.vector(key, dim);
   if (!values) return values;

@@ -21,7 +21,7 @@
 namespace perilink {
 namespace {
 
-/// Records the line of a key and of all below it, but not of single numbers of a list.
+/// Records the lines of a key and of all keys below it, without the numbers of lists.
 void collect_lines(const TomlValue& value, const std::string& key,
                    std::map<std::string, int>& lines) {
   if (!key.empty()) lines[key] = value.line;
@@ -35,7 +35,7 @@ void collect_lines(const TomlValue& value, const std::string& key,
   }
 }
 
-/// The document's tables as CaseTable; absent ones are empty.
+/// The document's tables as CaseTable; absent tables are empty.
 class Document {
  public:
   Document(const TomlValue& root, const std::string& path) : root_(root), path_(path) {}
@@ -83,7 +83,7 @@ class Document {
   const std::string& path_;
 };
 
-/// The kind of the case: chosen here, before any other key is looked at.
+/// Reads the kind of the case, before all other keys.
 void read_kind(const Document& document, CaseFile& input) {
   const CaseTable body = document.needed_table("body");
   assign(input.body.problem, body.choice<Problem>("problem"));
@@ -98,7 +98,7 @@ void read_kind(const Document& document, CaseFile& input) {
 void refuse_studies(const TomlValue& root, const std::string& path) {
   const TomlValue* vary = root.find("vary");
   if (vary == nullptr) return;
-  throw InputError({path, vary->line, "vary"}, "belongs to a study, and this is to be a case",
+  throw InputError({path, vary->line, "vary"}, "belongs to a study, but this command needs a case",
                    fmt::format("run the study by `perilink converge {}`", path));
 }
 

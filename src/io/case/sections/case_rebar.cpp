@@ -16,7 +16,7 @@ namespace {
 
 constexpr int most_bars = 100000;
 
-/// By which the first point of a stress-strain curve may miss Young's modulus.
+/// Relative tolerance between Young's modulus and the first point of a stress-strain curve.
 constexpr double same_modulus = 1e-3;
 
 std::vector<std::vector<double>> rows(const std::vector<Vector3>& vectors, int dim) {
@@ -25,7 +25,7 @@ std::vector<std::vector<double>> rows(const std::vector<Vector3>& vectors, int d
   return list;
 }
 
-/// Pairs of numbers.
+/// Reads a list of pairs of numbers.
 std::vector<std::array<double, 2>> read_curve(const CaseTable& table, const std::string& key) {
   std::vector<std::array<double, 2>> curve;
   for (const Vector3& point : table.vectors(key, 2).value_or(std::vector<Vector3>())) {
@@ -35,7 +35,7 @@ std::vector<std::array<double, 2>> read_curve(const CaseTable& table, const std:
   try {
     check_curve({curve});
   } catch (const std::invalid_argument& error) {
-    table.refuse(key, fmt::format("is no such curve: {}", error.what()),
+    table.refuse(key, fmt::format("is not a valid curve: {}", error.what()),
                  "write points from the end of the first straight line on: [[0.1, 4], [1, 10]]");
   }
   return curve;
@@ -63,13 +63,14 @@ BarLayout read_layout(const CaseTable& table, int dim) {
   layout.spacing = table.positive("spacing");
   if (layout.spacing) {
     if (!table.has("number")) return layout;
-    table.refuse("number", "is given beside `spacing`",
+    table.refuse("number", "is given together with `spacing`",
                  "stirrups have a spacing; bars beside a face have a number");
   }
   const auto face = table.choice("face", {"-x", "-y", "-z", "+x", "+y", "+z"});
   layout.face = ((*face)[1] - 'x') + ((*face)[0] == '+' ? 3 : 0);
   if (*layout.face % 3 == layout.along || *layout.face % 3 >= dim) {
-    table.refuse("face", "is no face beside the bars", "give one across another axis than `along`");
+    table.refuse("face", "is not parallel to the bars",
+                 "give a face with another normal than `along`");
   }
   assign(layout.number, table.integer("number", 1, most_bars));
   if (dim == 2 && layout.number > 1) {
@@ -150,14 +151,14 @@ void read_steel(const CaseTable& table, RebarSection& bar) {
   if (!bar.curve.empty()) {
     for (const char* key : {"yield_strength", "hardening_modulus"}) {
       if (table.has(key))
-        table.refuse(key, "is given beside `stress_strain`", "delete one of them");
+        table.refuse(key, "is given together with `stress_strain`", "delete one of them");
     }
     const double modulus = bar.curve.front()[1] / bar.curve.front()[0];
     if (std::abs(modulus - bar.youngs_modulus) > same_modulus * bar.youngs_modulus) {
       table.refuse("stress_strain",
                    fmt::format("begins with a modulus of {:.6g}, but youngs_modulus is {}", modulus,
                                bar.youngs_modulus),
-                   "let it begin where the steel ceases to be elastic");
+                   "begin the curve where the steel ceases to be elastic");
     }
   }
   const double yield = !bar.curve.empty()   ? bar.curve.back()[0]
@@ -174,7 +175,7 @@ void read_steel(const CaseTable& table, RebarSection& bar) {
   }
 }
 
-/// Keys that belong to one kind of bond.
+/// Refuses keys of other kinds of bond.
 void refuse_keys_of_others(const CaseTable& table, RebarBond bond) {
   const std::vector<std::pair<const char*, RebarBond>> owners = {
       {"bond_stiffness", RebarBond::linear},
@@ -196,7 +197,7 @@ void refuse_keys_of_others(const CaseTable& table, RebarBond bond) {
   for (const char* key : {"perimeter", "hooks", "bends", "prestrain", "across_gaps"}) {
     if (!table.has(key)) continue;
     table.refuse(key, "is given, but the bond is \"concrete\"",
-                 "delete it, or take another bond: \"perfect\" does not slip");
+                 "delete it, or choose another bond: \"perfect\" does not slip");
   }
 }
 
@@ -232,14 +233,15 @@ void read_bond(const CaseTable& table, RebarSection& bar) {
   }
 }
 
-/// Flow that stages leave behind moves an end of each segment with its node.
+/// Plastic strains of earlier stages move an end of each bar element with its node, which needs the
+/// direct solver.
 void refuse_flow_without_factor(const CaseFile& input, std::size_t k) {
   const RebarSection& bar = input.rebar[k];
   const bool flows = bar.yields && (bar.yield_strength || !bar.curve.empty());
   if (input.analysis.solver != LinearSolver::iterative || input.stages.empty() || !flows) return;
   throw InputError(input.where("analysis.solver"),
                    fmt::format("is \"iterative\", but rebar[{}] may yield in a case with "
-                               "[[stages]], which only a factor serves",
+                               "[[stages]], which needs the direct solver",
                                k + 1),
                    "set solver = \"direct\", or yields = false in [[rebar]]");
 }
@@ -252,14 +254,15 @@ RebarSection read_rebar(const CaseTable& table, int dim) {
   read_steel(table, bar);
   read_bond(table, bar);
   if (bar.bends && (bar.rupture_strain || (!bar.curve.empty() && bar.curve.back()[1] == 0.0))) {
-    table.refuse("bends", "is true, but the steel breaks: what a broken bar leaves could not turn",
+    table.refuse("bends",
+                 "is true, but the steel can rupture: a ruptured bar would leave rotations without "
+                 "stiffness",
                  "delete it, or the end of the steel");
   }
   assign(bar.prestrain, table.number("prestrain"));
   assign(bar.stage, table.text("stage"));
   if (!bar.stage.empty() && bar.prestrain == 0.0) {
-    table.refuse("stage", "is given, but the bar has no `prestrain` that a stage could grow",
-                 "delete it");
+    table.refuse("stage", "is given, but the bar has no `prestrain` for the stage", "delete it");
   }
   return bar;
 }
@@ -270,7 +273,7 @@ void check_rebar(const CaseFile& input) {
     if (!bar.group.empty() && !input.body.mesh) {
       throw InputError(
           input.where(item_key("rebar", k, "group")),
-          fmt::format("is \"{}\", but the body is no mesh that could have such a group", bar.group),
+          fmt::format("is \"{}\", but the body has no mesh with physical groups", bar.group),
           "give the `points` of the bar, or `mesh` in [body]");
     }
     if (bar.bond == RebarBond::concrete) {
@@ -279,18 +282,18 @@ void check_rebar(const CaseFile& input) {
     }
     if (input.analysis.solver == LinearSolver::iterative) {
       throw InputError(input.where("analysis.solver"),
-                       "is \"iterative\", but the body has bars, whose nodes are tied to "
-                       "combinations of particles, which only a factor serves",
+                       "is \"iterative\", but the nodes of bars are embedded between particles, "
+                       "which needs the direct solver",
                        "set solver = \"direct\", or bond = \"concrete\" in [[rebar]]");
     }
     if (input.analysis.strain == Strain::green) {
       throw InputError(input.where("analysis.strain"),
-                       "is \"green\", but the ties of bars know small strains only",
+                       "is \"green\", but embedded bars are for small strains only",
                        "delete the line, or set bond = \"concrete\" in [[rebar]]");
     }
     if (bar.prestrain != 0.0 && !is_quasistatic(input.analysis.type)) {
       throw InputError(input.where(item_key("rebar", k, "prestrain")),
-                       "is given, but explicit runs and relaxation know no prestrain",
+                       "is given, but explicit runs and relaxation cannot apply a prestrain",
                        "set type = \"damage\" or \"elastic\" in [analysis]");
     }
   }
@@ -326,7 +329,7 @@ void write_rebar(TomlWriter& out, const RebarSection& bar, int dim) {
   out.write("area", bar.area);
   out.write("yield_strength", bar.yield_strength);
   write_curve(out, "stress_strain", bar.curve);
-  // `yields = true` without a yield strength is refused when it is written out.
+  // `yields = true` without a yield strength is refused when read, so it is not written.
   if (bar.yield_strength || !bar.curve.empty() || !bar.yields) out.write("yields", bar.yields);
   if (bar.hardening_modulus != 0.0) out.write("hardening_modulus", bar.hardening_modulus);
   out.write("rupture_strain", bar.rupture_strain);

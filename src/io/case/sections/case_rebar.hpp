@@ -4,14 +4,13 @@
 #include "io/case/case_table.hpp"
 #include "io/text/toml_writer.hpp"
 
-/// \file
-/// [[rebar]]: where bars are, their steel and what holds them.
+/// \file [[rebar]]: geometry of bars, their steel and their bond.
 
 namespace perilink {
 
 RebarSection read_rebar(const CaseTable& table, int dim);
 
-/// What contradicts other tables.
+/// Refuses bars that contradict other tables.
 void check_rebar(const CaseFile& input);
 
 void write_rebar(TomlWriter& out, const RebarSection& bar, int dim);

@@ -16,12 +16,12 @@ Region read_group(const CaseTable& table, Region region, int dim) {
   if (region.group.empty()) table.refuse("group", "is empty", "name a physical group of the mesh");
   for (const char* key : {"center", "radius"}) {
     if (!table.has(key)) continue;
-    table.refuse(key, "is given beside `group`",
-                 "a region is a physical group or a shape; delete one of the two");
+    table.refuse(key, "is given together with `group`",
+                 "a region is either a physical group or a shape; delete one of the two");
   }
   for (int axis = 0; axis < dim; ++axis) {
     if (!table.has(axis_names[axis])) continue;
-    table.refuse(axis_names[axis], "is given beside `group`",
+    table.refuse(axis_names[axis], "is given together with `group`",
                  "a region is a physical group or a box; delete one of the two");
   }
   return region;
@@ -37,7 +37,8 @@ void read_interval(const CaseTable& table, int axis, Box& box) {
                              interval.size() == 1 ? "" : "s"),
                  "write [lower, upper]");
   }
-  // Equal ends make a line or a point, as supports need them; materials ask for more.
+  // Equal ends make a line or a point, which supports may use; check_shape() refuses them for
+  // materials.
   if (interval[0] > interval[1]) {
     table.refuse(key,
                  fmt::format("is [{}, {}], but the lower end must be less than the upper",
@@ -48,13 +49,13 @@ void read_interval(const CaseTable& table, int axis, Box& box) {
   box.upper[axis] = interval[1];
 }
 
-/// The axis with an interval, which makes a cylinder of a circle; nothing for discs and balls.
+/// Returns the axis of a cylinder, the one with an interval; std::nullopt for discs and balls.
 std::optional<int> axis_of_cylinder(const CaseTable& table, int dim) {
   std::optional<int> axis;
   for (int a = 0; a < dim; ++a) {
     if (!table.has(axis_names[a])) continue;
     if (dim == 2) {
-      table.refuse(axis_names[a], "is given beside `radius`",
+      table.refuse(axis_names[a], "is given together with `radius`",
                    "a region is a disc or a box; delete one of the two");
     }
     if (axis) {

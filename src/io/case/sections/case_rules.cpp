@@ -27,7 +27,7 @@
 namespace perilink {
 namespace {
 
-/// Names of all regions, each once.
+/// Returns the names of all regions, and refuses names that occur twice.
 std::set<std::string> check_region_names(const CaseFile& input) {
   std::map<std::string, std::size_t> first;
   for (std::size_t i = 0; i < input.regions.size(); ++i) {
@@ -43,15 +43,15 @@ std::set<std::string> check_region_names(const CaseFile& input) {
     throw InputError(input.where(item_key("regions", i, "name")),
                      fmt::format("is {}, the name of another region at line {}", quoted(name),
                                  input.where(item_key("regions", at->second, "name")).line),
-                     "give every region a name of its own");
+                     "give every region a different name");
   }
   std::set<std::string> names;
   for (const auto& [name, index] : first) names.insert(name);
   return names;
 }
 
-/// Stiffer materials beside soft ones leave the soft ones no digits: where a half of a strip was so
-/// much stiffer, the load of the other was wrong by 2e-7 for a ratio of 1e10, 1e-3 for 1e14.
+/// Round-off of stiff materials exceeds small forces in soft ones. In a strip of two materials the
+/// load of the soft half was wrong by 2e-7 for a ratio of 1e10, by 1e-3 for 1e14.
 constexpr double largest_stiffness_ratio = 1e10;
 
 void check_stiffness_ratio(const CaseFile& input) {
@@ -66,13 +66,13 @@ void check_stiffness_ratio(const CaseFile& input) {
   throw InputError(
       input.where(item_key("materials", m, "youngs_modulus")),
       fmt::format(
-          "is {:.6g}, {:.2g} times that of {}, {:.6g}: numbers of 16 digits do not hold both",
+          "is {:.6g}, {:.2g} times that of {}, {:.6g}: double precision cannot resolve both",
           stiff->youngs_modulus, ratio, quoted(soft->name), soft->youngs_modulus),
-      fmt::format("at most {:.0e} times is possible; a thousand times is rigid to the eye",
+      fmt::format("at most {:.0e} times is possible; a ratio of a thousand is nearly rigid",
                   largest_stiffness_ratio));
 }
 
-/// Bonds between two materials take the mean of what both give, so that all must give the same.
+/// Bonds between two materials use the mean of both laws, so both must have the same kind of law.
 void check_stretches(const CaseFile& input) {
   const auto given = [](const MaterialSection& material) {
     return has_stretches(material.softening);
@@ -91,23 +91,24 @@ void check_stretches(const CaseFile& input) {
                    "give softening_stretches to every material that can break, or to none");
 }
 
-/// The law of concrete has two branches, which damage analyses of micropolar bodies know.
+/// Only damage analyses of micropolar bodies support the law of concrete with its compressive
+/// branch.
 void check_concrete(const CaseFile& input) {
   for (std::size_t m = 0; m < input.materials.size(); ++m) {
     if (input.materials[m].softening.shape.kind != Softening::concrete) continue;
     const SourceLocation where = input.where(item_key("materials", m, "softening"));
     if (input.body.model != BodyModel::micropolar) {
       throw InputError(where, "is \"concrete\", a law of micropolar bonds",
-                       "set model = \"micropolar\" in [body], or take another softening");
+                       "set model = \"micropolar\" in [body], or choose another softening");
     }
     const AnalysisType type = input.analysis.type;
     if (type != AnalysisType::damage && type != AnalysisType::elastic) {
       throw InputError(where, "is \"concrete\", which bonds that move in time do not have",
-                       "set type = \"damage\" in [analysis], or take another softening");
+                       "set type = \"damage\" in [analysis], or choose another softening");
     }
     if (!input.stages.empty()) {
-      throw InputError(where, "is \"concrete\", a law for loads that grow together: not in stages",
-                       "delete the [[stages]], or take another softening");
+      throw InputError(where, "is \"concrete\", a law that [[stages]] cannot have",
+                       "delete the [[stages]], or choose another softening");
     }
     for (const MaterialSection& other : input.materials) {
       if (other.softening.shape.kind == Softening::concrete) continue;
@@ -121,7 +122,7 @@ void check_concrete(const CaseFile& input) {
   }
 }
 
-/// Regions that need not be declared are for what holds and loads the body, not for materials.
+/// Predefined regions are allowed in supports and loads, not in materials.
 enum class Reserved { allowed, refused };
 
 void check_reference(const CaseFile& input, const std::set<std::string>& names,
@@ -177,8 +178,8 @@ void check_between(const CaseFile& input, const std::set<std::string>& names) {
   }
 }
 
-/// A material fills space; a region that is a line or a point holds none. The lattices of bonds
-/// are fitted to boxes.
+/// Refuses regions without volume, and round regions of bodies of bonds, whose lattices fit boxes
+/// only.
 void check_shape(const CaseFile& input, const std::string& key, const std::string& name) {
   for (const Region& region : input.regions) {
     if (region.name != name || !region.group.empty()) continue;
@@ -200,8 +201,8 @@ void check_shape(const CaseFile& input, const std::string& key, const std::strin
   }
 }
 
-/// Materials overlap on purpose (a weak patch within a body), but two for the very same region are
-/// a slip: the first would have no effect.
+/// Refuses two materials of one region: the first would have no effect. Different regions may
+/// overlap (a weak patch within a body).
 void check_materials(const CaseFile& input, const std::set<std::string>& names) {
   std::map<std::string, std::size_t> owner;
   for (std::size_t i = 0; i < input.materials.size(); ++i) {
@@ -248,14 +249,14 @@ void check_driven_once(const CaseFile& input, const Held& held, const std::strin
       const SourceLocation where = input.where(item_key(table, i, name));
       if (!value.is_zero() && held.count({section.region, axis}) > 0) {
         throw InputError(where,
-                         fmt::format("drives region {} by {}, but [[supports]] holds it in {}",
+                         fmt::format("moves region {} by {}, but [[supports]] hold it in {}",
                                      quoted(section.region), shown(value), name),
                          "delete one of the two");
       }
       const auto [at, is_new] = driven.emplace(std::pair(section.region, axis), value);
       if (!is_new && !(at->second == value)) {
         throw InputError(where,
-                         fmt::format("drives region {} by {}, but another table drives it by {}",
+                         fmt::format("moves region {} by {}, but another table moves it by {}",
                                      quoted(section.region), shown(value), shown(at->second)),
                          "delete one of the two");
       }
@@ -263,7 +264,7 @@ void check_driven_once(const CaseFile& input, const Held& held, const std::strin
   }
 }
 
-/// A displacement that is driven cannot be held or driven elsewhere too.
+/// Refuses displacements that are prescribed twice, or both prescribed and clamped.
 void check_contradictions(const CaseFile& input) {
   Held held;
   for (const SupportSection& support : input.supports) {
@@ -285,30 +286,30 @@ void check_driven(const CaseFile& input) {
   for (const RebarSection& bar : input.rebar) driven = driven || bar.prestrain != 0.0;
   if (driven) return;
   throw InputError(
-      input.where("loads"), "nothing loads the body",
+      input.where("loads"), "the case has no load",
       "add [[loads]], [[tractions]], [[point_loads]], or [[displacements]] that are not zero");
 }
 
 void refuse_on_ghosts(const CaseFile& input, const std::string& key) {
   if (input.body.surface != Surface::ghost) return;
   throw InputError(input.where(key),
-                   "acts on the surface, but with surface = \"ghost\" the particles stand in the "
-                   "middle of their cells and none on it",
+                   "acts on particles of the surface, but with surface = \"ghost\" particles are "
+                   "in the middle of their cells",
                    "share a total over a region ([[loads]].force, [[springs]].total), or set "
                    "surface = \"none\" in [body]");
 }
 
-/// Conjugate gradients lose a beam that is nearly cut through among round-off.
+/// Round-off makes conjugate gradients fail in a beam that is nearly cut through.
 void check_iterative_solver(const CaseFile& input) {
   if (input.analysis.solver != LinearSolver::iterative) return;
   if (is_beam(input.body) && input.analysis.type == AnalysisType::damage) {
     throw InputError(input.where("analysis.solver"),
-                     "is \"iterative\", but a beam that cracks needs a factor",
+                     "is \"iterative\", but a beam that cracks needs the direct solver",
                      "allowed with problem = \"beam\" and type = \"damage\": \"auto\", \"direct\"");
   }
   if (input.body.method != BodyMethod::linear_elements) return;
   throw InputError(input.where("analysis.solver"),
-                   "is \"iterative\", but linear elements are solved by a factor alone",
+                   "is \"iterative\", but linear elements need the direct solver",
                    "allowed with method = \"linear_elements\": \"auto\", \"direct\"");
 }
 

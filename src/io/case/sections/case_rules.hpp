@@ -4,8 +4,8 @@
 
 namespace perilink {
 
-/// Refuses what is wrong between the tables of a case: names that no region has, contradictory
-/// supports, a body that nothing loads.
+/// Refuses contradictions between the tables of a case: unknown regions, contradictory supports, a
+/// body without load.
 /// \throws InputError
 void check_rules(const CaseFile& input);
 

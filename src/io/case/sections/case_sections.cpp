@@ -17,7 +17,7 @@ namespace {
 
 constexpr int largest_count = std::numeric_limits<int>::max();
 
-/// Index in SupportSection::fix of what a support names.
+/// Returns the index in SupportSection::fix of a name.
 std::size_t find_held_component(const CaseTable& table, const BodySection& body,
                                 const std::string& name) {
   const int dim = axes_of(body);
@@ -46,7 +46,7 @@ std::size_t find_held_component(const CaseTable& table, const BodySection& body,
                         : (rotates ? "Allowed: x, y, z, rx, ry, rz" : "Allowed: x, y, z"));
 }
 
-/// Keys of [analysis] that only quasistatic analyses have.
+/// Reads the keys of [analysis] of quasistatic analyses.
 void read_events(const CaseTable& table, AnalysisSection& analysis) {
   assign(analysis.control, table.choice<LoadControl>("control"));
   assign(analysis.factor, table.choice<FactorRoute>("factor"));
@@ -81,7 +81,7 @@ SupportSection read_support(const CaseTable& table, const BodySection& body) {
 DisplacementSection read_displacement(const CaseTable& table, const BodySection& body) {
   const int dim = axes_of(body);
   DisplacementSection driven;
-  driven.region = table.need_region("that is driven");
+  driven.region = table.need_region("whose motion is prescribed");
   assign(driven.stage, table.text("stage"));
   bool any = false;
   for (std::size_t component = 0; component < 6; ++component) {
@@ -90,7 +90,7 @@ DisplacementSection read_displacement(const CaseTable& table, const BodySection&
     any = any || driven.value[component].has_value();
   }
   if (!any) {
-    table.refuse("", "drives no axis",
+    table.refuse("", "moves no axis",
                  dim == 2 ? "give x or y or both" : "give one or more of x, y, z");
   }
   return driven;
@@ -129,10 +129,8 @@ std::vector<double> read_load_factors(const CaseTable& table) {
                                                  "the load factors of the steps: [0.1, 0.2, 0.3]");
   if (factors.empty()) table.refuse("load_factors", "is empty", "give one number for each step");
   if (std::any_of(factors.begin(), factors.end(), [](double factor) { return factor < 0.0; })) {
-    table.refuse(
-        "load_factors", "holds a negative load factor",
-        "turn the signs of the loads and displacements instead: bonds are searched for breaks "
-        "under a growing load");
+    table.refuse("load_factors", "holds a negative load factor",
+                 "reverse the signs of the loads and displacements: the load must grow");
   }
   if (std::all_of(factors.begin(), factors.end(), [](double factor) { return factor == 0.0; })) {
     table.refuse("load_factors", "holds only zeros, so no step loads the body",
@@ -147,7 +145,7 @@ AnalysisSection read_analysis(const CaseTable& table, AnalysisType type) {
   assign(analysis.rigid_body_modes, table.choice<RigidBodyModes>("rigid_body_modes"));
   const bool is_explicit = type == AnalysisType::explicit_;
   const bool relaxes = type == AnalysisType::relaxation;
-  // Keys of other types are checked, too, and then forgotten.
+  // Keys of other types are checked but not used.
   AnalysisSection other;
   if (type == AnalysisType::elastic) analysis.tolerance = read_tolerance(table, 1e-10);
   read_strain(table, is_explicit || relaxes ? analysis : other);
@@ -204,7 +202,7 @@ OutputSection read_output(const CaseTable& table, AnalysisType type) {
         fmt::format("has {} after {}, but times must ascend", output.fields_times[i], before),
         "sort the times, each once; the fields at time 0 are always written");
   }
-  // As in [analysis], keys of other types are checked and forgotten.
+  // Keys of other types are checked but not used.
   if (type != AnalysisType::damage) {
     output.fields_at.clear();
     output.fields_every.reset();

@@ -25,7 +25,7 @@ StageSection read_stage(const CaseTable& table) {
   for (const char* rule : {"to_load", "broken_bonds", "load_fraction", "displacement"}) {
     const std::string end = stage.to ? "to" : "to_load";
     if (!table.has(rule) || end == rule) continue;
-    table.refuse(rule, fmt::format("is given beside `{}`", end),
+    table.refuse(rule, fmt::format("is given together with `{}`", end),
                  "a stage goes to a load factor or a load, or by events until a rule is met; "
                  "delete one of the two");
   }
@@ -58,7 +58,7 @@ void refuse_stages_of_loads(CaseFile& input) {
   });
 }
 
-/// What stages have no use for.
+/// Refuses keys that stages exclude.
 void refuse_beside_stages(const CaseFile& input) {
   const StopSection& stop = input.stop;
   if (stop.broken_bonds || stop.load_fraction || stop.displacement) {
@@ -79,7 +79,7 @@ void refuse_beside_stages(const CaseFile& input) {
   }
 }
 
-/// Names of stages that change loads of their own.
+/// Returns the names of stages that have their own loads, and checks all names.
 std::vector<std::string_view> check_names(const CaseFile& input) {
   std::vector<std::string_view> owners;
   std::set<std::string_view> before;
@@ -88,7 +88,7 @@ std::vector<std::string_view> check_names(const CaseFile& input) {
     if (!before.insert(stage.name).second) {
       throw InputError(input.where(item_key("stages", i, "name")),
                        fmt::format("is {}, the name of another stage", quoted(stage.name)),
-                       "give every stage a name of its own; `loads` says whose loads it changes");
+                       "give every stage a different name; `loads` says whose loads it changes");
     }
     if (stage.loads == stage.name) {
       owners.push_back(stage.name);
@@ -96,14 +96,14 @@ std::vector<std::string_view> check_names(const CaseFile& input) {
       throw InputError(
           input.where(item_key("stages", i, "loads")),
           fmt::format("is {}, but no earlier stage of that name has loads", quoted(stage.loads)),
-          owners.empty() ? "delete it: the first stage changes loads of its own"
+          owners.empty() ? "delete it: the first stage must have its own loads"
                          : suggest(stage.loads, owners));
     }
   }
   return owners;
 }
 
-/// Only the last stage may go on until the body collapses.
+/// Refuses a stage without an end, unless it is the last.
 void refuse_endless(const CaseFile& input, std::size_t i) {
   const StageSection& stage = input.stages[i];
   const StopSection& stop = stage.stop;
@@ -135,7 +135,7 @@ void resolve_stages(CaseFile& input) {
     if (owner == owners.end()) {
       throw InputError(
           input.where(item_key(table, i, "stage")),
-          fmt::format("is {}, but no stage of that name has loads of its own", quoted(stage)),
+          fmt::format("is {}, but no stage of that name has its own loads", quoted(stage)),
           suggest(stage, owners));
     }
     loaded.insert(*owner);
@@ -147,7 +147,7 @@ void resolve_stages(CaseFile& input) {
     throw InputError(
         input.where(item_key("stages", i)),
         fmt::format("has no loads: none has stage = {}", quoted(loads)),
-        "give loads this `stage`, or name those of an earlier stage: loads = \"NAME\"");
+        "give loads this `stage`, or name the loads of an earlier stage: loads = \"NAME\"");
   }
 }
 

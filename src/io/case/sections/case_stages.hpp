@@ -13,13 +13,13 @@ namespace perilink {
 
 StageSection read_stage(const CaseTable& table);
 
-/// Gives every load its stage, and checks that stages and loads fit each other.
+/// Assigns every load to its stage, and checks that stages and loads match.
 /// \throws InputError
 void resolve_stages(CaseFile& input);
 
 void write_stop(TomlWriter& out, const StopSection& stop);
 void write_stage(TomlWriter& out, const StageSection& stage);
-/// The key `stage` of a load; nothing where the case has no stages.
+/// Writes the key `stage` of a load where the case has stages.
 void write_stage_of(TomlWriter& out, const std::string& stage);
 
 }  // namespace perilink

@@ -9,15 +9,14 @@
 
 namespace perilink {
 
-/// Looks for keys and tables of a case that its kind has no use for, by the columns of
-/// case_schema(). One case may so serve an implicit and an explicit run, which differ in `type`
-/// alone.
-/// \param kind  problem, method and model of its [body] and type of its [analysis] count
-/// \return those that are set aside; their values are to be checked and forgotten
-/// \throws InputError for those that are refused
+/// Finds keys and tables that the kind of case does not use, by case_schema(). So one case can be
+/// used for implicit and explicit runs, which differ only in `type`.
+/// \param kind  its problem, method, model and type of analysis are used
+/// \return keys and tables that are checked but not used
+/// \throws InputError  where a key or table is refused
 std::vector<std::string> find_unused(const TomlValue& document, const CaseFile& kind);
 
-/// What a user should know of those set aside; nothing where all keys are used.
+/// Returns a note about unused keys; std::nullopt where all keys are used.
 std::optional<std::string> note_of_unused(const CaseFile& input);
 
 }  // namespace perilink

@@ -49,7 +49,7 @@ void write_body(TomlWriter& out, const BodySection& body) {
   out.write("critical_stretch", word_of(body.critical_stretch));
 }
 
-/// Elastic analyses need none.
+/// Whether the fracture energy may be left out: elastic analyses do not need it.
 bool needs_no_energy(const CaseFile& input) {
   return input.analysis.type == AnalysisType::elastic &&
          std::ranges::all_of(input.materials, [](const MaterialSection& material) {

@@ -215,7 +215,7 @@ TEST(GmshFile, NodesOfNoElementOfTheMeshMayLieOffThePlane) {
       replaced(off, "4 7 1 7\n0 1 15 1\n", "5 8 1 8\n0 99 15 1\n8 60\n0 1 15 1\n");
   EXPECT_EQ(parse_gmsh(loose, "m", 2).cells, parse_gmsh(square_mesh, "m", 2).cells);
   // A line of a group may be a bar of the body.
-  EXPECT_THAT(gmsh_message(replaced(off, "3 40 10", "3 40 60")), HasSubstr("z goes from 0 to 5"));
+  EXPECT_THAT(gmsh_message(replaced(off, "3 40 10", "3 40 60")), HasSubstr("z is from 0 to 5"));
 }
 
 TEST(GmshFile, GroupsOfOneNameAndDimensionAreOne) {
@@ -293,7 +293,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"partitioned", "$Entities", "$PartitionedEntities", "is partitioned"},
         Fault{"nameWithoutQuotes", "\"plate\"", "plate", "not between quotes"},
         Fault{"groupOfNoDimension", "2 5 \"plate\"", "5 5 \"plate\"", "impossible dimension"},
-        Fault{"notPlane", "2 2 0\n", "2 2 0.1\n", "z goes from 0 to 0.1"},
+        Fault{"notPlane", "2 2 0\n", "2 2 0.1\n", "z is from 0 to 0.1"},
         Fault{"tetrahedra", "2 21 2 4\n4 10 20 50 \n5 20 30 50 \n6 30 50 40 \n7 40 10 50 ",
               "3 21 4 1\n4 10 20 30 50", "holds tetrahedra"}),
     [](const auto& fault) { return std::string(fault.param.name); });

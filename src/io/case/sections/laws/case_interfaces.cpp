@@ -34,8 +34,8 @@ InterfaceSection read_interface(const CaseTable& table, int dim) {
     table.refuse("group", "is empty", "name physical curves of the mesh, in space surfaces");
   }
   if (table.choice<Softening>("softening") == Softening::concrete) {
-    table.refuse("softening", "is \"concrete\", which crushes: a face does not",
-                 "take \"brittle\", \"linear\", \"bilinear\" or \"exponential\"");
+    table.refuse("softening", "is \"concrete\", a law with crushing, which interfaces do not have",
+                 "set \"brittle\", \"linear\", \"bilinear\" or \"exponential\"");
   }
   section.softening = read_softening(table);
   if (!has_stretches(section.softening)) {
@@ -64,8 +64,8 @@ void check_interfaces(const CaseFile& input) {
     if (input.materials[m].softening.shape.kind != Softening::concrete) continue;
     throw InputError(
         input.where(item_key("materials", m, "softening")),
-        "is \"concrete\", whose bonds crush beside damaged ones, but the case has [[interfaces]]",
-        "take \"linear\", \"bilinear\", \"exponential\" or \"brittle\", or delete the interfaces");
+        "is \"concrete\", whose bonds crush near damaged bonds, but the case has [[interfaces]]",
+        "set \"linear\", \"bilinear\", \"exponential\" or \"brittle\", or delete the interfaces");
   }
 }
 

@@ -6,7 +6,7 @@
 
 namespace perilink {
 
-/// \throws InputError  for what the reader of a section cannot see: the rest of the case
+/// \throws InputError  where an interface contradicts the rest of the case
 void check_interfaces(const CaseFile& input);
 
 InterfaceSection read_interface(const CaseTable& table, int dim);

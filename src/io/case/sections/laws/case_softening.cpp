@@ -14,7 +14,8 @@ namespace perilink {
 namespace {
 
 constexpr double least_error = 1e-5;
-constexpr double most_rise = 1e10;  ///< stretch where the force is zero over that where it falls
+/// Largest ratio of the stretch at zero force to the stretch at the peak.
+constexpr double most_rise = 1e10;
 constexpr std::array knee_keys = {"knee_stress_ratio", "knee_opening_ratio"};
 constexpr std::array concrete_keys = {"tension_limit", "tension_factor", "compression_limit",
                                       "compression_factor", "shear_softening"};
@@ -25,7 +26,7 @@ constexpr std::array keys = {
     "softening_error", "knee_stress_ratio", "knee_opening_ratio", "tension_limit",
     "tension_factor",  "compression_limit", "compression_factor", "shear_softening"};
 
-/// The first of the keys that is there; none: null.
+/// Returns the first given key, or nullptr.
 template <std::size_t count>
 const char* find_given(const CaseTable& table, const std::array<const char*, count>& names) {
   for (const char* key : names) {
@@ -43,8 +44,8 @@ std::array<double, 2> read_stretches(const CaseTable& table, Softening kind) {
                  "give `tensile_strength` and `fracture_energy`");
   }
   if (table.has("fracture_energy")) {
-    table.refuse("fracture_energy", "is given beside `softening_stretches`",
-                 "delete one of the two: the stretches settle the energy");
+    table.refuse("fracture_energy", "is given together with `softening_stretches`",
+                 "delete one of the two: the stretches determine the energy");
   }
   if (given->size() != 2 || !((*given)[0] > 0.0) || !((*given)[1] > (*given)[0]) ||
       !((*given)[1] <= most_rise * (*given)[0])) {
@@ -65,7 +66,8 @@ void refuse_beside_brittle(const CaseTable& table) {
   }
 }
 
-/// Where a force ceases to grow, and a larger stretch where it falls to zero.
+/// Reads the stretch at which the force stops growing, and the larger stretch at which it falls to
+/// zero.
 std::array<double, 2> read_plateau(const CaseTable& table, const std::string& sense) {
   const std::string factor_key = sense + "_factor";
   const double limit = table.need(sense + "_limit", table.positive(sense + "_limit"),
@@ -77,7 +79,7 @@ std::array<double, 2> read_plateau(const CaseTable& table, const std::string& se
                  fmt::format("must be more than one and at most {:g}: the force is constant up to "
                              "there",
                              most_rise),
-                 "2 in tension and 3 in compression are those of the paper");
+                 "2 in tension and 3 in compression are the values of the paper");
   }
   return {limit, factor * limit};
 }
@@ -86,13 +88,13 @@ void read_error(const CaseTable& table, SofteningMaterial& material) {
   assign(material.error, table.fraction("softening_error"));
   if (material.error >= least_error) return;
   table.refuse("softening_error", fmt::format("is {}", material.error),
-               fmt::format("give {} or more: bonds would have more teeth than anyone can wait for",
+               fmt::format("give {} or more: a smaller error needs too many saw-tooth segments",
                            least_error));
 }
 
 void read_concrete(const CaseTable& table, SofteningMaterial& material) {
   if (const char* key = find_given(table, other_keys)) {
-    table.refuse(key, "is given, but softening = \"concrete\" has limits that settle the law",
+    table.refuse(key, "is given, but softening = \"concrete\" has limits that determine the law",
                  "delete it; `check` prints the strengths and the fracture energy");
   }
   if (material.closes) {

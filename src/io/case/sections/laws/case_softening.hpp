@@ -4,19 +4,18 @@
 #include "io/text/toml_writer.hpp"
 #include "material/softening.hpp"
 
-/// \file
-/// Keys of [[materials]] that say how bonds soften. What they leave out is brittle; a material with
-/// a tensile strength and no word about its softening is bilinear.
+/// \file Keys of [[materials]] for the softening of bonds. The default is brittle, and bilinear
+///     where a tensile strength is given.
 
 namespace perilink {
 
 SofteningMaterial read_softening(const CaseTable& table);
 void write_softening(TomlWriter& out, const SofteningMaterial& material);
 
-/// Whether the law is given by its stretches in place of strength and fracture energy.
+/// Whether stretches give the law, in place of strength and fracture energy.
 inline bool has_stretches(const SofteningMaterial& material) { return material.stretches[0] > 0.0; }
 
-/// Refuses every key of them in a material that cannot break.
+/// Refuses every key of softening in a material that cannot break.
 void refuse_softening(const CaseTable& table);
 
 }  // namespace perilink

@@ -167,7 +167,7 @@ TEST(Loads, TractionsOffTheSurfaceAreRefusedWithTheNearestFacet) {
 TEST(Loads, FormulasThatAreZeroEverywhereAreRefused) {
   CaseFile input = strip_with_top();
   input.tractions.push_back(traction_on("top", 0.0, Expression("y - 80")));
-  expect_refused(input, "tractions[1]", "nothing loads the body");
+  expect_refused(input, "tractions[1]", "the case has no load");
 }
 
 /// A body of triangles or tetrahedra, 5 by 3 cells in the plane, whose region "loaded" bears 10

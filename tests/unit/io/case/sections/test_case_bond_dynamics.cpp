@@ -106,7 +106,7 @@ TEST(CaseMovingBonds, VelocitiesAreOfExplicitBonds) {
   const auto with_velocity = [](const std::string& text) {
     return replaced(text, "[analysis]", velocity + std::string("[analysis]"));
   };
-  EXPECT_THAT(dynamics_refusal(with_velocity(lattice_case)), HasSubstr("only regions of bonds"));
+  EXPECT_THAT(dynamics_refusal(with_velocity(lattice_case)), HasSubstr("only bodies of bonds"));
   EXPECT_THAT(dynamics_refusal(with_velocity(explicit_case("")) +
                                "[[displacements]]\nregion = \"block\"\nx = 0\n"),
               testing::StrEq("accepted"));

@@ -61,7 +61,7 @@ TEST(CaseLatticeYielding, RefusesWhatMakesNoSense) {
   EXPECT_THAT(yielding_refusal(yielding_case(yielding + "crushing_energy = \"much\"\n")),
               HasSubstr("neither a number nor"));
   EXPECT_THAT(yielding_refusal(yielding_case(yielding + "crushing_energy = 1\n", "2017")),
-              HasSubstr("soften in their own way"));
+              HasSubstr("have their own softening"));
   EXPECT_THAT(
       yielding_refusal(yielding_case(replaced(yielding, "0.03", "0.01") + "crushing_energy = 1\n")),
       HasSubstr("less than the yield strength"));
