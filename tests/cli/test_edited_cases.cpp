@@ -155,9 +155,11 @@ TEST_F(MeshedCase, CurvesBesideTheMeshAreNoRegions) {
   for (const char* command : {"check", "run"}) {
     const auto end = run("body.msh", {command});
     EXPECT_EQ(end.exit_status, 2);
-    EXPECT_THAT(end.err, AllOf(HasSubstr("regions[3].group: is \"bars\", a line of which, at (0.4, "
-                                         "0.1), is no side of a cell"),
-                               HasSubstr("Coherence")));
+    EXPECT_THAT(
+        end.err,
+        AllOf(HasSubstr("regions[3].group: is \"bars\", a line of which, at (0.4, 0.1), is not "
+                        "an edge of a cell"),
+              HasSubstr("Coherence")));
   }
 }
 

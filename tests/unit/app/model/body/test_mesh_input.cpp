@@ -291,8 +291,8 @@ TEST_F(MeshInput, LinesBesideTheMeshAreNoneOfAGroup) {
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(),
-                HasSubstr("interfaces[1].group: is \"joint\", a line of which, at (20, "
-                          "30), is no side of a cell"));
+                HasSubstr("interfaces[1].group: is \"joint\", a line of which, at (20, 30), is "
+                          "not an edge of a cell"));
   }
 }
 
