@@ -90,8 +90,7 @@ std::optional<std::string> note_of_zone(double zone, double horizon, double body
 }
 
 /// Returns a note on a bar with an unusual modulus or yield strain.
-/// \param softest,stiffest  smallest and largest modulus of all materials, wherever the bar
-///                          asked
+/// \param softest,stiffest  smallest and largest modulus of all solid materials
 std::optional<std::string> note_of_bar(const RebarSection& bar, double softest, double stiffest) {
   const bool is_soft = bar.youngs_modulus < least_bar_modulus * softest;
   if (is_soft || bar.youngs_modulus > largest_bar_modulus * stiffest) {

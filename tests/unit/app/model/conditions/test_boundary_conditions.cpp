@@ -213,7 +213,7 @@ TEST(BoundaryConditions, BodiesInMotionAreHeldByTheirInertia) {
   const Model pinned = build_model(input);
   EXPECT_EQ(pinned.unknowns.count, 2 * 45);
   EXPECT_THAT(pinned.notes, testing::Contains(testing::HasSubstr("no particle is held")));
-  EXPECT_THAT(pinned.notes, testing::Contains(testing::HasSubstr("is taken out of them")));
+  EXPECT_THAT(pinned.notes, testing::Contains(testing::HasSubstr("is subtracted from them")));
   const LoadResultant sum = load_resultant(pinned.network, pinned.loads);
   EXPECT_NEAR(sum.force[0], 0.0, 1e-13);
   EXPECT_NEAR(sum.force[1], 0.0, 1e-13);
