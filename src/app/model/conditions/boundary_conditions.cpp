@@ -120,9 +120,9 @@ void pin(const CaseFile& input, Model& model, Fragment fragment, Prescription& p
   const Inertia inertia = lumped_inertia(model.network, density, input.analysis.masses);
   balance_loads(model.network, fragment, inertia.mass, model.loads);
   model.notes.push_back(
-      "what is left of the net force and couple of the loads is subtracted "
-      "from them, so that the free body neither moves nor turns as a whole; "
-      "no particle is held");
+      "the remaining net force and couple of the loads are subtracted from "
+      "them, so that the free body neither translates nor rotates; no "
+      "particle is held");
 }
 
 /// \param off  CutOffParts::particles
