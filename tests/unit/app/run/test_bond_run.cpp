@@ -191,7 +191,7 @@ TEST_F(BondRunTest, DoubtsABodyThatFliesApart) {
   const auto& json = run.summary.json;
   EXPECT_GT(json["kinetic_energy"].get<double>(), 0.9 * json["external_work"].get<double>());
   EXPECT_THAT(run.summary.warnings,
-              testing::Contains(testing::HasSubstr("a piece of the body is held by nothing")));
+              testing::Contains(testing::HasSubstr("a piece of the body is unsupported")));
   EXPECT_EQ(json["doubts"], run.summary.warnings);
   EXPECT_THAT(run.summary.text, testing::HasSubstr("held by nothing"));
 }

@@ -48,7 +48,7 @@ TEST(RunWarnings, NameWorkThatIsStillMotion) {
               ElementsAre(HasSubstr("30 % of the work is kinetic energy at the end: the body, or "
                                     "pieces of it, move freely")));
   EXPECT_THAT(warnings_about(result, {100.0, false, 0.0, 1}),
-              ElementsAre(HasSubstr("a piece of the body is held by nothing")));
+              ElementsAre(HasSubstr("a piece of the body is unsupported")));
   EXPECT_THAT(warnings_about(result, {100.0, false, 0.0, 2}),
               ElementsAre(HasSubstr("2 pieces of the body are held by nothing")));
   result.last.energy.kinetic = 7.0;  // 77 in all
