@@ -1,8 +1,6 @@
 // Checks available memory before any library starts. OpenBLAS allocates a buffer per thread while
-// it
-// is loaded; without memory it retries forever (fixed after its version 0.3.29). Code in main() or
-// in
-// a constructor would run too late.
+// it is loaded; without memory it retries forever (fixed after its version 0.3.29). Code in main()
+// or in a constructor would run too late.
 
 #include <sys/mman.h>
 #include <unistd.h>

@@ -14,8 +14,7 @@ namespace perilink {
 namespace {
 
 /// Ends with an error unless all ranks have the same command line, because all ranks work on the
-/// case
-/// of rank 0.
+/// case of rank 0.
 void require_one_command(Ranks& ranks, int argc, char** argv) {
   std::string words;
   for (int k = 1; k < argc; ++k) words.append(argv[k]).push_back('\0');

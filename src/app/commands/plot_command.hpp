@@ -12,8 +12,7 @@ struct PlotOptions {
 };
 
 /// Draws history.csv as load_displacement.svg and every file of fields.pvd as fields_<row>.svg.
-/// Title
-/// and units come from summary.json where it exists.
+/// Title and units come from summary.json where it exists.
 /// \returns the exit status
 /// \throws FileError
 int plot_results(const PlotOptions& options);

@@ -13,8 +13,7 @@ struct CrackPattern {
 };
 
 /// Damage from which a particle counts as cracked. A plane crack breaks half of the bonds of
-/// adjacent
-/// particles, and this fraction of the bonds of particles a third of a horizon away.
+/// adjacent particles, and this fraction of the bonds of particles a third of a horizon away.
 inline constexpr double cracked_damage = 0.3;
 
 /// Overlap of the cracks of two bodies. Fractions are not-a-number where their denominator is zero.

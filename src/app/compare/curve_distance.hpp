@@ -8,8 +8,7 @@
 /// \file
 /// Distances between load–displacement curves. A path joins the rows of a history by straight lines
 /// from the origin; it may snap back. A reading is a single-valued curve over the displacement,
-/// with
-/// two points at each jump.
+/// with two points at each jump.
 
 namespace perilink {
 
@@ -29,9 +28,8 @@ double work_until(std::span<const CurvePoint> reading, double range);
 
 /// Mean distance from either path to the nearest point of the other one. Each path is averaged over
 /// its arc length, in the plane of u / max|u| and P / max|P| with the maxima of both paths.
-/// Snap-back
-/// branches count in full. Not-a-number when all displacements or all loads are zero. The cost is
-/// 2000 times the rows of both.
+/// Snap-back branches count in full. Not-a-number when all displacements or all loads are zero. The
+/// cost is 2000 times the rows of both.
 double path_distance(std::span<const CurvePoint> a, std::span<const CurvePoint> b);
 
 }  // namespace perilink

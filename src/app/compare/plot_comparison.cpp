@@ -18,8 +18,7 @@ constexpr double legend_row = 21.0;
 constexpr std::size_t legend_letters = 98;  ///< most characters that fit in a line of the legend
 
 /// Colours for colour-blind readers (Okabe & Ito 2008). The second line is dashed, for prints
-/// without
-/// colour and for coinciding curves.
+/// without colour and for coinciding curves.
 struct Look {
   const char* color;
   const char* dashes;
@@ -52,8 +51,7 @@ std::string heading_of(const RunResult& a, const RunResult& b) {
 }
 
 /// Returns a legend entry, "coarse: Beam in bending, peak 12 kN at 0.3 mm". The title is left out
-/// if
-/// the heading has it or if it does not fit.
+/// if the heading has it or if it does not fit.
 std::string legend_text(const RunResult& result, const std::string& heading) {
   const StepRecord& peak = result.peak();
   const std::string end =

@@ -30,8 +30,7 @@ struct RunResult {
   NamedNumbers gauges, gauges_at_peak;  ///< at the last row, and at the peak
   std::optional<CrackPattern> body;     ///< from the last field file
   /// Horizon from summary.json, else the longest broken bond or two spacings, whichever is larger
-  /// (a
-  /// lattice bond depends on the neighbours of both ends); 0 without fields [length].
+  /// (a lattice bond depends on the neighbours of both ends); 0 without fields [length].
   double horizon = 0.0;
   std::vector<std::string> notes;  ///< missing data and unfinished runs
 

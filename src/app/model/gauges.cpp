@@ -35,10 +35,8 @@ std::string point_text(const Vector3& point, int dim) {
 }
 
 /// Returns particles with an intact bond to a particle, nearest to `point` first; without known
-/// bonds
-/// those around it. Broken bonds do not count, since displacements jump across cracks. Stresses
-/// jump
-/// between materials.
+/// bonds those around it. Broken bonds do not count, since displacements jump across cracks.
+/// Stresses jump between materials.
 std::vector<Index> neighbors_of(const Model& model, Index particle, const Vector3& point,
                                 bool same_material) {
   const Network& network = model.network;
@@ -73,10 +71,8 @@ std::vector<Index> neighbors_of(const Model& model, Index particle, const Vector
 }
 
 /// Returns interpolation weights of a particle and its neighbours at a point: barycentric
-/// coordinates
-/// in the line, triangle or tetrahedron of the nearest ones around the point. No weight is
-/// negative: a
-/// point outside is projected to the border.
+/// coordinates in the line, triangle or tetrahedron of the nearest ones around the point. No weight
+/// is negative: a point outside is projected to the border.
 std::vector<Gauge::Term> linear_terms(const Model& model, Index nearest, const Vector3& point,
                                       bool same_material) {
   constexpr double flat = 0.25, little = 1e-9;

@@ -12,8 +12,7 @@
 namespace perilink {
 
 /// Builds the gauges of a case: at a particle, interpolated between the particles around a point,
-/// or
-/// averaged over a region with weights in proportion to volumes.
+/// or averaged over a region with weights in proportion to volumes.
 /// \param notes  receives a note for each point without a particle
 /// \throws InputError  for points outside the body, two points with one particle, empty regions and
 ///                     names of columns of every history
@@ -34,11 +33,11 @@ double gauge_value(const Gauge& gauge, int dim, Displacement displacement) {
 }
 
 /// Returns the values of all gauges [length] or [force/length^2].
-/// \param families  bonds of each particle; filled once a gauge needs them
+/// \param neighbourhoods  bonds of each particle; filled once a gauge needs them
 std::vector<double> gauge_values(const Model& model, const ModelState& state, Csr& neighbourhoods);
 
 /// Returns the input for stresses at the particles of a model.
-/// \param families  bonds of each particle; must outlive the result
+/// \param neighbourhoods  bonds of each particle; must outlive the result
 StressInput stress_input(const Model& model, const Csr& neighbourhoods, Secants secants = {});
 
 }  // namespace perilink

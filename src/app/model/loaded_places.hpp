@@ -38,18 +38,14 @@ Place& place_named(std::vector<Place>& places, const std::string& name) {
 }
 
 /// Returns the total load: half the sum of the magnitudes of all balanced forces, of load regions
-/// and
-/// supports. Forces F give F against supports or each other, and 2 F side by side. A single region
-/// gives
-/// its resultant, but at least half the sum of its force magnitudes, as for pressure all around.
-/// Without forces the total is that of moments.
+/// and supports. Forces F give F against supports or each other, and 2 F side by side. A single
+/// region gives its resultant, but at least half the sum of its force magnitudes, as for pressure
+/// all around. Without forces the total is that of moments.
 double total_load(std::span<const LoadRegion> places);
 
 /// Returns the largest difference between the prescribed displacements of two regions, or of a
-/// region
-/// and the supports, as the norm over their common components. Without displacements it is the
-/// largest
-/// difference of rotations.
+/// region and the supports, as the norm over their common components. Without displacements it is
+/// the largest difference of rotations.
 /// \param held  supported components; those prescribed in only one region count as held
 /// \param dim   number of displacement components; rotations follow them
 double relative_motion(std::span<const PrescribedRegion> places, const std::array<bool, 6>& held,

@@ -34,8 +34,7 @@ struct Gauge {
 };
 
 /// Particles, bonds, unknowns and loads of a case. With method = "linear_elements" the network
-/// holds
-/// the particles and the cell edges as bonds, used for connectivity only.
+/// holds the particles and the cell edges as bonds, used for connectivity only.
 struct Model : LoadedNetwork {
   Problem problem = Problem::plane_stress;
   Lattice lattice;
@@ -51,8 +50,7 @@ struct Model : LoadedNetwork {
   std::vector<PrescribedRegion> prescribed_regions;
   std::vector<Gauge> gauges;
   /// Per particle, whether a support or prescribed displacement acts on it. Planes of symmetry do
-  /// not
-  /// count, since cracks may reach them.
+  /// not count, since cracks may reach them.
   std::vector<std::uint8_t> gripped;
   std::vector<HookeConstants> hooke;  ///< elastic constants per material
   LoadResultant resultant;

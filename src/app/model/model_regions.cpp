@@ -83,8 +83,7 @@ bool lies_on(const Piece& piece, const Vector3& point, double tolerance) {
 }
 
 /// Adds bar nodes on the surface, or on points, lines, sides or cells of a group; these nodes are
-/// not
-/// mesh vertices.
+/// not mesh vertices.
 /// \param group  null: the surface
 void add_bar_nodes(const Model& model, const Group* group, std::vector<Index>& members) {
   const Particles& particles = model.network.particles;

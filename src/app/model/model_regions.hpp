@@ -12,8 +12,7 @@ const Group& group_named(const Model& model, const std::string& name);
 
 /// Returns solid particles and bar nodes inside a region, ascending. A physical group has its mesh
 /// particles and the bar nodes on its points, lines and sides or in its cells. "surface" has the
-/// corners
-/// of all surface facets and the bar nodes on them; "body" has everything.
+/// corners of all surface facets and the bar nodes on them; "body" has everything.
 /// \param key  place in the case, for messages
 /// \throws InputError when there is none
 std::vector<Index> particles_of_region(const CaseFile& input, const Model& model,

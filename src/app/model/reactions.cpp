@@ -42,8 +42,7 @@ std::vector<Index> particles_in(const CaseFile& input, const Model& model, std::
 }
 
 /// Returns the particles on springs, ascending: the corners of facets with a stiffness per area,
-/// which
-/// may lie outside the region, or the particles that share a total stiffness.
+/// which may lie outside the region, or the particles that share a total stiffness.
 std::vector<Index> sprung_particles(const CaseFile& input, const Model& model, std::size_t k) {
   const SpringSection& section = input.springs[k];
   const std::string key = item_key("springs", k, "region");

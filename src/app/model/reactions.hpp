@@ -24,8 +24,7 @@ void pass_to_held(const Model& model, std::span<const std::uint8_t> whole,
                   std::span<const double> loads, std::span<double> forces);
 
 /// Returns the reaction on each component, zero on free ones. In static equilibrium it is the
-/// internal
-/// force minus the load.
+/// internal force minus the load.
 /// \return shape (particles, width) [force], moments [force length]
 std::vector<double> holding_forces(const Model& model, const ModelState& state);
 
@@ -47,16 +46,13 @@ struct SupportRegion {
 };
 
 /// Returns the support regions, with every held particle in the first of its entries. Regions come
-/// from
-/// [[supports]], [[symmetry]], [[springs]], [[displacements]] and [[velocities]]; entries of one
-/// table
-/// and region form one region.
+/// from [[supports]], [[symmetry]], [[springs]], [[displacements]] and [[velocities]]; entries of
+/// one table and region form one region.
 std::vector<SupportRegion> support_regions(const CaseFile& input, const Model& model);
 
 struct ReactionTable {
   /// CSV text: a row for each region, one for all loads and one for the sum. Moments of the last
-  /// two rows
-  /// are about the origin.
+  /// two rows are about the origin.
   std::string text;
   Reaction sum;  ///< sum of loads and reactions, about the middle of all particles
 };

@@ -27,8 +27,7 @@ struct CurveFrame {
 CurveFrame make_curve_frame(std::span<const CurvePoint> points, double top);
 
 /// Returns a curve through `points`, starting from `from`. Points within a pixel of the last one
-/// are
-/// skipped.
+/// are skipped.
 SvgPath curve_path(const CurveFrame& frame, std::span<const CurvePoint> points,
                    CurvePoint from = {});
 

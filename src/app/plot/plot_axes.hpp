@@ -24,8 +24,7 @@ double round_down_to_nice(double value);
 Ticks nice_ticks(double low, double high, int most);
 
 /// Returns the power of ten left out of the labels of an axis with very small or large numbers; 0
-/// for
-/// none.
+/// for none.
 int common_exponent(double low, double high);
 
 /// Formats a tick divided by 10^exponent, "−0.25", with the digits that `step` needs.
@@ -66,8 +65,7 @@ struct LogAxis {
 LogAxis make_log_axis(double low, double high, double pixel_low, double pixel_high);
 
 /// Returns at most `most` ticks at powers of ten in [low, high], and at 2 and 5 times these where
-/// they
-/// fit.
+/// they fit.
 std::vector<double> log_ticks(double low, double high, int most);
 
 /// Formats a tick of log_ticks(), "10⁻³", "2·10⁴", "0.5", "20".

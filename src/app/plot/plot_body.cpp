@@ -57,9 +57,8 @@ void read_lines(const VtuGrid& grid, const std::vector<double>& element, PlotBod
 }
 
 /// Returns the drawn size of each particle. Square and cubic lattices have one size. Others fill
-/// the
-/// plane with hexagons, or space with cubes, of the particle volumes. Files without volumes use the
-/// spacing.
+/// the plane with hexagons, or space with cubes, of the particle volumes. Files without volumes use
+/// the spacing.
 std::vector<double> particle_sizes(const VtuGrid& grid, const PlotBody& body) {
   std::vector<double> sizes(body.positions.size(), body.spacing);
   const VtuArray* volumes = grid.find_point_data("volume");

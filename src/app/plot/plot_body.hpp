@@ -25,8 +25,7 @@ struct PlotBody {
   std::vector<Vector3> displacements;  ///< [length]
   std::vector<double> damage;
   /// Approximate distance to the nearest particles [length]; smaller at surfaces, where particles
-  /// have
-  /// half a cell or less.
+  /// have half a cell or less.
   std::vector<double> sizes;
   std::vector<double> openings;  ///< per broken bond [length]; empty: not in the file
   bool is_mid_surface = false;   ///< a plate or shell in space
@@ -37,8 +36,7 @@ struct PlotBody {
   std::vector<Ends> segments;
   std::vector<double> bar_stress;  ///< per segment [force/length^2]; empty: not in the file
   /// Corners of finite elements that constrain particles, in order round each element; two
-  /// dimensions
-  /// only.
+  /// dimensions only.
   Csr elements;
 
   Index size() const { return static_cast<Index>(positions.size()); }
@@ -50,8 +48,7 @@ struct PlotBody {
 PlotBody read_body(const VtuGrid& grid, const std::string& path);
 
 /// Returns a factor on displacements, 1, 2 or 5 times a power of ten, that draws the largest at
-/// about
-/// 8 % of the size of the body.
+/// about 8 % of the size of the body.
 double automatic_scale(const PlotBody& body);
 
 /// Returns deformed positions with displacements times `scale`.
@@ -61,8 +58,7 @@ std::vector<Vector3> deformed_positions(const PlotBody& body, double scale);
 bool on_square_lattice(const PlotBody& body);
 
 /// Projects a point orthographically to (right, up, toward the viewer). Two-dimensional bodies stay
-/// as
-/// they are, three-dimensional ones are seen obliquely from above.
+/// as they are, three-dimensional ones are seen obliquely from above.
 Vector3 view(const Vector3& point, int dim);
 
 }  // namespace perilink

@@ -28,8 +28,7 @@ struct ConvergencePlot {
 };
 
 /// Draws error over cost on logarithmic axes, with a colour and mark for each series and a legend
-/// to
-/// the right.
+/// to the right.
 Svg draw_convergence(const ConvergencePlot& plot);
 
 }  // namespace perilink

@@ -68,8 +68,7 @@ PeakLabel label_of(const CurveFrame& frame, const char* name, const CurvePoint& 
 }
 
 /// Returns the labels of the peak. Where the load rose again after failure, labels the first peak
-/// and
-/// the largest load.
+/// and the largest load.
 std::vector<PeakLabel> labels_of(const CurveFrame& frame, const StepRecord& peak,
                                  const std::optional<CurvePoint>& first_peak,
                                  const PlotLabels& labels) {
@@ -90,8 +89,7 @@ void mark_peak(Svg& svg, const PeakLabel& label) {
 }
 
 /// Returns the corner of the frame in which the legend covers no label and as little of the curve
-/// as
-/// possible.
+/// as possible.
 Area legend_area(const CurveFrame& frame, std::span<const PeakLabel> labels,
                  std::span<const CurvePoint> curve, std::size_t lines = 2) {
   constexpr double width = legend_width, margin = 2.0;

@@ -22,8 +22,7 @@ std::size_t peak_row(std::span<const StepRecord> records);
 std::vector<CurvePoint> points_of(std::span<const StepRecord> records);
 
 /// Returns event_path() of the rows of a run; empty where its summary shows a run without
-/// bond-breaking
-/// events.
+/// bond-breaking events.
 std::vector<CurvePoint> event_path_of(std::span<const StepRecord> records,
                                       const PlotLabels& labels);
 

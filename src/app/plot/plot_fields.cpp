@@ -62,8 +62,7 @@ std::string shade_color(int shade) {
 }
 
 /// Draws particles of a square lattice as cells, one path per shade. Small cells overlap slightly,
-/// to
-/// avoid a moiré pattern of the page.
+/// to avoid a moiré pattern of the page.
 void draw_squares(Svg& svg, const Scene& scene) {
   const double size = scene.spacing_px() * (scene.spacing_px() < 7.0 ? 1.1 : 0.94);
   std::map<int, SvgPath> cells;  // light ones first, so that the damaged ones stay visible
@@ -78,8 +77,7 @@ void draw_squares(Svg& svg, const Scene& scene) {
 }
 
 /// Draws particles off a square lattice as dots, by the round caps of strokes. Widths follow
-/// particle
-/// sizes in steps of a quarter of a pixel.
+/// particle sizes in steps of a quarter of a pixel.
 void draw_dots(Svg& svg, const Scene& scene) {
   constexpr double step = 0.25;
   std::map<std::pair<int, long>, SvgPath> dots;
@@ -193,8 +191,7 @@ double drawn_opening(const Scene& scene, const Ends& ends) {
 }
 
 /// Draws broken bonds as hairlines, fainter the more there are. On coarse lattices they show long
-/// bonds
-/// that broke first. Bonds across a visible gap are not drawn.
+/// bonds that broke first. Bonds across a visible gap are not drawn.
 void draw_bond_hairlines(Svg& svg, const Scene& scene) {
   constexpr std::size_t too_many = 2000;
   constexpr double visible_gap = 0.5;

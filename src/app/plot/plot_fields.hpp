@@ -18,8 +18,7 @@ struct FieldsCaption {
 };
 
 /// Draws the deformed body: particles coloured by damage, or by von Mises stress in elastic
-/// analyses,
-/// crack faces, bars and ghosts.
+/// analyses, crack faces, bars and ghosts.
 /// \param scale  factor on the displacements; 0: automatic
 Svg draw_fields(const PlotBody& body, const FieldsCaption& caption, const PlotLabels& labels,
                 double scale);

@@ -19,8 +19,7 @@ struct StagePath {
 };
 
 /// Returns the stages of a history; empty: it has none. A stage that changes the loads of the
-/// previous
-/// stage continues its curve; others start at their first row, since their axes differ.
+/// previous stage continues its curve; others start at their first row, since their axes differ.
 std::vector<StagePath> paths_of_stages(std::span<const StepRecord> records,
                                        const PlotLabels& labels);
 

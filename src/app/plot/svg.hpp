@@ -15,8 +15,7 @@ struct SvgPoint {
 };
 
 /// Data of a <path>. Coordinates are rounded to 1/100 px and written relative to the previous
-/// point,
-/// which keeps files small. Rounding errors do not accumulate.
+/// point, which keeps files small. Rounding errors do not accumulate.
 class SvgPath {
  public:
   void move_to(SvgPoint to);

@@ -8,8 +8,7 @@
 namespace perilink {
 
 /// Progress of a run on standard error: a bar redrawn on a terminal, occasional plain lines
-/// elsewhere,
-/// no output when quiet.
+/// elsewhere, no output when quiet.
 class ProgressBar {
  public:
   explicit ProgressBar(bool quiet);
@@ -31,8 +30,7 @@ class ProgressBar {
 };
 
 /// Progress of the bond calibration on a terminal: a line redrawn on standard error and removed at
-/// the
-/// end; no output elsewhere or when quiet.
+/// the end; no output elsewhere or when quiet.
 class CalibrationProgress {
  public:
   explicit CalibrationProgress(bool quiet);

@@ -8,8 +8,7 @@ namespace perilink {
 bool is_one_of_many();
 
 /// Replaces this process by perilink-mpi, which builds with MPI install next to the program.
-/// Returns
-/// where it does not exist; the first process then prints an error.
+/// Returns where it does not exist; the first process then prints an error.
 void become_rank(char** words);
 
 /// Returns the communicator of at least two processes; null in serial runs.

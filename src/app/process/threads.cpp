@@ -42,8 +42,7 @@ void* wait_for_end(void* end) {
 }
 
 /// Returns how many threads can exist at once, including this one. OpenMP ends the program if it
-/// cannot
-/// start a thread, so the number must be known first.
+/// cannot start a thread, so the number must be known first.
 int threads_that_start(int wanted) {
   std::vector<pthread_t> others(static_cast<std::size_t>(wanted - 1));
   std::latch end(1);

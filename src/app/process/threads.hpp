@@ -5,13 +5,13 @@
 namespace perilink {
 
 /// Returns the processors granted to a container (docker run --cpus), from the cgroup files,
-/// version 2
-/// or 1, at their visible root; infinity: no limit. OpenMP counts the processors of the host.
+/// version 2 or 1, at their visible root; infinity: no limit. OpenMP counts the processors of the
+/// host.
 double granted_processors(const std::string& cgroups = "/sys/fs/cgroup");
 
 /// Sets the number of threads for all later work. Uses fewer than wanted, with a message on
-/// standard
-/// error, where process limits or libraries allow fewer. Results do not depend on the number.
+/// standard error, where process limits or libraries allow fewer. Results do not depend on the
+/// number.
 /// \param wanted  0: OMP_NUM_THREADS, or all processors that the process may use and is
 ///                granted
 /// \return the number of threads

@@ -12,13 +12,11 @@
 namespace perilink {
 
 /// Returns a line with the largest force out of balance before and after, the range of weights and
-/// the
-/// number of bonds at the lower bound.
+/// the number of bonds at the lower bound.
 std::string calibration_line(const CalibrationReport& report);
 
 /// Returns the position and size of the largest residual of the calibration; empty where its
-/// equations
-/// are met or no bond is calibrated.
+/// equations are met or no bond is calibrated.
 std::optional<std::string> calibration_shortfall(const Network& network);
 
 /// Returns the calibration report for summary.json.

@@ -30,15 +30,13 @@ struct FieldMoment {
   double load_factor = 0.0;
   double load = 0.0;                     ///< [force]
   double spacing = 0.0;                  ///< between particles [length]
-  std::optional<double> time = {};       ///< in runs over time [time]
+  std::optional<double> time = {};       ///< time-dependent runs [time]
   std::optional<double> thickness = {};  ///< in the plane [length]
 };
 
 /// Returns the state of a body as a grid. Points are the particles at their reference positions (z
-/// = 0
-/// in two dimensions). Cells: a vertex for each particle, then a line for each broken bond in the
-/// order
-/// of breaking, then a line for each bar element. Fields:
+/// = 0 in two dimensions). Cells: a vertex for each particle, then a line for each broken bond in
+/// the order of breaking, then a line for each bar element. Fields:
 ///   points  displacement, damage, region (number of the material, -1 none), kind (0 solid, 1
 ///           ghost, 2 rebar), volume, strain_energy_density, principal_strain (largest first); with
 ///           micropolar bonds rotation (one number in two dimensions, three in three)
@@ -47,7 +45,7 @@ struct FieldMoment {
 /// \param secants                   one per element, shape (elements) [-]
 /// \param motion                    motion of that state, shape (particles, width) [length]
 /// \param broken_elements_in_order  broken bonds and bond-slip springs, in order of breaking
-/// \param families                  bonds of each particle (bonds_of_particles)
+/// \param neighbourhoods            bonds of each particle (bonds_of_particles)
 VtuGrid make_field_grid(const Network& network, Secants secants, std::span<const double> motion,
                         const FieldMoment& moment, std::span<const Index> broken_elements_in_order,
                         const Csr& neighbourhoods);
@@ -58,8 +56,7 @@ VtuGrid make_field_grid(const Network& network, Secants secants, std::span<const
 void add_bars(VtuGrid& grid, const BarState& bars);
 
 /// Adds stresses as point fields: stress, principal_stress (largest first; two or three values) and
-/// the
-/// unit vectors first_principal_direction and last_principal_direction.
+/// the unit vectors first_principal_direction and last_principal_direction.
 /// \param stresses  particle_stresses()
 void add_stresses(VtuGrid& grid, std::vector<double> stresses, int dim);
 
@@ -83,13 +80,10 @@ void add_hosts(VtuGrid& grid, const Particles& particles, const Hosts& hosts,
 void number_cracks(VtuGrid& grid, std::span<const Index> cracked);
 
 /// Returns the state of linear elements as a grid. Cells: a vertex for each particle, then the
-/// triangles
-/// or tetrahedra. Fields are those of make_field_grid(); particles have the mean of adjacent cells,
-/// and
-/// cells also have
+/// triangles or tetrahedra. Fields are those of make_field_grid(); particles have the mean of
+/// adjacent cells, and cells also have
 ///   strain_energy_density, principal_strain and principal_stress (largest first; two or three
-/// values;
-///   zero for vertices)
+///   values; zero for vertices)
 /// \param motion  motion of that state, shape (particles, dim) [length]
 VtuGrid make_element_grid(const LinearElements& elements, const Particles& particles,
                           std::span<const double> motion, const FieldMoment& moment);

@@ -19,10 +19,8 @@ std::vector<std::string> history_columns(const CaseFile& input);
 bool is_history_column(const std::string& name);
 
 /// Writes DIR/history.csv, the same in every run on a machine, and DIR/timing.csv with the time of
-/// each
-/// row. Rows are flushed at most twice a second, because runs have thousands of events per second,
-/// and
-/// by the destructor.
+/// each row. Rows are flushed at most twice a second, because runs have thousands of events per
+/// second, and by the destructor.
 class HistoryFile {
  public:
   /// \throws FileError

@@ -6,11 +6,9 @@
 namespace perilink {
 
 /// Returns the state of a lattice as a grid: a vertex for each particle at its reference position
-/// (z =
-/// 0 in two dimensions). Fields:
+/// (z = 0 in two dimensions). Fields:
 ///   points  displacement, velocity, damage, region, kind, volume; for unbreakable bodies stress
-/// (xx,
-///           yy, zz, xy, yz, xz)
+///           (xx, yy, zz, xy, yz, xz)
 ///   cells   element (FieldElement::particle), broken_at (rank of the particle in the order of
 ///           cracking, from 1; 0: none)
 ///   file    step, time, load_factor, load, dimension, spacing; in two dimensions thickness

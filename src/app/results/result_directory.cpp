@@ -35,8 +35,7 @@ bool is_result_file(const std::string& name) {
 }
 
 /// Returns the rank of a file in the order of removal. Files that refer to others are removed
-/// first, so
-/// that an interrupted removal leaves no dangling summary or list.
+/// first, so that an interrupted removal leaves no dangling summary or list.
 int rank_of_removal(const fs::path& file) {
   const std::string name = file.filename().string();
   if (name == "summary.json" || name == "fields.pvd") return name == "fields.pvd" ? 1 : 0;
@@ -53,8 +52,7 @@ bool is_left_over(const std::string& name) {
 }
 
 /// Locks the directory without blocking. \return the descriptor of the lock; -1 where another
-/// process
-/// holds it
+/// process holds it
 int lock_directory(const fs::path& directory) {
   const int descriptor = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) {

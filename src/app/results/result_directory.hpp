@@ -26,8 +26,7 @@ void refuse_own_file(const std::filesystem::path& directory, const char* copy,
 void require_result(const std::filesystem::path& directory);
 
 /// Locked directory of a run. An existing result is refused unless `force` is set; then only files
-/// that
-/// a run writes are removed. The lock excludes other runs and ends with the process.
+/// that a run writes are removed. The lock excludes other runs and ends with the process.
 class ResultDirectory {
  public:
   /// Creates and locks the directory. \throws FileError

@@ -27,8 +27,7 @@ std::vector<double> densities(const CaseFile& input) {
 }
 
 /// Counts unsupported parts of the body with at least a hundredth of its particles: no elastic
-/// support
-/// and no prescribed displacement acts on them.
+/// support and no prescribed displacement acts on them.
 Index count_loose_pieces(const Model& model, const BondRunState& state) {
   const Network& network = model.network;
   const auto width = static_cast<std::size_t>(network.width());

@@ -18,8 +18,7 @@ struct BondRunCase {
 BondRunCase build_bond_run(const CaseFile& input, const Model& model);
 
 /// A run of bonds in motion. Every row goes into the history. Field files hold the first, the last
-/// and
-/// the requested states; in a dynamic relaxation all states.
+/// and the requested states; in a dynamic relaxation all states.
 class MovingBondsRun : public NetworkRun, protected BondRunObserver {
  public:
   MovingBondsRun(const CaseFile& of_case, int on_threads, bool quiet);

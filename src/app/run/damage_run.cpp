@@ -136,8 +136,7 @@ double DamageRun::scale_of(const StepRecord& record) const {
 }
 
 /// Records the element that failed in the last row. Several failures of one load step are ordered
-/// by
-/// number.
+/// by number.
 void DamageRun::note_broken(const StepRecord& record, StateSource& source) {
   const std::size_t count = static_cast<std::size_t>(record.broken_bonds);
   if (count == broken_.size()) return;
@@ -188,8 +187,7 @@ void DamageRun::note_compression(const StepRecord& record, const VtuGrid& grid) 
 }
 
 /// Whether fields are due: at the first row, the first row of each stage, and the first row at or
-/// beyond
-/// a requested number of broken bonds, which a load step may skip.
+/// beyond a requested number of broken bonds, which a load step may skip.
 bool DamageRun::wants_fields(const StepRecord& record) const {
   if (!files_->has_fields() || record.stage != last_stage_) return true;
   const std::optional<int>& rows = input.output.fields_every_rows;

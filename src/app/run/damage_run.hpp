@@ -10,8 +10,7 @@
 namespace perilink {
 
 /// A run with type = "damage". Every row goes into the history. Field files hold the first, the
-/// last and
-/// the requested states.
+/// last and the requested states.
 class DamageRun final : public NetworkRun, public StepObserver {
  public:
   DamageRun(const CaseFile& of_case, int on_threads, bool quiet);

@@ -19,8 +19,7 @@
 namespace perilink {
 
 /// Output files of a run of any analysis type: history with gauges, field files and a progress
-/// line.
-/// The analysis types supply the contents.
+/// line. The analysis types supply the contents.
 class RunFiles {
  public:
   /// \param directory  existing directory
@@ -33,8 +32,7 @@ class RunFiles {
   /// Removes all rows and field files. \throws FileError
   void begin_again();
   /// Whether fields are due at the last time row: at the first row and the first at or after each
-  /// of
-  /// output.fields_times, in a relaxation at every row.
+  /// of output.fields_times, in a relaxation at every row.
   bool fields_are_due(double time);
   /// Writes fields_STEP.vtu, unless it exists.
   /// \param at         time or load factor of the file in fields.pvd

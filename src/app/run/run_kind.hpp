@@ -29,8 +29,7 @@ struct RunOutcome {
 };
 
 /// A run of one analysis type; `perilink run` drives all of them alike. Constructors build the
-/// model and
-/// collect notes known before the analysis.
+/// model and collect notes known before the analysis.
 class RunKind {
  public:
   /// \param of_case  must outlive the run
@@ -68,8 +67,7 @@ class NetworkRun : public RunKind {
   /// Returns a rate, "3.2 M bond-steps/s".
   std::string bond_rate(Index steps) const;
   /// Writes reactions_STEP.csv of an equilibrium and checks that its sum vanishes, to 1e-8 or to
-  /// the bound
-  /// from the residual of the equilibrium.
+  /// the bound from the residual of the equilibrium.
   void write_reactions(const StepRecord& row, const std::vector<SupportRegion>& places,
                        const ModelState& state);
 

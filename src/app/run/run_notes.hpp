@@ -15,14 +15,12 @@ namespace perilink {
 std::optional<std::string> note_of_clamps(const Model& model, std::span<const Index> broken);
 
 /// Returns a text on the peaks where the load rose above its first peak after the body had failed.
-/// It is
-/// a warning; with bars a note.
+/// It is a warning; with bars a note.
 /// \param bars  whether bars reinforce the body, so that the larger load is its peak
 std::optional<std::string> text_of_peaks(const PeakWatch& peaks, bool bars);
 
 /// Returns this text for a damage run, with the number of bonds that broke at clamps after the
-/// first
-/// peak.
+/// first peak.
 /// \param broken  elements in the order in which they broke
 std::optional<std::string> text_of_peaks(const DamageResult& result, const Model& model,
                                          std::span<const Index> broken);

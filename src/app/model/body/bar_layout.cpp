@@ -54,8 +54,7 @@ Box room_of(const CaseFile& input, std::size_t k, int dim) {
 }
 
 /// Returns position k of `number` evenly spaced positions from `lower` to `upper`; a single one
-/// lies in
-/// the middle.
+/// lies in the middle.
 double even(double lower, double upper, int k, int number) {
   return number == 1 ? 0.5 * (lower + upper) : lower + (upper - lower) * k / (number - 1);
 }

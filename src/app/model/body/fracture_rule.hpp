@@ -21,9 +21,8 @@ std::vector<double> count_on_the_path(const CaseFile& input, const Body& body,
 std::optional<std::string> short_horizon_note(const Model& model);
 
 /// Returns a note that the fracture-energy correction was not measured for such a body with
-/// breakable
-/// bonds: lattices with steps that differ by more than a tenth, and three-dimensional unstructured
-/// particle sets with bending bonds.
+/// breakable bonds: lattices with steps that differ by more than a tenth, and three-dimensional
+/// unstructured particle sets with bending bonds.
 std::optional<std::string> unmeasured_cost_note(const Model& model);
 
 }  // namespace perilink

@@ -18,8 +18,7 @@ namespace {
 constexpr double least_ratio_refused = 20.0;
 
 /// Memory of a run per bond without its factor. Bar lattices solved with subdomains, in which
-/// nothing
-/// breaks, take less: 56 to 62.
+/// nothing breaks, take less: 56 to 62.
 constexpr double bytes_per_bond = 300.0, bytes_per_bar = 65.0;
 
 constexpr const char* usual = "two to four spacings are usual: horizon_ratio = 3";
@@ -33,8 +32,7 @@ double diagonal_of(const HorizonReach& reach) {
 }
 
 /// Estimates the neighbours of a particle: those of the infinite lattice, limited along each axis
-/// by
-/// the horizon and by the size of the body.
+/// by the horizon and by the size of the body.
 double neighbours_of(const HorizonReach& reach) {
   const double ratio = reach.horizon / reach.spacing;
   const double ball = reach.dim == 2 ? std::numbers::pi * ratio * ratio

@@ -71,8 +71,7 @@ double size_of_elements(const CaseFile& input, const Model& model) {
 }
 
 /// Returns the centres of surface facets and of interfaces between materials of different
-/// stiffness.
-/// Strains jump there, which elements cannot represent.
+/// stiffness. Strains jump there, which elements cannot represent.
 std::vector<double> faces_of(const Model& model) {
   std::vector<double> faces;
   for (Index f = 0; f < model.facets.size(); ++f) {
@@ -130,8 +129,8 @@ std::vector<std::uint8_t> particles_to_carry(const CaseFile& input, const Model&
   return carry;
 }
 
-/// Returns pairs of near neighbours: the edges of mesh cells, and in lattices particles within
-/// 1.8 spacings.
+/// Returns pairs of near neighbours: the edges of mesh cells, and in lattices particles within 1.8
+/// spacings.
 Bonds nearest_pairs(const Model& model) {
   constexpr double nearest = 1.8;  // spacings
   const Particles& particles = model.network.particles;

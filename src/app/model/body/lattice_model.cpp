@@ -43,8 +43,7 @@ void refuse_size(const CaseFile& input, const LatticeCut& cut, int dim) {
 }
 
 /// Counts the particles removed by each hole. A small hole, or one between particles, may remove
-/// fewer
-/// than expected.
+/// fewer than expected.
 class HoleCounter {
  public:
   explicit HoleCounter(const LatticeShape& shape) : shape_(shape) {

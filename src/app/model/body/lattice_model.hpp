@@ -12,8 +12,7 @@
 namespace perilink {
 
 /// Builds the lattice of a case with model = "lattice", without prescribed motions. Lattices of
-/// elastic
-/// analyses have neither damage nor damping.
+/// elastic analyses have neither damage nor damping.
 /// \param notes  receives notes on the body
 /// \throws InputError where the case does not fit its body: no lattice point in it, too many,
 /// a spacing too large for the softening

@@ -16,8 +16,8 @@ namespace perilink {
 using PointTest = std::function<bool(const Vector3&)>;
 
 /// Shape of the body of a case with model = "lattice": the regions of its material without the
-/// holes,
-/// or the mesh cells of the material. Points within a millionth of the spacing of it are inside.
+/// holes, or the mesh cells of the material. Points within a millionth of the spacing of it are
+/// inside.
 class LatticeShape {
  public:
   /// \throws InputError where the mesh cannot be read or does not suit the case

@@ -10,8 +10,7 @@ namespace perilink {
 
 /// Builds state-based particles, their neighbours and constants, with a note on the fit of the
 /// constants. Without a mesh the particles are the vertices of the linear triangles or tetrahedra
-/// of
-/// the lattice.
+/// of the lattice.
 void build_particles(const CaseFile& input, Body& body, Model& model);
 
 /// Returns the state-based material of an explicit run.

@@ -8,8 +8,7 @@
 namespace perilink {
 
 /// Returns boxes that fill the regions of a material without its holes, in a body without a mesh.
-/// Hole
-/// boundaries belong to the body.
+/// Hole boundaries belong to the body.
 /// \throws InputError  where the holes remove all of the material
 std::vector<Box> boxes_of(const CaseFile& input, std::size_t material);
 

@@ -12,13 +12,11 @@ namespace perilink {
 namespace {
 
 /// Limits of tensile strength over modulus: concrete, rock and ice have about 1e-4, glass 1e-3,
-/// steel
-/// 2e-3, the strongest fibres 1e-2. Brittle bonds represent the first group.
+/// steel 2e-3, the strongest fibres 1e-2. Brittle bonds represent the first group.
 constexpr double largest_strength = 1e-2, largest_brittle_strength = 2e-3, least_strength = 1e-6;
 
 /// Process zone E G_F / f_t^2 over the longest side of the body beyond which no crack fits.
-/// Laboratory
-/// specimens of concrete reach five.
+/// Laboratory specimens of concrete reach five.
 constexpr double longest_zone = 10.0;
 
 /// Horizon over process zone below which stressed bodies soften everywhere. A horizon equal to a
@@ -30,8 +28,7 @@ constexpr double least_horizon = (1.0 - 1e-6) / 30.0;
 constexpr double longest_brittle_zone = 0.25;
 
 /// Limits of the modulus of bars over that of the solid: glass-fibre bars in concrete have 1.3,
-/// steel
-/// in concrete 7, in wood 20, in soil 2000.
+/// steel in concrete 7, in wood 20, in soil 2000.
 constexpr double least_bar_modulus = 0.3, largest_bar_modulus = 5e3;
 
 /// Strains at which bars yield: mild steel 1e-3, tendons 1e-2.

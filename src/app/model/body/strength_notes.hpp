@@ -14,8 +14,7 @@ inline constexpr const char* horizon_advice =
     "take a horizon of a twentieth to a thirtieth of E G_F / f_t^2";
 
 /// Returns a sentence for each implausible strength: relative to the modulus, and with a process
-/// zone
-/// implausible relative to the horizon or the body.
+/// zone implausible relative to the horizon or the body.
 /// \param youngs_modulus  [force/length^2]
 /// \param horizon         [length]
 /// \param body            longest side of the body [length]

@@ -102,8 +102,7 @@ Vector3 normal_of(const Body& body, const Corners& corners) {
 }
 
 /// Returns the facets of a group with a common positive side. A particle between two materials
-/// belongs
-/// to the later one, and lies on its side; a particle on the surface lies inside.
+/// belongs to the later one, and lies on its side; a particle on the surface lies inside.
 std::vector<Crack> faces_of_group(const Body& body, const Group& group) {
   const auto dim = static_cast<std::size_t>(body.particles.dim);
   const std::map<Corners, Index> facets = facets_by_corners(body);

@@ -276,8 +276,7 @@ std::vector<double> collect_springs(const CaseFile& input, const Model& model) {
 namespace {
 
 /// Stiffness of the springs over that of the stiffest bond: far above the round-off of a factor,
-/// with
-/// negligible forces.
+/// with negligible forces.
 constexpr double softness = 1e-7;
 
 /// Marks the particles with loads in any stage.

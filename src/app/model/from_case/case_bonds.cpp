@@ -145,12 +145,9 @@ Network build_case_network(const CaseFile& input, const Body& body, const Networ
 }
 
 /// Builds a draft first, to refuse invalid regions, loads, supports and gauges before the
-/// calibration.
-/// Calibrating unstructured particle sets, bodies in space and micropolar bonds can take minutes.
-/// Plane
-/// lattices of trusses calibrate faster than their matrix is factorised; large boxes in space as
-/// fast
-/// as small ones.
+/// calibration. Calibrating unstructured particle sets, bodies in space and micropolar bonds can
+/// take minutes. Plane lattices of trusses calibrate faster than their matrix is factorised; large
+/// boxes in space as fast as small ones.
 void refuse_before_calibration(const CaseFile& input, const Body& body, NetworkInput network,
                                const Model& model) {
   if (body.lattice.surface != Surface::calibrated || !body.spans.empty()) return;

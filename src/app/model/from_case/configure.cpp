@@ -29,9 +29,8 @@ namespace {
 constexpr double most_particles = 3e7;
 
 /// Returns the spacing of the case, given or from the number of particles across the body. These
-/// lie
-/// in cells (ghost surface) or on both ends (conforming lattice). In the face-centred pattern the
-/// particles of a row are one cube edge apart.
+/// lie in cells (ghost surface) or on both ends (conforming lattice). In the face-centred pattern
+/// the particles of a row are one cube edge apart.
 double wanted_spacing(const BodySection& body, double width) {
   if (body.spacing) return *body.spacing;
   if (body.surface == Surface::ghost) return width / *body.columns;
