@@ -135,7 +135,7 @@ TEST_F(Comparisons, WhatIsNoResultIsRefused) {
       {"a.toml",
        "a.toml: is not a directory; give the directory of a result of "
        "perilink run"},
-      {"empty", "empty: is no result of a run: there is no history.csv in it"},
+      {"empty", "empty: is not a result of a run: it has no history.csv"},
       {"study", "it holds a study of perilink converge"},
       {"started", "started/history.csv: has no row yet"}};
   for (const auto& [directory, message] : messages) {
