@@ -171,7 +171,7 @@ int run_program(int argc, char** argv) {
 
   for (const char* word : std::span(argv, argc)) {
     if (!steers_terminal(word)) continue;
-    complain(fmt::format("{}: names must not hold control characters", word));
+    complain(fmt::format("{}: names must not contain control characters", word));
     return exit_bad_input;
   }
   try {

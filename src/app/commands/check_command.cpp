@@ -252,7 +252,7 @@ int check_case(const std::string& case_path, bool trust_geometry) {
   if (const auto note = note_of_separated_body(input, model, 1)) model.notes.push_back(*note);
   print_case(case_path, input);
   print_sizes(model, input.analysis.type == AnalysisType::damage);
-  std::fflush(stdout);  // the order of the unknowns of a large body takes a while
+  std::fflush(stdout);  // ordering the unknowns of a large body takes long
 
   const Network& network = model.network;
   std::optional<FactorStatistics> factor;

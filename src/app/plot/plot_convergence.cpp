@@ -75,7 +75,7 @@ Axes axes_of(const ConvergencePlot& plot) {
       high = {std::max(high.cost, point.cost), std::max(high.error, point.error)};
     }
   }
-  if (!(high.cost > 0.0)) low = high = {1.0, 1.0};  // nothing to draw
+  if (!(high.cost > 0.0)) low = high = {1.0, 1.0};  // no point is drawn
   return {make_log_axis(low.cost, high.cost, frame_left, frame_right),
           make_log_axis(low.error, high.error, frame_bottom, convergence_top)};
 }

@@ -147,7 +147,7 @@ double largest_opening(const PlotBody& body) {
 /// between their cells: closed cracks become one line, open ones two. Longer bonds would hide the
 /// crack.
 void draw_crack_faces(Svg& svg, const Scene& scene) {
-  const double nearest = scene.square ? 1.2 : 1.5;  // sizes are those of halved cells at surfaces
+  const double nearest = scene.square ? 1.2 : 1.5;  // surface particles have sizes of half cells
   const double widest = largest_opening(scene.body);
   std::map<int, SvgPath> paths;
   for (std::size_t k = 0; k < scene.body.broken_bonds.size(); ++k) {

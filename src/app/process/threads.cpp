@@ -91,7 +91,7 @@ int set_threads(int wanted) {
                        : "the program and its linear algebra library (OpenBLAS) support no more"));
   }
   omp_set_num_threads(threads);
-#pragma omp parallel  // now, while there is room: they stay
+#pragma omp parallel  // started early, while memory is free; they persist
   {}
   return threads;
 }

@@ -123,7 +123,7 @@ void require_result(const fs::path& directory) {
 ResultDirectory::ResultDirectory(const fs::path& directory, bool force) {
   std::error_code error;
   if (!fs::is_directory(directory, error)) {
-    refuse_old_results(directory, force);  // a file of this name
+    refuse_old_results(directory, force);  // also refuses a file of this name
     fs::create_directories(directory, error);
     if (error) {
       throw FileError(

@@ -84,8 +84,8 @@ void DamageRun::tell(Summary& summary) const {
     summary.add_note(
         fmt::format("{} missed releases: a bond was past its limit before its host element "
                     "released it. Each time the run was restarted with these elements "
-                    "released; the results are not affected. A smaller `alert` in "
-                    "[elements] avoids restarts",
+                    "released from the beginning. A smaller `alert` in [elements] avoids "
+                    "restarts",
                     missed_releases_));
   }
   summary.add_note(note_of_clamps(model_, broken_));

@@ -38,7 +38,7 @@ class RunFiles {
   /// \param at         time or load factor of the file in fields.pvd
   /// \param make_grid  returns the contents
   void write_fields(Index step, double at, const std::function<VtuGrid()>& make_grid);
-  /// Writes KIND_STEP.csv beside the fields, KIND one of `tables`.
+  /// Writes KIND_STEP.csv next to the field file; KIND is one of `tables`.
   void write_table(const char* kind, Index step, const std::string& text);
   static constexpr std::array<const char*, 2> tables = {"bars", "reactions"};
   /// Draws the progress of a run in steps, if due.

@@ -28,8 +28,8 @@ struct RunOutcome {
   std::string& reason;
 };
 
-/// A run of one analysis type; `perilink run` drives all of them alike. Constructors build the
-/// model and collect notes known before the analysis.
+/// A run of one analysis type, with an interface common to all. Constructors build the model and
+/// collect notes known before the analysis.
 class RunKind {
  public:
   /// \param of_case  must outlive the run

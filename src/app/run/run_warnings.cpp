@@ -123,7 +123,7 @@ std::optional<std::string> warning_about_motion(double share) {
   constexpr double few = 0.01;  // strains around point loads are singular
   if (share <= few) return std::nullopt;
   return fmt::format(
-      "{:.2g} % of the bonds are stretched or rotated by more than a tenth, "
+      "{:.2g} % of the body is stretched or rotated by more than a tenth, "
       "beyond the range of the theory of small displacements; use smaller "
       "loads; are loads and moduli in units of one system?",
       100.0 * share);

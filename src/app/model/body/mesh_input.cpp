@@ -146,7 +146,7 @@ const MeshGroup& group_of_cells(const CaseFile& input, const Mesh& mesh, const R
   if (group->dim == mesh.dim) return *group;
   throw InputError(
       input.where(key),
-      fmt::format("the region {} is a group of {}, which hold no {}", quoted(region.name),
+      fmt::format("the region {} is a group of {}, which contain no {}", quoted(region.name),
                   elements_of(*group), contents),
       fmt::format("name a physical {}, or give a box", mesh.dim == 2 ? "surface" : "volume"));
 }

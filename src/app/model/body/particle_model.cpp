@@ -71,8 +71,8 @@ std::string fit_text(const ParticleFitReport& report, const Particles& particles
   if (ill_posed == 0) return text;
   return text + fmt::format(
                     "; ILL-POSED for {}: {} with several solutions, {} of negative energy, "
-                    "{} whose neighbours leave a strain free; the latter two have bonds "
-                    "without states",
+                    "{} with neighbours that leave a strain undetermined; the latter two "
+                    "have bonds without states",
                     ill_posed, report.many, report.indefinite, report.singular);
 }
 

@@ -68,11 +68,11 @@ void require_balance(const CaseFile& input, Model& model, const Fragment& fragme
   }
   const double couple = moment / (sum.scale * size_of_body(model.network.particles));
   if (couple > couple_limit) {
-    throw InputError(input.where("analysis.rigid_body_modes"),
-                     fmt::format("is \"pin\", but the loads of the free body turn it: their couple "
-                                 "is {:.3g}",
-                                 moment),
-                     "balance the loads or support the body with [[supports]]");
+    throw InputError(
+        input.where("analysis.rigid_body_modes"),
+        fmt::format("is \"pin\", but the loads rotate the free body: their couple is {:.3g}",
+                    moment),
+        "balance the loads or support the body with [[supports]]");
   }
   if (couple > couple_note) {
     model.notes.push_back(fmt::format(

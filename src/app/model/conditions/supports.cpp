@@ -54,8 +54,8 @@ void prescribe(const CaseFile& input, const Model& model, Prescription& prescrip
           fmt::format(
               "sets the {} of the particle at ({}) to {}, where another entry sets it to {}",
               name_of_component(model.network, component), joined(x), value, before),
-          "let the regions of [[supports]], [[symmetry]], [[displacements]] and [[velocities]] not "
-          "overlap");
+          "separate the regions of [[supports]], [[symmetry]], [[displacements]] "
+          "and [[velocities]], or give equal values where they overlap");
     }
     prescription.held[slot] = 1;
     prescription.value[slot] = value;

@@ -183,8 +183,7 @@ TEST(RunWarnings, SeeMotionThatIsNotSmall) {
   EXPECT_EQ(warning_about_motion(0.01), std::nullopt);
   const auto warning = warning_about_motion(0.25);
   ASSERT_TRUE(warning);
-  EXPECT_THAT(*warning,
-              HasSubstr("25 % of the bonds are stretched or rotated by more than a tenth"));
+  EXPECT_THAT(*warning, HasSubstr("25 % of the body is stretched or rotated by more than a tenth"));
 }
 
 TEST(RunWarnings, NameWhatIsNotANumber) {
