@@ -52,8 +52,8 @@ struct Pair {
   }
 };
 
-/// Initial stiffness from the summary. Without one: least squares over the rows before the peak
-/// with at most a third of its load, or the first row where there are no such rows [force/length].
+/// Returns the initial stiffness of the summary [force/length]. Without one: least squares over the
+/// rows before the peak with at most a third of its load, or over the first row.
 double initial_stiffness(const RunResult& result) {
   const double known = number_of(result.summary, "initial_stiffness");
   if (!std::isnan(known)) return known;

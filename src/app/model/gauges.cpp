@@ -70,9 +70,9 @@ std::vector<Index> neighbors_of(const Model& model, Index particle, const Vector
   return neighbors;
 }
 
-/// Returns interpolation weights of a particle and its neighbours at a point: barycentric
-/// coordinates in the line, triangle or tetrahedron of the nearest ones around the point. No weight
-/// is negative: a point outside is projected to the border.
+/// Returns interpolation weights of a particle and its neighbours at a point. They are barycentric
+/// coordinates in the line, triangle or tetrahedron of the nearest ones around it. No weight is
+/// negative: a point outside is projected to the border.
 std::vector<Gauge::Term> linear_terms(const Model& model, Index nearest, const Vector3& point,
                                       bool same_material) {
   constexpr double flat = 0.25, little = 1e-9;

@@ -11,8 +11,8 @@
 
 namespace perilink {
 
-/// Builds the gauges of a case: at a particle, interpolated between the particles around a point,
-/// or averaged over a region with weights in proportion to volumes.
+/// Builds the gauges of a case: at a particle, interpolated between particles around a point, or
+/// averaged over a region. Weights of a region are in proportion to volumes.
 /// \param notes  receives a note for each point without a particle
 /// \throws InputError  for points outside the body, two points with one particle, empty regions and
 ///                     names of columns of every history

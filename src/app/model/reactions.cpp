@@ -41,8 +41,8 @@ std::vector<Index> particles_in(const CaseFile& input, const Model& model, std::
   return inside;
 }
 
-/// Returns the particles on springs, ascending: the corners of facets with a stiffness per area,
-/// which may lie outside the region, or the particles that share a total stiffness.
+/// Returns the particles on springs, ascending. A stiffness per area acts on the corners of its
+/// facets, which may lie outside the region; a total is shared by all particles of the region.
 std::vector<Index> sprung_particles(const CaseFile& input, const Model& model, std::size_t k) {
   const SpringSection& section = input.springs[k];
   const std::string key = item_key("springs", k, "region");

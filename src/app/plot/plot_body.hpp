@@ -47,8 +47,8 @@ struct PlotBody {
 /// Reads a body. \throws FileError naming the array that is missing
 PlotBody read_body(const VtuGrid& grid, const std::string& path);
 
-/// Returns a factor on displacements, 1, 2 or 5 times a power of ten, that draws the largest at
-/// about 8 % of the size of the body.
+/// Returns a factor on displacements that draws the largest at about 8 % of the size of the body.
+/// It is 1, 2 or 5 times a power of ten.
 double automatic_scale(const PlotBody& body);
 
 /// Returns deformed positions with displacements times `scale`.

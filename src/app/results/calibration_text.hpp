@@ -12,7 +12,7 @@
 namespace perilink {
 
 /// Returns a line with the largest force out of balance before and after, the range of weights and
-/// the number of bonds at the lower bound.
+/// the bonds at the lower bound.
 std::string calibration_line(const CalibrationReport& report);
 
 /// Returns the position and size of the largest residual of the calibration; empty where its

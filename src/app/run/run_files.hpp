@@ -31,8 +31,8 @@ class RunFiles {
   void add_row(const ExplicitRecord& record, std::span<const double> gauges);
   /// Removes all rows and field files. \throws FileError
   void begin_again();
-  /// Whether fields are due at the last time row: at the first row and the first at or after each
-  /// of output.fields_times, in a relaxation at every row.
+  /// Whether fields are due at the last time row. They are due at the first row and at the first
+  /// one at or after each of output.fields_times; in a relaxation at every row.
   bool fields_are_due(double time);
   /// Writes fields_STEP.vtu, unless it exists.
   /// \param at         time or load factor of the file in fields.pvd

@@ -167,8 +167,8 @@ std::optional<std::string> warning_about_compression(const Compression& at_large
 namespace {
 
 /// Returns the energy that tension events dissipate in a bond until it reaches a secant stiffness
-/// ratio, relative to half of its stiffness times its squared extension at the critical stretch
-/// [-].
+/// ratio [-]. The reference is half of the stiffness times the squared extension at the critical
+/// stretch.
 double energy_until(const BondLaw& law, double secant) {
   double energy = 0.0;
   for (int k = 0; law.segment(k).secant > secant; ++k) {

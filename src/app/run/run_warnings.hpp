@@ -48,8 +48,8 @@ inline double longest_side(const Particles& particles) {
 RunFacts run_facts(const CaseFile& input, double length, double peak_load);
 
 /// Returns the warnings about an explicit run: an energy error above a hundredth of the work, a
-/// load not balanced by reactions, a run shorter than the travel of a wave, and kinetic energy
-/// above a tenth of the work, except in impacts.
+/// load not balanced by reactions, and a run shorter than the travel of a wave. Kinetic energy
+/// above a tenth of the work warns too, except in impacts.
 std::vector<std::string> warnings_about(const ExplicitResult& result, const RunFacts& facts);
 
 /// Returns the warnings about a dynamic relaxation: more energy stored and dissipated than the work
@@ -63,8 +63,8 @@ std::optional<std::string> warning_about_size(const CurvePoint& peak, double len
 /// Returns a warning about a last displacement larger than the body.
 std::optional<std::string> warning_about_end(double displacement, double length);
 
-/// Returns a warning about an elastic run in which more than a hundredth of the bonds change by
-/// more than a tenth of their lengths, by stretch or rotation.
+/// Returns a warning about large motion in an elastic run: more than a hundredth of the bonds
+/// change by more than a tenth of their lengths.
 /// \param share  their fraction of all bonds or edges of linear elements [-]
 std::optional<std::string> warning_about_motion(double share);
 

@@ -52,8 +52,9 @@ struct StudyMember {
 /// Returns every combination once; linear elements have neither horizon nor surface.
 std::vector<StudySeries> study_series(const StudyFile& study);
 
-/// Refuses studies that do not fit the case: lattice refinement of a mesh or the reverse, errors of
-/// missing displacement components, and displacement fields of a damage analysis.
+/// Refuses studies that do not fit the case: lattice refinement of a mesh or the reverse, and
+/// errors of missing displacement components. Also refuses displacement fields of a damage
+/// analysis.
 /// \throws InputError at the study's key
 void check_study(const StudyFile& study, const CaseFile& input);
 

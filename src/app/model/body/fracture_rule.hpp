@@ -20,9 +20,9 @@ std::vector<double> count_on_the_path(const CaseFile& input, const Body& body,
 /// least_ratio_of_cracks spacings.
 std::optional<std::string> short_horizon_note(const Model& model);
 
-/// Returns a note that the fracture-energy correction was not measured for such a body with
-/// breakable bonds: lattices with steps that differ by more than a tenth, and three-dimensional
-/// unstructured particle sets with bending bonds.
+/// Returns a note that the fracture-energy correction was not measured for a body with breakable
+/// bonds. This holds for lattices with steps that differ by more than a tenth. It also holds for
+/// three-dimensional unstructured particle sets with bending bonds.
 std::optional<std::string> unmeasured_cost_note(const Model& model);
 
 }  // namespace perilink

@@ -23,8 +23,8 @@ HorizonReach reach_of(const Particles& particles, double horizon, double spacing
 /// Returns the sizes for a lattice that fills a box on this machine.
 HorizonReach reach_of(const Box& box, int dim, double horizon, double spacing);
 
-/// Refuses a horizon below the spacing, one that bonds all particles to each other in a larger
-/// body, and one with more bonds than memory or the index type can hold.
+/// Refuses a horizon below the spacing, and one that bonds all particles to each other in a larger
+/// body. Also refuses a horizon with more bonds than memory or the index type can hold.
 /// \throws InputError
 void refuse_impossible_horizon(const CaseFile& input, const HorizonReach& reach);
 

@@ -15,9 +15,8 @@ namespace perilink {
 /// Test whether a point belongs to a region.
 using PointTest = std::function<bool(const Vector3&)>;
 
-/// Shape of the body of a case with model = "lattice": the regions of its material without the
-/// holes, or the mesh cells of the material. Points within a millionth of the spacing of it are
-/// inside.
+/// Shape of a body with model = "lattice": its material's regions without the holes, or the mesh
+/// cells of the material. Points within a millionth of the spacing of it are inside.
 class LatticeShape {
  public:
   /// \throws InputError where the mesh cannot be read or does not suit the case

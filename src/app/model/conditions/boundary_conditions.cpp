@@ -52,7 +52,7 @@ Loads loads_on(const Model& model, const Fragment& fragment) {
 }
 
 /// Refuses unbalanced loads on a pinned part. A small net couple is unavoidable where the rows of a
-/// lattice are not symmetric: the pins carry it, or it is subtracted from the loads.
+/// lattice are not symmetric. The pins carry it, or it is subtracted from the loads.
 void require_balance(const CaseFile& input, Model& model, const Fragment& fragment) {
   const LoadResultant sum = load_resultant(model.network, loads_on(model, fragment));
   double force = 0.0, moment = 0.0;
