@@ -186,8 +186,8 @@ void DamageRun::note_compression(const StepRecord& record, const VtuGrid& grid) 
   }
 }
 
-/// Whether fields are due: at the first row, the first row of each stage, and requested numbers of
-/// broken bonds. A load step may skip such a number; the next row counts then.
+/// Whether fields are due: at the first row of the run and of each stage, and at requested rows and
+/// numbers of broken bonds. A load step may skip such a number; the next row counts then.
 bool DamageRun::wants_fields(const StepRecord& record) const {
   if (!files_->has_fields() || record.stage != last_stage_) return true;
   const std::optional<int>& rows = input.output.fields_every_rows;
