@@ -2,8 +2,8 @@
 #include "app/process/ranks.hpp"
 #include "app/program.hpp"
 
-/// The program. Among others that mpiexec started it goes on as the one that knows MPI, so that
-/// nobody else waits for MPI's libraries.
+/// The program. As one of several MPI processes it continues as perilink-mpi, so that serial runs
+/// need not load the MPI libraries.
 int main(int argc, char** argv) {
   if (perilink::is_one_of_many()) {
     perilink::become_rank(argv);

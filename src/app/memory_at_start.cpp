@@ -1,6 +1,6 @@
-// Looks for memory before any library starts. OpenBLAS takes a buffer for each of its threads as it
-// is loaded, and where the system has none it asks again for ever (mended after its version
-// 0.3.29). What main() calls would come too late, and so would a constructor.
+// Checks available memory before any library starts. OpenBLAS allocates a buffer per thread while
+// it is loaded; without memory it retries forever (fixed after its version 0.3.29). Code in main()
+// or in a constructor would run too late.
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -11,7 +11,7 @@
 
 #include "app/commands/commands.hpp"
 
-// AddressSanitizer starts later still, and takes more address space than any limit.
+// AddressSanitizer starts even later and reserves more address space than any limit.
 #ifndef __SANITIZE_ADDRESS__
 
 namespace {
@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t megabyte = std::size_t{1} << 20;
 /// Buffer, stack and heap of a thread of OpenBLAS [bytes].
 constexpr std::size_t for_each_thread = 272 * megabyte;
-/// One buffer, and what the program itself takes [bytes].
+/// One buffer and the memory of the program itself [bytes].
 constexpr std::size_t least = 160 * megabyte;
 
 bool can_take(std::size_t bytes) {
@@ -29,8 +29,8 @@ bool can_take(std::size_t bytes) {
   return true;
 }
 
-/// Starts the program again with the one thread of OpenBLAS that it uses anyway. Returns where that
-/// is not possible, or has been done.
+/// Restarts the program with one OpenBLAS thread, which is all it uses. Returns if the restart is
+/// impossible or has already happened.
 void start_again_with_one_thread(char** words, char** environment) {
   static char setting[] = "OPENBLAS_NUM_THREADS=1";
   static std::array<char*, 4096> changed;

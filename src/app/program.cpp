@@ -33,7 +33,7 @@ constexpr const char* footer =
     "4 interrupted (results so far are kept). Case files are described in docs/case_file.md,\n"
     "studies in docs/studies.md, comparisons in docs/compare.md.";
 
-/// Scales beyond draw nothing but round-off.
+/// Larger scales draw round-off only.
 constexpr double largest_scale = 1e12;
 
 const CLI::Validator is_scale(
@@ -41,11 +41,13 @@ const CLI::Validator is_scale(
       double value = 0.0;
       const bool number = CLI::detail::lexical_cast(text, value);
       if (number && value > 0.0 && value <= largest_scale) return "";
-      return fmt::format("{} is no factor: give a number above 0, at most {}", text, largest_scale);
+      return fmt::format("{} is not a scale: give a number above 0 and at most {}", text,
+                         largest_scale);
     },
     "NUMBER > 0");
 
-/// Whether a word of the command line could steer the terminal in a message that names it.
+/// Whether a command-line word holds control characters, which would act on the terminal when
+/// printed.
 bool steers_terminal(std::string_view word) {
   return std::any_of(word.begin(), word.end(),
                      [](unsigned char c) { return c < 0x20 || c == 0x7F; });
@@ -56,7 +58,7 @@ void add_trust_option(CLI::App& command, bool& trust_geometry) {
                    "Run gmsh scripts (.geo) with any command, also programs and writing files");
 }
 
-/// What all commands that compute have in common.
+/// Adds the options that all computing commands share.
 void add_run_options(CLI::App& command, RunOptions& options) {
   command.add_option("--out", options.directory, "Directory of the results [results/<file name>]");
   command
@@ -89,8 +91,8 @@ void add_plot_command(CLI::App& app, PlotOptions& options) {
       ->check(is_scale);
 }
 
-/// Memory that ran out where nobody could catch it, in a loop of many threads: what is written
-/// stays readable, and the summary says that the run did not come to its end.
+/// Ends the program after an uncaught failure, such as exhausted memory in a parallel loop. Files
+/// written so far stay readable and the summary keeps the status of an unfinished run.
 [[noreturn]] void end_without_handler() {
   try {
     if (const auto error = std::current_exception()) std::rethrow_exception(error);
@@ -125,11 +127,11 @@ int with_exit_status(const Command& command) {
   }
 }
 
-/// Conditions that must not end the program by a signal.
+/// Disables signals that would end the program.
 void set_up_process() {
   std::set_terminate(end_without_handler);
-  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is a full disk
-  std::signal(SIGPIPE, SIG_IGN);  // nobody reads the progress any more: the run goes on
+  std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is reported as a full disk
+  std::signal(SIGPIPE, SIG_IGN);  // the run continues when its output pipe is closed
 }
 
 }  // namespace
@@ -138,7 +140,7 @@ int run_program(int argc, char** argv) {
   set_up_process();
   CLI::App app{"Perilink: implicit quasistatic peridynamics, damage event by event"};
   app.set_version_flag("--version", [] {
-    use_fitting_kernels();  // what it names is what a run takes
+    use_fitting_kernels();  // reports the kernels that a run uses
     return build_summary();
   });
   app.require_subcommand(1);
@@ -169,7 +171,7 @@ int run_program(int argc, char** argv) {
 
   for (const char* word : std::span(argv, argc)) {
     if (!steers_terminal(word)) continue;
-    complain(fmt::format("{}: names must not hold control characters", word));
+    complain(fmt::format("{}: names must not contain control characters", word));
     return exit_bad_input;
   }
   try {
@@ -179,7 +181,7 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const std::vector<std::string> unknown = app.remaining();
     if (app.get_subcommands().empty() && !unknown.empty()) {
-      complain("there is no command or option " + unknown.front());
+      complain("unknown command or option " + unknown.front());
     }
     app.exit(error);
     return exit_bad_input;

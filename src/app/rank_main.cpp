@@ -13,7 +13,8 @@
 namespace perilink {
 namespace {
 
-/// All ranks take their parts of what the first one runs: another command would be lost.
+/// Ends with an error unless all ranks have the same command line, because all ranks work on the
+/// case of rank 0.
 void require_one_command(Ranks& ranks, int argc, char** argv) {
   std::string words;
   for (int k = 1; k < argc; ++k) words.append(argv[k]).push_back('\0');
@@ -23,22 +24,22 @@ void require_one_command(Ranks& ranks, int argc, char** argv) {
     const std::vector<std::byte> others = ranks.receive(rank);
     if (std::equal(own.begin(), own.end(), others.begin(), others.end())) continue;
     ranks.abandon(
-        "mpiexec has started different commands, of which one alone would run: all processes of "
-        "an mpiexec work on one case");
+        "mpiexec has started different commands; all processes of one mpiexec "
+        "must run the same case");
   }
 }
 
 }  // namespace
 }  // namespace perilink
 
-/// The program as one of several processes under mpiexec: the first runs the command, the others
-/// take their parts of the body.
+/// The program as one of several MPI processes. Rank 0 runs the command, the others compute their
+/// parts of the body.
 int main(int argc, char** argv) {
   using namespace perilink;
   const std::unique_ptr<Ranks> ranks = start_mpi_ranks();
   require_one_command(*ranks, argc, argv);
   if (!ranks->leads()) {
-    // The first alone stops a run in good order, with all others at its side.
+    // Only rank 0 handles stop signals; it then stops all ranks together.
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);
     serve(*ranks);
     return 0;

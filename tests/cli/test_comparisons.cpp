@@ -132,8 +132,10 @@ TEST_F(Comparisons, WhatIsNoResultIsRefused) {
   write_text(work() / "started/history.csv", "step,load,displacement\n");
   const std::map<std::string, std::string> messages = {
       {"nowhere", "nowhere: there is no such directory"},
-      {"a.toml", "a.toml: is not a directory; give that of a result of perilink run"},
-      {"empty", "empty: is no result of a run: there is no history.csv in it"},
+      {"a.toml",
+       "a.toml: is not a directory; give the directory of a result of "
+       "perilink run"},
+      {"empty", "empty: is not a result of a run: it has no history.csv"},
       {"study", "it holds a study of perilink converge"},
       {"started", "started/history.csv: has no row yet"}};
   for (const auto& [directory, message] : messages) {

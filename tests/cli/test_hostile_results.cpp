@@ -66,7 +66,7 @@ TEST_F(HostileResults, ALastRowThatIsCutOffIsLeftOutWithAWord) {
   for (const auto& words : {std::vector<std::string>{"plot", "r"}, {"compare", "r", "r"}}) {
     const ProcessEnd end = run(words);
     EXPECT_EQ(end.exit_status, 0) << end.err;
-    EXPECT_THAT(end.out + end.err, HasSubstr("ends within a row, which is left out"));
+    EXPECT_THAT(end.out + end.err, HasSubstr("ends within a row, which is ignored"));
   }
 }
 
@@ -214,7 +214,7 @@ TEST_F(HostileResults, ADirectoryIsFreeAgainWhenItsRunWasKilled) {
   const ProcessEnd refused =
       run_program(work() / "other", {"run", "../small.toml", "--out", "../r", "--force"});
   EXPECT_EQ(refused.exit_status, 2);
-  EXPECT_THAT(refused.err, HasSubstr("another run writes its results there"));
+  EXPECT_THAT(refused.err, HasSubstr("another run is writing its results there"));
   EXPECT_EQ(read_text(work() / "r/case.toml"), before);
   process.send(SIGKILL);
   EXPECT_EQ(process.wait().signal, SIGKILL);

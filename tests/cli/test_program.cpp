@@ -202,7 +202,7 @@ TEST_F(Program, CheckTellsSizesAndMakesNothing) {
   EXPECT_EQ(end.exit_status, 0) << end.err;
   for (const char* part :
        {"[body]", "particles          336", "bonds              2345", "unknowns           669",
-        "memory", "for each broken bond", " for 30 of them; to read the factor twice\n",
+        "memory", "per broken bond", " for 30 of them; it reads the factor twice\n",
         "spacing            ", " spacings\n", "load               upper cap: (0, 100)"}) {
     EXPECT_THAT(end.out, HasSubstr(part));
   }
@@ -215,8 +215,8 @@ TEST_F(Program, CheckLeavesTheCalibrationToTheRun) {
   write_case("block.toml", hexagonal_case(9, 5));
   const ProcessEnd check = run({"check", "block.toml"});
   EXPECT_EQ(check.exit_status, 0) << check.err;
-  EXPECT_THAT(check.out,
-              testing::ContainsRegex("calibration        of [1-9][0-9]* bonds, by the run"));
+  EXPECT_THAT(check.out, testing::ContainsRegex(
+                             "calibration        of [1-9][0-9]* bonds, at the start of the run"));
   EXPECT_THAT(check.out, testing::Not(HasSubstr("out of balance")));
   ASSERT_EQ(run({"run", "block.toml", "--out", "r"}).exit_status, 0);
   EXPECT_THAT(read_text(work() / "r/log.txt"),
@@ -248,7 +248,8 @@ TEST_F(Program, CheckOfAnExplicitCaseTellsItsSteps) {
   EXPECT_EQ(end.exit_status, 0) << end.err;
   for (const char* part :
        {"model = \"lattice\"", "critical time step 0.00", "time step          0.00",
-        "steps              ", "about 100 rows", "bonds              ", " s on one core, by ",
+        "steps              ", "about 100 rows", "bonds              ",
+        " s on one core, measured over ",
         // Rows are sqrt(3)/2 of a spacing apart: eleven of them fit above the first.
         "particles lie in   x 0 to 2, y 0 to 0.952628\n"}) {
     EXPECT_THAT(end.out, HasSubstr(part));
@@ -367,7 +368,7 @@ TEST_F(Program, PlotDrawsWhatAResultHolds) {
 TEST_F(Program, PlotOfADirectoryWithoutResultsIsRefused) {
   fs::create_directories(work() / "empty");
   for (const auto& [directory, reason] : std::map<std::string, std::string>{
-           {"empty", "is no result of a run"}, {"nowhere", "there is no such directory"}}) {
+           {"empty", "is not a result of a run"}, {"nowhere", "there is no such directory"}}) {
     const ProcessEnd end = run({"plot", directory});
     EXPECT_EQ(end.exit_status, 2);
     EXPECT_THAT(end.err, HasSubstr(directory + ": " + reason));

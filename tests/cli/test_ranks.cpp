@@ -149,7 +149,7 @@ TEST_F(RankFolder, RefuseWhatTheyCannotShare) {
     const ProcessEnd end = run_ranks(2, "run " + name + " --out none");
     EXPECT_EQ(end.exit_status, 2) << name;
     EXPECT_THAT(end.err, HasSubstr(name));
-    EXPECT_THAT(end.err, HasSubstr(given + ", which the 2 processes of mpiexec cannot share"));
+    EXPECT_THAT(end.err, HasSubstr(given + ", which does not run on the 2 processes of mpiexec"));
     EXPECT_THAT(end.err, HasSubstr(allowed));
     EXPECT_THAT(end.err, HasSubstr("start one process without mpiexec"));
     EXPECT_FALSE(fs::exists(work() / "none"));
@@ -242,7 +242,7 @@ TEST_F(RankFolder, WithoutMpiTheFirstSaysSo) {
                               "OMPI_COMM_WORLD_RANK=0 ./perilink --version 2>err >out";
   const int status = std::system(command.c_str());
   EXPECT_EQ(WEXITSTATUS(status), 2);
-  EXPECT_THAT(read_text(work() / "err"), HasSubstr("this build knows no MPI"));
+  EXPECT_THAT(read_text(work() / "err"), HasSubstr("this build has no MPI"));
 }
 
 // mpiexec, which is the oldest, or all ranks.

@@ -167,10 +167,10 @@ y = 1
   EXPECT_EQ(table[0][13], "first_peak_load");
   EXPECT_EQ(table[1][13], table[1][9]);
   EXPECT_EQ(table[1][10], table[2][9]) << "the reference is the finest member's value";
-  EXPECT_THAT(file("results/study/table.csv"), HasSubstr("climbed again"));
+  EXPECT_THAT(file("results/study/table.csv"), HasSubstr("rose again"));
   ASSERT_EQ(run_program(work(), {"run", "parts.toml"}).exit_status, 0);
-  EXPECT_THAT(file("results/parts/summary.json"), HasSubstr("climbed again"));
-  EXPECT_THAT(file("results/parts/log.txt"), HasSubstr("climbed again"));
+  EXPECT_THAT(file("results/parts/summary.json"), HasSubstr("rose again"));
+  EXPECT_THAT(file("results/parts/log.txt"), HasSubstr("rose again"));
   const auto summary = nlohmann::json::parse(file("results/parts/summary.json"));
   EXPECT_GT(summary["largest_load"], 2.0 * summary["peak_load"].get<double>());
 }

@@ -27,7 +27,7 @@ namespace {
 
 /// Rate at which one core reads a factor: verification/benchmarks/README.md.
 constexpr double read_bytes_per_second = 31.5e9;
-/// The fundamental period and calibrated bonds of larger bodies are left to the run.
+/// `check` computes neither the fundamental period nor calibrated bonds of larger bodies.
 constexpr Index most_particles = 20000;
 
 std::string time_text(double seconds) {
@@ -42,8 +42,8 @@ bool softens(const Network& network) {
                      [&](const InterfaceBonds& face) { return many(face.strength); });
 }
 
-/// Memory of a run by conjugate gradients in place of a factor [bytes], from bodies of
-/// verification/studies/large_bodies.
+/// Estimates the memory of a run with conjugate gradients instead of a factor [bytes]. The figures
+/// were fitted to the bodies of verification/studies/large_bodies.
 double memory_without_factor(const Network& network, bool events) {
   const double bonds = network.num_elements(), particles = network.particles.size();
   const bool moments = network.carries_moments();
@@ -57,11 +57,11 @@ double memory_without_factor(const Network& network, bool events) {
   return boxes + 8.0 * unknowns * static_cast<double>(columns);
 }
 
-/// An event reads the factor twice, and so does a batch of events.
+/// Prints the time per event. An event, or a batch of events, reads the factor twice.
 void print_time_of_events(const CaseFile& input, const Network& network, double factor_bytes) {
   const bool many = softens(network), batches = many && event_tolerance_of(input) > 0.0;
   const double seconds = 2.0 * factor_bytes / read_bytes_per_second;
-  fmt::print("#   time               {:.3g} ms for each {}{}", 1e3 * seconds,
+  fmt::print("#   time               {:.3g} ms per {}{}", 1e3 * seconds,
              batches ? "batch of events"
              : many  ? "event"
                      : "broken bond",
@@ -70,10 +70,10 @@ void print_time_of_events(const CaseFile& input, const Network& network, double 
     fmt::print(", {} for {} of them", time_text(*input.stop.broken_bonds * seconds),
                *input.stop.broken_bonds);
   }
-  fmt::print("; to read the factor twice\n");
+  fmt::print("; it reads the factor twice\n");
 }
 
-/// \param factor  of the stiffness; none where conjugate gradients replace it
+/// \param factor  of the stiffness matrix; empty where the run uses conjugate gradients
 void print_cost(const CaseFile& input, const Network& network,
                 const std::optional<FactorStatistics>& factor) {
   const bool events = input.analysis.type != AnalysisType::elastic;
@@ -82,11 +82,11 @@ void print_cost(const CaseFile& input, const Network& network,
   if (factor) {
     fmt::print("#   factor             {:.3g} M numbers, {:.3g} MB\n", factor->entries / 1e6,
                factor->bytes / 1e6);
-    // The draft of the model is part of this process and its peak.
+    // The uncalibrated model of this process counts in its peak memory.
     memory = std::max(
         {memory, peak_memory_bytes(), 1.3 * factor->bytes + 300.0 * network.num_elements()});
   } else {
-    fmt::print("#   solver             conjugate gradients with boxes, {}\n",
+    fmt::print("#   solver             conjugate gradients with subdomains, {}\n",
                input.analysis.solver == LinearSolver::iterative
                    ? "as asked for"
                    : "faster than a factor for so many unknowns");
@@ -97,18 +97,19 @@ void print_cost(const CaseFile& input, const Network& network,
   if (events && softens(network)) {
     const char* wider = event_tolerance_of(input) < 0.02 ? "event_tolerance = 0.02, " : "";
     fmt::print(
-        "#   faster             {}a larger softening_error, [elements] where\n"
-        "#                      nothing cracks, control = \"steps\", or type = \"explicit\"\n",
+        "#   faster             {}a larger softening_error, [elements] "
+        "where\n#                      no crack runs, control = \"steps\", or "
+        "type = \"explicit\"\n",
         wider);
   }
 }
 
-/// Prints the fundamental period, with which loading times are compared.
+/// Prints the fundamental period, a time scale for choosing how slowly to load.
 /// \param period  computes it
 template <class Period>
 void print_period(Index particles, Period period) {
   if (particles > most_particles) {
-    fmt::print("#   fundamental period not computed for so many particles\n");
+    fmt::print("#   fundamental period not computed for more than {} particles\n", most_particles);
     return;
   }
   try {
@@ -118,7 +119,7 @@ void print_period(Index particles, Period period) {
   }
 }
 
-/// From the first to the last particle; the cells of the outermost reach beyond.
+/// Prints the range of particle positions per axis. The outermost cells extend beyond it.
 void print_extents(const LatticeRows& lattice) {
   std::string text;
   for (int axis = 0; axis < lattice.dim; ++axis) {
@@ -132,7 +133,7 @@ void print_extents(const LatticeRows& lattice) {
   fmt::print("#   particles lie in   {}\n", text);
 }
 
-/// \param run  takes a number of steps
+/// \param run  advances the analysis by a number of steps
 template <class Run>
 void print_steps(double critical_time_step, ExplicitOptions options, const char* remark, Run run) {
   fmt::print("#   critical time step {:.6g}{}\n", critical_time_step, remark);
@@ -147,7 +148,7 @@ void print_steps(double critical_time_step, ExplicitOptions options, const char*
     run(options);
     return timer.seconds();
   };
-  seconds(1);  // warms the caches
+  seconds(1);  // fills the caches
   const double first = seconds(1);
   Index timed = 8;
   double taken = 0.0;
@@ -157,8 +158,10 @@ void print_steps(double critical_time_step, ExplicitOptions options, const char*
   } while (taken < 0.05 && timed < steps);
   fmt::print("# expected cost of a run\n#   memory             {:.3g} GB\n",
              peak_memory_bytes() / 1e9);
-  fmt::print("#   time               {} on one core, by {} steps before anything cracks\n",
-             time_text(taken / static_cast<double>(timed) * static_cast<double>(steps)), timed);
+  fmt::print(
+      "#   time               {} on one core, measured over {} steps of the "
+      "intact body\n",
+      time_text(taken / static_cast<double>(timed) * static_cast<double>(steps)), timed);
 }
 
 void print_case(const std::string& path, const CaseFile& input) {
@@ -203,7 +206,7 @@ int check_explicit(const std::string& case_path, const CaseFile& input) {
 
 int check_moving_bonds(const std::string& case_path, const CaseFile& input) {
   Model model = draft_model(input);
-  // Calibrated bonds have another critical time step than those of a draft.
+  // The calibration changes the critical time step.
   const bool changes = input.body.surface == Surface::calibrated;
   const bool builds = input.analysis.time_step || model.network.particles.size() <= most_particles;
   if (changes && builds) model = build_model_visibly(input, false);
@@ -249,7 +252,7 @@ int check_case(const std::string& case_path, bool trust_geometry) {
   if (const auto note = note_of_separated_body(input, model, 1)) model.notes.push_back(*note);
   print_case(case_path, input);
   print_sizes(model, input.analysis.type == AnalysisType::damage);
-  std::fflush(stdout);  // the order of the unknowns of a large body takes a while
+  std::fflush(stdout);  // ordering the unknowns of a large body takes long
 
   const Network& network = model.network;
   std::optional<FactorStatistics> factor;

@@ -24,7 +24,7 @@ void print_breakable(const Network& network, const std::vector<double>& crack_co
     if (!network.can_break(e)) continue;
     const double limit = network.critical_stretch[e] * network.law(e).segment(0).limit;
     ++breakable;
-    if (network.law(e).segment(1).secant > 0.0) {  // its first event does not break it
+    if (network.law(e).segment(1).secant > 0.0) {  // the first event does not break the bond
       ++softening;
       continue;
     }
@@ -38,7 +38,7 @@ void print_breakable(const Network& network, const std::vector<double>& crack_co
     if (softening == breakable) {
       fmt::print(", which soften");
     } else if (softening > 0) {
-      fmt::print(", {} of which soften", softening);
+      fmt::print(", {} of them soften", softening);
     }
     if (softening < breakable) {
       fmt::print(", critical stretch {}{:.5g}", softening > 0 ? "of the others " : "", smallest);
@@ -47,16 +47,20 @@ void print_breakable(const Network& network, const std::vector<double>& crack_co
     fmt::print("\n");
   }
   for (std::size_t m = 0; m < crack_cost.size() && breakable > 0; ++m) {
-    if (crack_cost[m] == 1.0) continue;  // bonds that soften have none
-    fmt::print("#   cost of a crack    {:.4g} of what its bonds release, material {}\n",
-               crack_cost[m], m + 1);
+    if (crack_cost[m] == 1.0) continue;  // softening bonds need no correction
+    fmt::print(
+        "#   energy correction  a crack dissipates {:.4g} of the energy of its "
+        "bonds, material {}\n",
+        crack_cost[m], m + 1);
   }
 }
 
-/// What a law of many teeth comes to.
+/// Prints stretches, fracture energy, strength and process zone of a softening law.
 void print_softening(const MaterialStrength& strength) {
-  fmt::print("#   softening          at stretches from {:.5g} to {:.5g} in {} teeth\n",
-             strength.first_stretch, strength.last_stretch, strength.segments);
+  fmt::print(
+      "#   softening          at stretches from {:.5g} to {:.5g} in {} "
+      "segments\n",
+      strength.first_stretch, strength.last_stretch, strength.segments);
   fmt::print("#   fracture energy    {:.5g}\n", strength.fracture_energy);
 }
 
@@ -70,7 +74,9 @@ void print_strengths(const std::vector<MaterialStrength>& strengths) {
       fmt::print("#   compression        strength {:.5g}\n", strength.compressive_strength);
     }
     if (strength.segments == 1) {
-      fmt::print("#                      by the horizon, as brittle bonds have it\n");
+      fmt::print(
+          "#                      follows from the horizon and fracture_energy "
+          "(brittle bonds)\n");
     } else {
       print_softening(strength);
     }
@@ -83,7 +89,7 @@ void print_interfaces(const std::vector<InterfaceBonds>& interfaces) {
     fmt::print(
         "#   interface {}        {} bonds cross about {:.2g} of area, tensile strength {:.5g}{}\n",
         k + 1, count, area, strength.tensile_strength,
-        strength.segments > 1 ? "" : " by the horizon");
+        strength.segments > 1 ? "" : " from the horizon");
     if (strength.segments > 1) print_softening(strength);
   }
 }
@@ -94,14 +100,15 @@ void print_elements(const Model& model) {
     return;
   }
   const Network& network = model.network;
-  fmt::print("#   bonds              {} and {} ties of {} bar{}\n", network.num_bonds(),
-             network.first_bar_element - network.first_slip_spring, model.entry_of_bar.size(),
-             model.entry_of_bar.size() == 1 ? "" : "s");
+  fmt::print("#   bonds              {} and {} bond-slip springs of {} bar{}\n",
+             network.num_bonds(), network.first_bar_element - network.first_slip_spring,
+             model.entry_of_bar.size(), model.entry_of_bar.size() == 1 ? "" : "s");
   if (network.cells) {
-    fmt::print("#   linear elements    {} beside the bonds\n", network.cells->cells.size());
+    fmt::print("#   linear elements    {} tied to the bonds\n", network.cells->cells.size());
   }
   if (network.calibration) {
-    fmt::print("#   calibration        of {} bonds, by the run\n", network.calibration->free_bonds);
+    fmt::print("#   calibration        of {} bonds, at the start of the run\n",
+               network.calibration->free_bonds);
   }
   for (std::size_t k = 0; k < network.cut_by_crack.size(); ++k) {
     fmt::print("#   crack {}            {} bonds cut\n", k + 1, network.cut_by_crack[k]);
@@ -126,14 +133,14 @@ void print_spacing(const Model& model) {
   fmt::print("\n");
 }
 
-/// The components that the space has.
+/// Formats the first `dim` components of a vector.
 std::string vector_text(const Vector3& vector, int dim) {
   std::vector<double> components;
   for (int a = 0; a < dim; ++a) components.push_back(vector[a] + 0.0);  // no -0
   return fmt::format("({})", joined(components));
 }
 
-/// Force and moment of a place.
+/// Formats the resultant force and moment of a load region.
 std::string load_text(const LoadRegion& place, int dim) {
   const auto size = [](const Vector3& v) { return std::hypot(v[0], v[1], v[2]); };
   std::string text = vector_text(place.force, dim);
@@ -142,12 +149,12 @@ std::string load_text(const LoadRegion& place, int dim) {
                      : ", moment " + vector_text(place.moment, dim);
   }
   if (place.sizes > (1.0 + 1e-9) * size(place.force)) {
-    text += fmt::format(", forces of {:.6g} in all", place.sizes);
+    text += fmt::format(", sum of force magnitudes {:.6g}", place.sizes);
   }
   return text;
 }
 
-/// What drives a place: components of its displacement, then of its rotation.
+/// Formats the prescribed displacements of a region, then its prescribed rotations.
 std::string motion_text(const PrescribedRegion& place, int dim) {
   std::vector<std::string> parts;
   for (int c = 0; c < static_cast<int>(place.drives.size()); ++c) {
@@ -162,7 +169,8 @@ std::string motion_text(const PrescribedRegion& place, int dim) {
   return fmt::format("{}", joined(parts));
 }
 
-/// What loads each place, at load factor 1; stages load places in turn.
+/// Prints the load of every load region and boundary region at load factor 1. Nothing is printed of
+/// cases with stages, which load regions in turn.
 void print_places(const Model& model) {
   if (!model.sets.empty()) return;
   const int dim = model.network.particles.dim;
@@ -190,12 +198,12 @@ void print_sizes(const Model& model, bool damage) {
   print_elements(model);
   if (model.embedded) {
     const std::vector<std::uint8_t>& whole = model.embedded->whole;
-    fmt::print("#   finite elements    {} of {} carry particles, which would have {} unknowns\n",
+    fmt::print("#   finite elements    {} of {} constrain particles with {} unknowns\n",
                std::count(whole.begin(), whole.end(), 1), whole.size(), model.embedded->free.count);
     if (damage) {
       fmt::print(
-          "#                      time and memory are for the unknowns at first and grow as "
-          "elements convert\n");
+          "#                      time and memory refer to the first unknowns "
+          "and grow with every released element\n");
     }
   }
   fmt::print("#   unknowns           {}\n", model.unknowns.count);

@@ -4,8 +4,7 @@
 
 namespace perilink {
 
-/// Prints what `check` tells of a model: its particles and bonds, their strength, what loads it at
-/// load factor 1, and where its gauges are.
+/// Prints particles, bonds, their strength, the loads at load factor 1 and the positions of gauges.
 /// \param damage  whether bonds may break in the run
 void print_sizes(const Model& model, bool damage = false);
 

@@ -15,17 +15,17 @@ struct RunOptions {
   int threads = 0;  ///< 0: all processors
   bool quiet = false;
   bool force = false;
-  bool trust_geometry = false;  ///< scripts of gmsh may run commands and write files
+  bool trust_geometry = false;  ///< gmsh scripts may run commands and write files
 };
 int run_case(const RunOptions& options);
 
-/// perilink converge: runs a study of a case; the options name the study in place of the case.
+/// perilink converge: runs a convergence study; `case_path` names the study file.
 int converge(const RunOptions& options);
 
 /// perilink compare
 struct CompareOptions {
   std::string first, second;             ///< directories of the results
-  std::optional<std::string> directory;  ///< where the comparison goes
+  std::optional<std::string> directory;  ///< output directory
   bool quiet = false;
   bool force = false;
 };
@@ -34,9 +34,9 @@ struct CompareOptions {
 /// \throws FileError
 int compare(const CompareOptions& options);
 
-/// perilink check: validates a case, builds its model without calibrating the bonds (but where a
-/// time step has to be judged by them), and prints what a run is and will cost; writes no file and
-/// solves nothing.
+/// perilink check: validates a case, builds its model and prints sizes and expected cost. Bonds are
+/// calibrated only where the time step must be checked against them. It writes no file and solves
+/// nothing.
 int check_case(const std::string& case_path, bool trust_geometry);
 
 }  // namespace perilink

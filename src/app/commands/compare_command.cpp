@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The results of runs that stand in the same directory are no business of a comparison.
+/// Prepares the output directory. Results of runs in the directory are kept.
 void prepare_directory(const fs::path& directory, bool force) {
   std::error_code error;
   if (fs::exists(directory, error) && !fs::is_directory(directory, error)) {
@@ -29,7 +29,7 @@ void prepare_directory(const fs::path& directory, bool force) {
   }
   fs::create_directories(directory, error);
   if (error) {
-    throw FileError(fmt::format("{}: cannot be made: {}", directory.string(), error.message()));
+    throw FileError(fmt::format("{}: cannot be created: {}", directory.string(), error.message()));
   }
 }
 

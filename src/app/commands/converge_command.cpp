@@ -28,14 +28,14 @@ void write_text(const fs::path& path, const std::string& text) {
   write_whole_file(path.string(), text);
 }
 
-/// A study, its combinations and what has been run of them.
+/// A study, its series and the members run so far.
 struct Results {
   StudyFile study;
   std::vector<StudySeries> series;
   std::vector<StudyMember> members;
 };
 
-/// After every member, so that a study that is killed leaves what it had.
+/// Writes all tables. Called after every member, so that a killed study keeps its results.
 void write_tables(const fs::path& directory, Results& results) {
   compare_members(results.study, results.members);
   write_text(directory / "table.csv", study_table(results.study, results.series, results.members));
@@ -43,7 +43,8 @@ void write_tables(const fs::path& directory, Results& results) {
              study_timing(results.study, results.series, results.members));
 }
 
-/// "error_unknowns.svg"; of several errors each has its name in that of the file.
+/// Returns the file name of a picture, "error_unknowns.svg", or "error_NAME_unknowns.svg" where the
+/// study has several errors.
 std::string picture_name(const Results& results, std::size_t error, const char* cost) {
   if (results.study.errors.size() == 1) return fmt::format("error_{}.svg", cost);
   std::string name = results.study.errors[error].name;
@@ -72,7 +73,7 @@ void tell(const StudyMember& member, const StudySeries& series, std::size_t done
   std::fputs(printable(line).c_str(), stderr);
 }
 
-/// While people at a terminal see how the calibration of its bonds comes along.
+/// Runs one member and shows the progress of the calibration on a terminal.
 StudyMember run_visibly(const Results& results, std::size_t series, const TomlValue& value,
                         int threads, bool quiet) {
   CalibrationProgress progress(quiet);
@@ -106,7 +107,7 @@ int exit_status_of(const Results& results, bool complete) {
   const auto good = std::find_if(results.members.begin(), results.members.end(),
                                  [](const StudyMember& member) { return !member.failed(); });
   if (good != results.members.end()) return exit_done;
-  complain("every member of the study failed, the first one so:\n" +
+  complain("every member of the study failed; the first failure:\n" +
            results.members.front().failure);
   return results.members.front().bad_input ? exit_bad_input : exit_solver;
 }

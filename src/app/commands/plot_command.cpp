@@ -30,11 +30,11 @@ void save(const Svg& svg, const fs::path& path) {
   say(path.string() + "\n");
 }
 
-/// A number of a field file that names a picture.
+/// Reads a nonnegative whole number from the file data of a field file.
 Index count_of(const VtuGrid& grid, const char* name, const std::string& path) {
   const double value = grid.field(name, 0.0);
   if (value >= 0.0 && value <= std::numeric_limits<Index>::max()) return static_cast<Index>(value);
-  throw FileError(fmt::format("{}: {} is {}, which is no count", path, name, value));
+  throw FileError(fmt::format("{}: {} is {}, not a whole number of at least 0", path, name, value));
 }
 
 void plot_series(const fs::path& directory, const fs::path& out, const PlotLabels& labels,
@@ -59,7 +59,7 @@ void plot_series(const fs::path& directory, const fs::path& out, const PlotLabel
   }
 }
 
-/// Only the run knows when its body gave way.
+/// Reads the first peak from the summary. The history does not say when the body failed.
 std::optional<CurvePoint> first_peak_of(const std::optional<nlohmann::ordered_json>& summary) {
   if (!summary) return std::nullopt;
   const auto load = summary->find("first_peak_load");
@@ -84,10 +84,12 @@ int plot_results(const PlotOptions& options) {
   if (table.cut_off) complain(std::string("note: ") + cut_off_note);
   const auto summary = read_summary_file(directory);
   if (!summary || summary_text(*summary, "status", directory) == "running") {
-    complain("note: the run goes on or was killed; the pictures show what it has written so far");
+    complain(
+        "note: the run is not finished or was killed; the pictures show the "
+        "rows and fields written so far");
   }
   std::error_code failure;
-  fs::create_directories(out, failure);  // saving reports what is wrong with it
+  fs::create_directories(out, failure);  // save() reports the error
   save(draw_load_displacement(records, labels, first_peak_of(summary)),
        out / "load_displacement.svg");
   if (fs::exists(directory / "fields.pvd")) plot_series(directory, out, labels, options.scale);

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whole lines of printable text in DIR/log.txt.
+/// Log sink that writes whole lines of printable text to DIR/log.txt.
 class LogSink final : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {
  public:
   explicit LogSink(const fs::path& directory) : file_((directory / "log.txt").string()) {}
@@ -48,8 +48,8 @@ std::shared_ptr<spdlog::logger> open_log(const fs::path& directory) {
   return log;
 }
 
-/// Writes the summary of a run that found nothing or cannot tell it. What goes wrong with that is
-/// not reported: the first failure is.
+/// Writes a summary with the status "failed". Errors of this write are ignored, because the first
+/// failure is reported.
 void tell_of_failure(const fs::path& directory, const CaseFile& input,
                      const std::exception& error) {
   try {
@@ -58,14 +58,14 @@ void tell_of_failure(const fs::path& directory, const CaseFile& input,
   }
 }
 
-/// The first failure is the one that is told.
+/// Records a failure, unless the run has failed before.
 void fail(const RunOutcome& run_outcome, const std::exception& error) {
   if (run_outcome.termination == Termination::failed) return;
   run_outcome.termination = Termination::failed;
   run_outcome.reason = failure_text(error);
 }
 
-/// Does a part of a run. A full disk or no memory ends it as failed with what was found so far.
+/// Runs one phase. A full disk or exhausted memory ends the run as failed and keeps its results.
 template <class Action>
 void attempt(const RunOutcome& run_outcome, const Action& action) {
   try {
@@ -80,7 +80,7 @@ int exit_status_of(Termination termination) {
   return termination == Termination::failed ? exit_solver : exit_done;
 }
 
-/// Opens all files of a run. Where that fails nothing is computed, and the summary says why.
+/// Opens all files of a run. On failure nothing is computed and the summary gives the reason.
 std::shared_ptr<spdlog::logger> open_files(RunKind& run, const fs::path& directory, bool quiet) {
   try {
     const CaseFile seen = seen_from(run.input, directory);
@@ -98,7 +98,7 @@ std::shared_ptr<spdlog::logger> open_files(RunKind& run, const fs::path& directo
   }
 }
 
-/// The frame of all kinds of runs.
+/// Runs all phases of a case, whatever its analysis type. \return the exit status
 int run_in(const fs::path& directory, const RunOptions& options, const CaseFile& input,
            int threads) {
   Timer timer;
@@ -125,7 +125,7 @@ int run_in(const fs::path& directory, const RunOptions& options, const CaseFile&
   } catch (const std::exception& error) {
     complain(failure_text(error));
     fail(run_outcome, error);
-    tell_of_failure(directory, input, error);  // in case that more cannot be told
+    tell_of_failure(directory, input, error);  // kept if the full summary cannot be written
     attempt(run_outcome, sum_up);
   }
   for (std::size_t k = run->notes.size(); k < summary.notes.size(); ++k) {
@@ -146,7 +146,8 @@ int run_case(const RunOptions& options) {
   const fs::path directory = options.directory ? fs::path(*options.directory)
                                                : default_result_directory(options.case_path);
   refuse_own_file(directory, "case.toml", options.case_path, "this case with its resolved form");
-  refuse_old_results(directory, options.force);  // at once: the model may take minutes
+  refuse_old_results(directory,
+                     options.force);  // before the model is built, which may take minutes
   return run_in(directory, options, input, threads);
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
-/// Units of what is compared; all empty where they are not known or not the same.
+/// Units of the compared quantities; all empty where they are unknown or differ.
 struct Units {
   std::string force, length, stiffness, energy, volume;
 };
@@ -33,7 +33,7 @@ Units units_of(const RunResult& a, const RunResult& b) {
   return units;
 }
 
-/// Two results and what is found of them.
+/// Two results and their comparison.
 struct Pair {
   const RunResult& a;
   const RunResult& b;
@@ -52,8 +52,8 @@ struct Pair {
   }
 };
 
-/// Initial stiffness from the summary; without one by least squares of the rows before the peak
-/// that have at most a third of its load, or of the first row where there are none.
+/// Returns the initial stiffness of the summary [force/length]. Without one: least squares over the
+/// rows before the peak with at most a third of its load, or over the first row.
 double initial_stiffness(const RunResult& result) {
   const double known = number_of(result.summary, "initial_stiffness");
   if (!std::isnan(known)) return known;
@@ -86,7 +86,7 @@ void compare_curves(Pair& pair) {
   pair.add_between("path_distance", "%", 100.0 * path_distance(path_a, path_b));
 }
 
-/// All columns of energies and work that either history has, at its last row.
+/// Compares the last row of every energy and work column that either history has.
 void compare_energies(Pair& pair) {
   for (const RunResult* result : {&pair.a, &pair.b}) {
     for (const auto& [name, value] : result->last_row) {
@@ -98,7 +98,7 @@ void compare_energies(Pair& pair) {
   }
 }
 
-/// In a history of one row the peak is at its end.
+/// Compares gauges at the last row, and at the peak unless both histories have one row only.
 void compare_gauges(Pair& pair) {
   const bool have_peaks = pair.a.records.size() > 1 || pair.b.records.size() > 1;
   for (const RunResult* result : {&pair.a, &pair.b}) {
@@ -118,7 +118,9 @@ void compare_cracks(Pair& pair) {
   const double tolerance = std::max(pair.a.horizon, pair.b.horizon);
   CrackOverlap cracks{no_value, no_value, no_value, no_value, no_value};
   if (pair.a.body && pair.b.body && pair.a.body->dim != pair.b.body->dim) {
-    pair.found.notes.emplace_back("one body is plane and one is not: cracks are not compared");
+    pair.found.notes.emplace_back(
+        "one body is two-dimensional, the other three-dimensional: cracks are "
+        "not compared");
   } else if (pair.a.body && pair.b.body && tolerance > 0.0) {
     cracks = crack_overlap(*pair.a.body, *pair.b.body, tolerance);
   }
@@ -135,7 +137,8 @@ std::string unit_of(const std::string& key, const Units& units) {
   return "";
 }
 
-/// What else either summary says in numbers, and how many bonds broke where there is none.
+/// Compares all other numbers of the summaries. The history gives the number of broken bonds where
+/// the summaries lack it.
 void compare_summaries(Pair& pair) {
   const auto value = [](const RunResult& result, const std::string& key) {
     const double known = number_of(result.summary, key);
@@ -153,7 +156,7 @@ void compare_summaries(Pair& pair) {
   }
 }
 
-/// "1.23457" to the right of a column, or a dash.
+/// Formats a number, "1.23457", or a dash for a missing one, aligned to the right.
 std::string cell(double value) {
   return std::isnan(value) ? fmt::format("{:>14}", "-") : fmt::format("{:>14.6g}", value);
 }
@@ -161,19 +164,19 @@ std::string cell(double value) {
 std::string percent_cell(double value) {
   if (std::isnan(value)) return fmt::format("{:>14}", "-");
   if (value == 0.0) return fmt::format("{:>14}", "0 %");
-  // Energies of round-off differ by any factor: their columns must not touch.
+  // Round-off energies differ by any factor; large percentages must not run into the next column.
   return std::abs(value) < 1e6 ? fmt::format("{:>+12.2f} %", value)
                                : fmt::format("{:>+12.1e} %", value);
 }
 
-/// "seconds set up" of "seconds.set_up".
+/// Turns "seconds.set_up" into "seconds set up".
 std::string spaced(std::string name) {
   std::replace_if(
       name.begin(), name.end(), [](char c) { return c == '_' || c == '.'; }, ' ');
   return name;
 }
 
-/// Letters that a terminal shows: those of UTF-8 that begin one.
+/// Counts the characters of a UTF-8 text.
 std::size_t shown_length(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(
       text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) >> 6) != 2; }));
@@ -183,7 +186,7 @@ std::size_t shown_length(std::string_view text) {
 
 double ComparedQuantity::difference_percent() const {
   if (a == b) return 0.0;
-  // What is left of a run that came apart is round-off, to which nothing compares.
+  // After separation values are round-off; a ratio to them means nothing.
   constexpr double round_off = 1e-9;
   return std::abs(a) <= round_off * std::abs(b) ? no_value : 100.0 * (b - a) / std::abs(a);
 }

@@ -8,20 +8,20 @@
 
 namespace perilink {
 
-/// One quantity of two results. What is missing is not-a-number.
+/// One quantity of two results. Missing values are not-a-number.
 struct ComparedQuantity {
   std::string name;
-  std::string unit;  ///< empty: none, or not known
+  std::string unit;  ///< empty: none or unknown
   double a = std::numeric_limits<double>::quiet_NaN();
   double b = std::numeric_limits<double>::quiet_NaN();
-  /// Value of a quantity that belongs to both.
+  /// Value of a quantity that describes both results together, such as a distance.
   double between = std::numeric_limits<double>::quiet_NaN();
 
-  /// 100 (b − a) / |a|, 0 where both are zero; not a number where a is none beside b.
+  /// 100 (b − a) / |a|; 0 where both are zero; not-a-number where |a| is round-off relative to |b|.
   double difference_percent() const;
 };
 
-/// Two results side by side; docs/compare.md says what each quantity is.
+/// Comparison of two results; docs/compare.md defines each quantity.
 struct Comparison {
   std::vector<ComparedQuantity> quantities;
   std::vector<std::string> notes;
@@ -29,10 +29,10 @@ struct Comparison {
 
 Comparison compare_results(const RunResult& a, const RunResult& b);
 
-/// The table for people; numbers with six digits, dashes for what is missing.
+/// Returns the comparison as a text table with six digits and dashes for missing values.
 std::string comparison_report(const RunResult& a, const RunResult& b, const Comparison& comparison);
 
-/// The same as comma-separated values with all digits; what is missing is empty.
+/// Returns the comparison as comma-separated values with all digits; missing values are empty.
 std::string comparison_csv(const RunResult& a, const RunResult& b, const Comparison& comparison);
 
 }  // namespace perilink

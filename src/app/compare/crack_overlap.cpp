@@ -10,7 +10,7 @@
 namespace perilink {
 namespace {
 
-/// The cracked particles alone.
+/// Returns the cracked particles of a body.
 CrackPattern cracked_part(const CrackPattern& body) {
   CrackPattern part;
   part.dim = body.dim;
@@ -41,8 +41,8 @@ double square_distance(const CrackPattern& p, Index i, const CrackPattern& q, In
   return sum;
 }
 
-/// Volume of the particles for which `counts` says so of their neighbours in another body.
-/// \param counts  takes a particle and those of `others` within the radius
+/// Sums the volume of particles for which `counts` returns true [length^3].
+/// \param counts  takes a particle and the particles of `others` within the radius
 template <class Counts>
 double volume_where(const CrackPattern& part, const CrackPattern& others, double radius,
                     Counts counts) {
@@ -55,12 +55,12 @@ double volume_where(const CrackPattern& part, const CrackPattern& others, double
   return sum;
 }
 
-/// Volume of the particles that have one of `others` within the radius.
+/// Volume of the particles with a particle of `others` within the radius [length^3].
 double volume_near(const CrackPattern& part, const CrackPattern& others, double radius) {
   return volume_where(part, others, radius, [](Index, auto near) { return !near.empty(); });
 }
 
-/// Volume of the particles whose nearest one of a whole body is cracked.
+/// Volume of the particles whose nearest particle of `body` is cracked [length^3].
 double volume_inside(const CrackPattern& part, const CrackPattern& body, double radius) {
   return volume_where(part, body, radius, [&](Index q, auto near) {
     const auto distance = [&](Index j) { return square_distance(part, q, body, j); };

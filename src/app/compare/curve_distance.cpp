@@ -9,7 +9,7 @@ namespace {
 
 constexpr double no_distance = std::numeric_limits<double>::quiet_NaN();
 
-/// Points per path in the mean over its arc length: their spacing is far below a line's width.
+/// Points per path for the mean over the arc length; their spacing is far below a line's width.
 constexpr int samples = 1000;
 
 double load_between(const CurvePoint& p, const CurvePoint& q, double displacement) {
@@ -17,11 +17,11 @@ double load_between(const CurvePoint& p, const CurvePoint& q, double displacemen
          (displacement - p.displacement) / (q.displacement - p.displacement) * (q.load - p.load);
 }
 
-/// Walks along a reading, interval after interval.
+/// Iterates over the intervals of a reading.
 class Walker {
  public:
   explicit Walker(std::span<const CurvePoint> reading) : reading_(reading) {}
-  /// Makes the piece that begins at or before u and ends behind it the current one.
+  /// Moves to the interval that begins at or before u and ends after u.
   void move_past(double u) {
     while (at_ + 2 < reading_.size() && reading_[at_ + 1].displacement <= u) ++at_;
   }
@@ -33,7 +33,7 @@ class Walker {
   std::size_t at_ = 0;
 };
 
-/// Integral of the square of a line that goes from `low` to `high`.
+/// Integral of the square of a linear function from `low` to `high` over `width`.
 double square_integral(double width, double low, double high) {
   return width / 3.0 * (low * low + low * high + high * high);
 }

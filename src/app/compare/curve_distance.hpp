@@ -6,17 +6,17 @@
 #include "app/plot/plot_curve.hpp"
 
 /// \file
-/// How far two load–displacement curves are from each other. A path is the rows of a history joined
-/// by straight lines from the origin; it may snap back. A reading is a single-valued curve over the
-/// displacement, in which steps are pairs of points of one displacement.
+/// Distances between load–displacement curves. A path joins the rows of a history by straight lines
+/// from the origin; it may snap back. A reading is a single-valued curve over the displacement,
+/// with two points at each jump.
 
 namespace perilink {
 
-/// The path of a history, from the origin, with signs such that it runs to positive displacements.
+/// Returns the path of a history from the origin, with signs such that displacements are positive.
 std::vector<CurvePoint> path_of(std::span<const StepRecord> records);
 
-/// What a test reads whose displacement u only grows: the load with which the path first reaches u.
-/// Where the path snaps back the load falls at once to that with which the path comes back to u.
+/// Returns the load a displacement-controlled test would record. At a snap-back the load drops at
+/// once to the load at which the path returns to that displacement.
 std::vector<CurvePoint> displacement_reading(std::span<const CurvePoint> path);
 
 /// sqrt(∫ (P_b − P_a)² du / ∫ P_a² du) over u from 0 to `range`, which both readings must reach;
@@ -26,10 +26,10 @@ double load_distance(std::span<const CurvePoint> a, std::span<const CurvePoint> 
 /// ∫ P du of a reading over u from 0 to `range`, which it must reach [force length].
 double work_until(std::span<const CurvePoint> reading, double range);
 
-/// Mean over the arc length of either path of the distance to the nearest point of the other one,
-/// then the mean of both, in the plane of u / max|u| and P / max|P| with the largest values of both
-/// paths. Steps of the snapped back parts count as much as any. Not-a-number when all
-/// displacements or all loads are zero. Costs 2000 times the rows of both.
+/// Mean distance from either path to the nearest point of the other one. Each path is averaged over
+/// its arc length, in the plane of u / max|u| and P / max|P| with the maxima of both paths.
+/// Snap-back branches count in full. Not-a-number when all displacements or all loads are zero. The
+/// cost is 2000 times the rows of both.
 double path_distance(std::span<const CurvePoint> a, std::span<const CurvePoint> b);
 
 }  // namespace perilink

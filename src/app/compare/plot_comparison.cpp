@@ -15,10 +15,10 @@ namespace {
 constexpr double frame_top = 92.0;
 constexpr double legend_top = 52.0;
 constexpr double legend_row = 21.0;
-constexpr std::size_t legend_letters = 98;  ///< as many fit beside a line of the legend
+constexpr std::size_t legend_letters = 98;  ///< most characters that fit in a line of the legend
 
-/// Colours that the colour-blind tell apart (Okabe & Ito 2008); the second line is dashed, for
-/// prints without colour and where the curves coincide.
+/// Colours for colour-blind readers (Okabe & Ito 2008). The second line is dashed, for prints
+/// without colour and for coinciding curves.
 struct Look {
   const char* color;
   const char* dashes;
@@ -37,21 +37,21 @@ std::string pale(const Look& look) {
       look.color);
 }
 
-/// The smooth curve of a long path of events, else none.
+/// Returns the envelope of a long path of events, else no point.
 std::vector<CurvePoint> envelope_of(const RunResult& result) {
   const std::vector<CurvePoint> path = event_path_of(result.records, result.labels);
   if (path.size() <= events_for_envelope) return {};
   return smooth_envelope(path, envelope_window(path.size()));
 }
 
-/// The title that both have, else the names of both.
+/// Returns the title both results share, else both names.
 std::string heading_of(const RunResult& a, const RunResult& b) {
   const bool shared = a.labels.title == b.labels.title && a.labels.title != a.name;
   return shared ? a.labels.title : a.name + " and " + b.name;
 }
 
-/// "coarse: Beam in bending, peak 12 kN at 0.3 mm"; without a title that says nothing new or does
-/// not fit.
+/// Returns a legend entry, "coarse: Beam in bending, peak 12 kN at 0.3 mm". The title is left out
+/// if the heading has it or if it does not fit.
 std::string legend_text(const RunResult& result, const std::string& heading) {
   const StepRecord& peak = result.peak();
   const std::string end =

@@ -5,9 +5,9 @@
 
 namespace perilink {
 
-/// Load over displacement of two results with their peaks, signs as in the histories; beyond 200
-/// rows a curve is its envelope, over its rows in a pale line, unless they follow time. The legend
-/// above the frame has the names of the directories and the titles of the cases.
+/// Draws load over displacement of two results with their peaks; signs are as in the histories.
+/// Above 200 rows a damage curve is drawn as its envelope over the pale rows. The legend above the
+/// frame gives directory names and case titles.
 Svg draw_comparison(const RunResult& a, const RunResult& b);
 
 }  // namespace perilink

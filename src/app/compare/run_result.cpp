@@ -61,7 +61,7 @@ CsvTable read_rows(const fs::path& directory, RunResult& result) {
   const CsvTable table = read_csv(path);
   result.records = history_records(table, path);
   if (result.records.empty()) {
-    throw FileError(path + ": has no row yet, there is nothing to compare");
+    throw FileError(path + ": has no row; nothing can be compared");
   }
   if (table.cut_off) result.notes.push_back(cut_off_note);
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
@@ -82,7 +82,7 @@ double least_horizon(const PlotBody& body) {
   return longest;
 }
 
-/// The solid particles of a field file. In files without volumes each has a cell of the lattice.
+/// Returns the solid particles of a field file. In files without volumes each has a lattice cell.
 CrackPattern solid_part(const PlotBody& body, const VtuGrid& grid) {
   const VtuArray* volumes = grid.find_point_data("volume");
   if (volumes != nullptr && volumes->values.size() != body.positions.size()) volumes = nullptr;

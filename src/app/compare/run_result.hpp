@@ -11,30 +11,30 @@
 
 namespace perilink {
 
-/// Numbers under their names, in the order of the file.
+/// Pairs of name and number, in the order of the file.
 using NamedNumbers = std::vector<std::pair<std::string, double>>;
 
-/// The number of a name; not-a-number where there is none.
+/// Returns the number with a name; not-a-number where it is missing.
 double number_of(const NamedNumbers& numbers, const std::string& name);
 
-/// What `perilink run` left in a directory, of any kind of analysis, finished or not.
+/// Result of `perilink run` for any analysis type, finished or not.
 struct RunResult {
   std::string directory;  ///< as given
   std::string name;       ///< last part of its path
   PlotLabels labels;
-  std::string units;                ///< from summary.json; empty: none
-  std::string status;               ///< from summary.json; empty: there is none
-  NamedNumbers summary;             ///< numbers of summary.json, those of `seconds` as seconds.KEY
-  std::vector<StepRecord> records;  ///< rows of history.csv
-  NamedNumbers last_row;            ///< all columns of history.csv
+  std::string units;                    ///< from summary.json; empty: none
+  std::string status;                   ///< from summary.json; empty: no summary.json
+  NamedNumbers summary;                 ///< numbers of summary.json; `seconds` gives seconds.KEY
+  std::vector<StepRecord> records;      ///< rows of history.csv
+  NamedNumbers last_row;                ///< all columns of history.csv
   NamedNumbers gauges, gauges_at_peak;  ///< at the last row, and at the peak
   std::optional<CrackPattern> body;     ///< from the last field file
-  /// From summary.json, else the longest broken bond, or two spacings where that is more: the reach
-  /// of a lattice whose bonds see the neighbours of either end; 0 without fields [length].
+  /// Horizon from summary.json, else the longest broken bond or two spacings, whichever is larger
+  /// (a lattice bond depends on the neighbours of both ends); 0 without fields [length].
   double horizon = 0.0;
-  std::vector<std::string> notes;  ///< what is missing
+  std::vector<std::string> notes;  ///< missing data and unfinished runs
 
-  /// The row of the peak that summary.json names; without one that of the largest |load|.
+  /// Returns the row of the peak in summary.json, else the row of the largest |load|.
   const StepRecord& peak() const { return records[peak_number()]; }
   std::size_t peak_number() const;
 };

@@ -17,7 +17,7 @@
 namespace perilink {
 namespace {
 
-/// Weighted mean of the positions of some particles.
+/// Returns the weighted mean position of some particles.
 Vector3 place_of(const Particles& particles, std::span<const Gauge::Term> terms) {
   Vector3 place{};
   for (const Gauge::Term& term : terms) {
@@ -34,8 +34,9 @@ std::string point_text(const Vector3& point, int dim) {
   return fmt::format("({})", joined(components));
 }
 
-/// Particles with an intact bond to one, nearest to a point first; where bonds are not known, those
-/// around it. Bonds across cracks and gaps are gone. Stresses jump between materials.
+/// Returns particles with an intact bond to a particle, nearest to `point` first; without known
+/// bonds those around it. Broken bonds do not count, since displacements jump across cracks.
+/// Stresses jump between materials.
 std::vector<Index> neighbors_of(const Model& model, Index particle, const Vector3& point,
                                 bool same_material) {
   const Network& network = model.network;
@@ -69,9 +70,9 @@ std::vector<Index> neighbors_of(const Model& model, Index particle, const Vector
   return neighbors;
 }
 
-/// Weights with which a linear field's values at a particle and some of its neighbours make that at
-/// a point: barycentric coordinates in the line, triangle or tetrahedron of the nearest ones around
-/// it. None is negative: a point outside the particles means the nearest place on their border.
+/// Returns interpolation weights of a particle and its neighbours at a point. They are barycentric
+/// coordinates in the line, triangle or tetrahedron of the nearest ones around it. No weight is
+/// negative: a point outside is projected to the border.
 std::vector<Gauge::Term> linear_terms(const Model& model, Index nearest, const Vector3& point,
                                       bool same_material) {
   constexpr double flat = 0.25, little = 1e-9;
@@ -110,22 +111,22 @@ std::vector<Gauge::Term> linear_terms(const Model& model, Index nearest, const V
   return terms;
 }
 
-/// \param notes  gets a sentence where no particle lies at the point
+/// \param notes  receives a note where no particle lies at the point
 std::vector<Gauge::Term> terms_at(const CaseFile& input, const Model& model, const std::string& key,
                                   const Vector3& point, const Gauge& gauge,
                                   std::vector<std::string>& notes) {
-  constexpr double moved = 1e-6;  // spacings; a particle this close lies at the point
+  constexpr double moved = 1e-6;  // spacings within which a particle lies at the point
   const Particles& particles = model.network.places();
   const double spacing = model.lattice.spacing;
   const std::span<const double> at(point.data(), static_cast<std::size_t>(particles.dim));
   const NearestParticle nearest = nearest_particle(particles, at);
   if (!(nearest.distance <= spacing)) {
-    throw InputError(
-        input.where(key),
-        fmt::format("the point ({}) is {:.6g} from the nearest particle", joined(at),
-                    nearest.distance),
-        fmt::format("particles are {:.6g} apart; a point of a gauge must lie within that of one",
-                    spacing));
+    throw InputError(input.where(key),
+                     fmt::format("the point ({}) is {:.6g} from the nearest particle", joined(at),
+                                 nearest.distance),
+                     fmt::format("the spacing is {:.6g}; place the point within this distance of a "
+                                 "particle",
+                                 spacing));
   }
   if (nearest.distance <= moved * spacing) return {{nearest.particle, 1.0}};
   std::vector<Gauge::Term> terms =
@@ -144,7 +145,7 @@ std::vector<Gauge::Term> terms_at(const CaseFile& input, const Model& model, con
   return terms;
 }
 
-/// Displacement of the second point relative to the first.
+/// Sets up a gauge of the displacement of its second point relative to the first.
 void fill_difference(const CaseFile& input, const Model& model, const std::string& key,
                      const GaugeSection& section, Gauge& gauge, std::vector<std::string>& notes) {
   const Particles& particles = model.network.particles;
@@ -157,7 +158,7 @@ void fill_difference(const CaseFile& input, const Model& model, const std::strin
                      .particle;
     gauge.place +=
         (k == 0 ? "from " : " to ") + point_text(place_of(particles, terms), particles.dim);
-    // The points of a shell are on the flat sheet, the particles in space.
+    // Points of a shell are given on its flat reference; particles lie in space.
     if (model.network.shell) ends[k] = place_of(particles, terms);
     for (Gauge::Term& term : terms) term.weight *= k == 0 ? -1.0 : 1.0;
     gauge.terms.insert(gauge.terms.end(), terms.begin(), terms.end());
@@ -181,7 +182,7 @@ void fill_mean(const CaseFile& input, const Model& model, const std::string& key
   const bool bars_alone = std::all_of(members.begin(), members.end(), is_bar);
   if (bars_alone && section.stress) {
     throw InputError(input.where(key),
-                     fmt::format("is \"{}\", which holds only bars", section.region),
+                     fmt::format("is \"{}\", which contains only bars", section.region),
                      "name a region with particles of the solid");
   }
   for (const Index i : members) {
@@ -196,7 +197,7 @@ void fill_mean(const CaseFile& input, const Model& model, const std::string& key
                     : fmt::format("mean of {} particles", gauge.terms.size());
 }
 
-/// Number of a component among the six of a Stress.
+/// Returns the index of a component among the six of a Stress.
 std::size_t number_of(const std::array<int, 2>& axes) {
   if (axes[0] == axes[1]) return axes[0];
   return axes[0] == 1 ? 4 : axes[1] == 1 ? 3 : 5;
@@ -212,7 +213,7 @@ std::vector<Gauge> build_gauges(const CaseFile& input, const Model& model,
     const GaugeSection& section = input.gauges[k];
     if (std::find(taken.begin(), taken.end(), section.name) != taken.end()) {
       throw InputError(input.where(item_key("gauges", k, "name")),
-                       fmt::format("is \"{}\", a column that every history has", section.name),
+                       fmt::format("is \"{}\", a column of every history", section.name),
                        "choose another name");
     }
     Gauge gauge;

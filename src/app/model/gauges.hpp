@@ -11,15 +11,15 @@
 
 namespace perilink {
 
-/// Gauges of a case on the particles of its body: those at points, or by a linear field through
-/// those around a point, or all of a region with weights in proportion to their volumes.
-/// \param notes  gets a sentence for each point at which no particle lies
+/// Builds the gauges of a case: at a particle, interpolated between particles around a point, or
+/// averaged over a region. Weights of a region are in proportion to volumes.
+/// \param notes  receives a note for each point without a particle
 /// \throws InputError  for points outside the body, two points with one particle, empty regions and
-///                     names of columns that every history has
+///                     names of columns of every history
 std::vector<Gauge> build_gauges(const CaseFile& input, const Model& model,
                                 std::vector<std::string>& notes);
 
-/// What a gauge of displacements measures.
+/// Returns the value of a displacement gauge [length].
 /// \param displacement  takes a particle and an axis [length]
 template <class Displacement>
 double gauge_value(const Gauge& gauge, int dim, Displacement displacement) {
@@ -32,12 +32,12 @@ double gauge_value(const Gauge& gauge, int dim, Displacement displacement) {
   return value;
 }
 
-/// Values of all gauges.
-/// \param families  bonds of each particle; filled when a gauge needs them, for the next call
+/// Returns the values of all gauges [length] or [force/length^2].
+/// \param neighbourhoods  bonds of each particle; filled once a gauge needs them
 std::vector<double> gauge_values(const Model& model, const ModelState& state, Csr& neighbourhoods);
 
-/// What stresses at the particles of a model are found from.
-/// \param families  bonds of each particle; must outlive the result
+/// Returns the input for stresses at the particles of a model.
+/// \param neighbourhoods  bonds of each particle; must outlive the result
 StressInput stress_input(const Model& model, const Csr& neighbourhoods, Secants secants = {});
 
 }  // namespace perilink

@@ -16,7 +16,7 @@ double relative(std::span<const PrescribedRegion> places, const std::array<bool,
                 int first, int last) {
   double largest = 0.0, alone = 0.0;
   for (const PrescribedRegion& a : places) {
-    double to_frame = 0.0, whole = 0.0;  // squares
+    double to_frame = 0.0, whole = 0.0;  // sums of squares
     for (int c = first; c < last; ++c) {
       if (!a.drives[c]) continue;
       const double square = std::pow(std::max(std::abs(a.low[c]), std::abs(a.high[c])), 2);

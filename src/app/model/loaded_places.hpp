@@ -8,26 +8,26 @@
 #include "base/types.hpp"
 
 /// \file
-/// Where a case loads its body, and the one load and displacement that stand for all places.
+/// Load regions and boundary regions of a case, and the load and displacement of the history.
 
 namespace perilink {
 
-/// A region, or the particle of a point load, that forces load.
+/// A region or particle with forces.
 struct LoadRegion {
   std::string name;
   Vector3 force{}, moment{};  ///< resultants at load factor 1 [force], [force length]
-  double sizes = 0.0;         ///< sum of the sizes of its forces, at least |force| [force]
+  double sizes = 0.0;         ///< sum of force magnitudes, at least |force| [force]
 };
 
-/// A region that displacements drive.
+/// A region with prescribed displacements.
 struct PrescribedRegion {
   std::string name;
-  std::vector<std::size_t> slots;       ///< driven components of the motions of its particles
-  std::array<bool, 6> drives{};         ///< the components among them
+  std::vector<std::size_t> slots;       ///< prescribed motion components of its particles
+  std::array<bool, 6> drives{};         ///< prescribed components
   std::array<double, 6> low{}, high{};  ///< their values at load factor 1 [length], rotations [-]
 };
 
-/// The place of a name, a new one where there is none.
+/// Returns the region with a name, a new one where none has it.
 template <class Place>
 Place& place_named(std::vector<Place>& places, const std::string& name) {
   for (Place& place : places) {
@@ -37,16 +37,17 @@ Place& place_named(std::vector<Place>& places, const std::string& name) {
   return places.back();
 }
 
-/// What passes through the body: half the sum of the sizes of all forces that balance on it, where
-/// places and supports bear one each. Forces F give F against supports or one another, 2 F side by
-/// side. A place alone gives its resultant, but no less than half the sum of the sizes of its
-/// forces, which is what a pressure all around gives. Without forces the same of moments.
+/// Returns the total load: half the sum of the magnitudes of all balanced forces, of load regions
+/// and supports. Forces F give F against supports or each other, and 2 F side by side. A single
+/// region gives its resultant, but at least half the sum of its force magnitudes, as for pressure
+/// all around. Without forces the total is that of moments.
 double total_load(std::span<const LoadRegion> places);
 
-/// Largest difference between the driven displacements of two places, or of one and what holds the
-/// body still; a vector of the components that both have. Without displacements that of rotations.
-/// \param held  components that something holds; those that a single place drives count as held
-/// \param dim   components of displacements, rotations come behind
+/// Returns the largest difference between the prescribed displacements of two regions, or of a
+/// region and the supports, as the norm over their common components. Without displacements it is
+/// the largest difference of rotations.
+/// \param held  supported components; those prescribed in only one region count as held
+/// \param dim   number of displacement components; rotations follow them
 double relative_motion(std::span<const PrescribedRegion> places, const std::array<bool, 6>& held,
                        int dim);
 

@@ -20,22 +20,21 @@
 
 namespace perilink {
 
-/// A displacement or stress of the history: weights times values at particles.
+/// A displacement or stress in the history: weighted sum of particle values.
 struct Gauge {
   struct Term {
     Index particle = no_index;
     double weight = 0.0;
   };
   std::string name;
-  std::string place;  ///< "at (50, 20)", of the particles' positions in space
+  std::string place;  ///< "at (50, 20)", from particle positions in space
   std::vector<Term> terms;
-  Vector3 direction{};                       ///< direction of the displacement that is measured
-  std::optional<std::array<int, 2>> stress;  ///< axes of the component instead of a displacement
+  Vector3 direction{};                       ///< direction of the measured displacement
+  std::optional<std::array<int, 2>> stress;  ///< axes of the stress component
 };
 
-/// A case turned into particles, bonds, unknowns and loads. With method = "linear_elements" its
-/// network holds the particles, and the edges of the cells as bonds: used only for connectivity,
-/// their stiffness means nothing.
+/// Particles, bonds, unknowns and loads of a case. With method = "linear_elements" the network
+/// holds the particles and the cell edges as bonds, used for connectivity only.
 struct Model : LoadedNetwork {
   Problem problem = Problem::plane_stress;
   Lattice lattice;
@@ -47,16 +46,16 @@ struct Model : LoadedNetwork {
   std::vector<double> crack_cost;
   std::optional<LinearElements> elements;         ///< with method = "linear_elements"
   std::optional<ParticleFitReport> particle_fit;  ///< with model = "particles"
-  std::vector<LoadRegion> load_regions;           ///< by forces, where nothing is driven
+  std::vector<LoadRegion> load_regions;  ///< with forces, where no displacement is prescribed
   std::vector<PrescribedRegion> prescribed_regions;
   std::vector<Gauge> gauges;
-  /// Whether, per particle, a displacement of it is prescribed by a support or driven (planes of
-  /// symmetry grip nothing: a crack may run into them).
+  /// Per particle, whether a support or prescribed displacement acts on it. Planes of symmetry do
+  /// not count, since cracks may reach them.
   std::vector<std::uint8_t> gripped;
   std::vector<HookeConstants> hooke;  ///< elastic constants per material
   LoadResultant resultant;
   std::vector<std::size_t> entry_of_bar;  ///< in [[rebar]], by Bars::bar
-  std::vector<std::string> notes;  ///< what the user should know: pinned modes, unbalanced moments
+  std::vector<std::string> notes;         ///< for the user: pinned modes, unbalanced moments
 };
 
 }  // namespace perilink

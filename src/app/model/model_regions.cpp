@@ -15,10 +15,10 @@
 namespace perilink {
 namespace {
 
-/// Particles and centres of facets this close to a region's side, in spacings, are inside.
+/// Distance within which particles and facet centres lie inside a region, in spacings.
 constexpr double region_tolerance = 1e-6;
 
-/// The case's own region, or nothing: a name that every case has.
+/// Returns the region of the case; null for "body" and "surface", which every case has.
 const Region* find_region(const CaseFile& input, const std::string& name) {
   const auto found = std::find_if(input.regions.begin(), input.regions.end(),
                                   [&](const Region& region) { return region.name == name; });
@@ -82,8 +82,8 @@ bool lies_on(const Piece& piece, const Vector3& point, double tolerance) {
   return norm(minus(nearest_point(facet, point), point)) <= tolerance;
 }
 
-/// Adds the nodes of bars on the surface or on the points, lines, sides or cells of a group, which
-/// have no particles of the mesh.
+/// Adds bar nodes on the surface, or on points, lines, sides or cells of a group; these nodes are
+/// not mesh vertices.
 /// \param group  null: the surface
 void add_bar_nodes(const Model& model, const Group* group, std::vector<Index>& members) {
   const Particles& particles = model.network.particles;
@@ -146,7 +146,7 @@ double distance(const Region& region, std::span<const double> point) {
   return std::sqrt(square);
 }
 
-/// Where the particle nearest to a box or a round region is; of groups nothing.
+/// Returns the position of the particle nearest to a box or round region; empty for groups.
 std::string nearest_text(const Particles& particles, const Region* region) {
   if (region == nullptr || !region->group.empty()) return "";
   Index nearest = no_index;
@@ -211,7 +211,8 @@ std::vector<Index> particles_of_region(const CaseFile& input, const Model& model
   if (!any) {
     throw InputError(
         input.where(key), fmt::format("no particle lies in the region \"{}\"", region),
-        fmt::format("{}particles are {:.6g} apart; make the region larger or move it onto the body",
+        fmt::format("{}the spacing is {:.6g}; make the region larger or move it onto the "
+                    "body",
                     nearest_text(particles, find_region(input, region)), model.lattice.spacing));
   }
   return inside;

@@ -7,24 +7,25 @@
 
 namespace perilink {
 
-/// The physical group of the mesh with a name; build_model() has seen that it exists.
+/// Returns the physical group of the mesh with a name, which build_model() has checked.
 const Group& group_named(const Model& model, const std::string& name);
 
-/// Solid particles and bar nodes inside a region, ascending. A physical group holds the particles
-/// of its mesh and the bar nodes on its points, lines, sides or in its cells; "surface" the corners
-/// of all facets of the surface and the bar nodes on these; "body" everything.
+/// Returns solid particles and bar nodes inside a region, ascending. A physical group has its mesh
+/// particles and the bar nodes on its points, lines and sides or in its cells. "surface" has the
+/// corners of all surface facets and the bar nodes on them; "body" has everything.
 /// \param key  place in the case, for messages
 /// \throws InputError when there is none
 std::vector<Index> particles_of_region(const CaseFile& input, const Model& model,
                                        const std::string& region, const std::string& key);
 
-/// Facets of the surface whose centres lie in a region, ascending; of a physical group its facets.
+/// Returns surface facets with centres in a region, or surface facets of a physical group,
+/// ascending.
 /// \param key  place in the case, for messages
 /// \throws InputError when there is none
 std::vector<Index> facets_of_region(const CaseFile& input, const Model& model,
                                     const std::string& region, const std::string& key);
 
-/// Solid particle nearest to a point; of several equally near ones the first.
+/// Solid particle nearest to a point; the first of several at equal distance.
 struct NearestParticle {
   Index particle = no_index;
   double distance = 0.0;  ///< [length]

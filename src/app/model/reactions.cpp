@@ -15,7 +15,7 @@
 namespace perilink {
 namespace {
 
-/// All loads as they are.
+/// Returns all loads at the current load factors.
 std::vector<double> present_loads(const Model& model, const ModelState& state) {
   std::vector<double> loads = model.loads.forces;
   for (double& load : loads) load *= state.set_factors.empty() ? state.load_factor : 0.0;
@@ -26,7 +26,7 @@ std::vector<double> present_loads(const Model& model, const ModelState& state) {
   return loads;
 }
 
-/// Particles near a plane of symmetry, as the supports find them.
+/// Returns the particles in a plane of symmetry, with the tolerance of the supports.
 std::vector<Index> particles_in(const CaseFile& input, const Model& model, std::size_t k) {
   const SymmetrySection& plane = input.symmetry[k];
   if (!plane.at) {
@@ -41,8 +41,8 @@ std::vector<Index> particles_in(const CaseFile& input, const Model& model, std::
   return inside;
 }
 
-/// Corners of the facets that share a stiffness per area, which may lie outside the region, or the
-/// particles that share a total; ascending.
+/// Returns the particles on springs, ascending. A stiffness per area acts on the corners of its
+/// facets, which may lie outside the region; a total is shared by all particles of the region.
 std::vector<Index> sprung_particles(const CaseFile& input, const Model& model, std::size_t k) {
   const SpringSection& section = input.springs[k];
   const std::string key = item_key("springs", k, "region");
@@ -56,7 +56,7 @@ std::vector<Index> sprung_particles(const CaseFile& input, const Model& model, s
   return corners;
 }
 
-/// Moment of a force about the origin.
+/// Returns the moment of a force with a lever arm.
 Vector3 moment_of(const Vector3& arm, const Vector3& force) {
   return {arm[1] * force[2] - arm[2] * force[1], arm[2] * force[0] - arm[0] * force[2],
           arm[0] * force[1] - arm[1] * force[0]};
@@ -68,7 +68,7 @@ Vector3 position_of(const Particles& particles, Index i) {
   return x;
 }
 
-/// A resultant with its moment about another point.
+/// Returns a resultant with its moment about another point.
 Reaction about(const Vector3& point, Reaction reaction) {
   const Vector3 more = moment_of(minus(reaction.middle, point), reaction.force);
   for (int a = 0; a < 3; ++a) reaction.moment[a] += more[a];
@@ -233,10 +233,10 @@ void ReactionBalance::add(Index row, const Reaction& sum, double length, double 
 std::optional<std::string> ReactionBalance::warning() const {
   if (row_ == 0) return std::nullopt;
   return fmt::format(
-      "reactions and loads of row {} are out of balance by {:.2g} of their sizes: forces or "
-      "moments "
-      "in the files of reactions from this row on are wrong by as much; curve and energies come "
-      "from displacements and do not depend on them",
+      "reactions and loads of row {} are out of balance by {:.2g} of their "
+      "magnitude: forces or moments in the files of reactions from this row "
+      "on have this error; the curve and energies come from displacements "
+      "and are not affected",
       row_, imbalance_);
 }
 

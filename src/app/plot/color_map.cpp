@@ -11,8 +11,8 @@ namespace {
 
 using Rgb = std::array<int, 3>;
 
-/// The map "magma" of matplotlib (S. van der Walt and N. Smith, CC0) at every tenth, from light to
-/// dark so that cracks come out dark on paper.
+/// The colour map "magma" of matplotlib (S. van der Walt and N. Smith, CC0) at every tenth, from
+/// light to dark, so that cracks are dark on paper.
 constexpr std::array<Rgb, 11> stops = {{{252, 253, 191},
                                         {254, 207, 146},
                                         {254, 159, 109},

@@ -18,7 +18,7 @@ CurveFrame make_curve_frame(std::span<const CurvePoint> points, double top) {
 }
 
 SvgPath curve_path(const CurveFrame& frame, std::span<const CurvePoint> points, CurvePoint from) {
-  // Thousands of events that fall on one pixel would make large files [px].
+  // Points closer than this are skipped, to keep files of thousands of events small [px].
   constexpr double visible_distance = 0.3;
   SvgPath path;
   SvgPoint last = frame.at(from);

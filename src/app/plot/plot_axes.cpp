@@ -23,7 +23,7 @@ std::string with_minus_sign(std::string text) {
 constexpr const char* grid_style = "stroke=\"#e6e6e6\" stroke-width=\"1\"";
 constexpr const char* axis_style = "stroke=\"#444\" stroke-width=\"1\"";
 
-/// Where the axes run [px].
+/// Positions of the axes [px].
 struct Frame {
   double left, right, bottom, top;
 };
@@ -73,7 +73,7 @@ double round_down_to_nice(double value) {
 Ticks nice_ticks(double low, double high, int most) {
   Ticks ticks;
   if (!(high > low) || most < 1) return ticks;
-  // Two to the next nice number is at most a factor 2.5.
+  // Consecutive nice numbers differ by at most a factor of 2.5.
   ticks.step = round_down_to_nice((high - low) / most);
   const double slack = 1e-9;  // a tick at the end of the range must not be lost to round-off
   const auto first = [&] { return std::ceil(low / ticks.step - slack); };

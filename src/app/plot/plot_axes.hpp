@@ -6,7 +6,7 @@
 #include "app/plot/svg.hpp"
 
 /// \file
-/// Axes of plots: ticks at round numbers, labels, grid.
+/// Axes of plots: ticks at round numbers, labels and grid.
 
 namespace perilink {
 
@@ -16,27 +16,27 @@ struct Ticks {
   std::vector<double> values;
 };
 
-/// Largest of 1, 2, 5 times a power of ten that is not above `value` (positive), or a rounding
-/// error above.
+/// Returns the largest of 1, 2, 5 times a power of ten not above `value` (positive), up to
+/// round-off.
 double round_down_to_nice(double value);
 
-/// Ticks at multiples of 1, 2 or 5 times a power of ten inside [low, high], at most `most` of them.
+/// Returns at most `most` ticks in [low, high], at multiples of 1, 2 or 5 times a power of ten.
 Ticks nice_ticks(double low, double high, int most);
 
-/// Power of ten that the labels of an axis leave out because its numbers are very small or large; 0
+/// Returns the power of ten left out of the labels of an axis with very small or large numbers; 0
 /// for none.
 int common_exponent(double low, double high);
 
-/// "−0.25": the number of a tick divided by 10^exponent, with the digits that `step` needs.
+/// Formats a tick divided by 10^exponent, "−0.25", with the digits that `step` needs.
 std::string tick_label(double value, double step, int exponent);
 
-/// "×10⁻³", empty for 0.
+/// Formats a power of ten, "×10⁻³"; empty for 0.
 std::string exponent_text(int exponent);
 
-/// Number with about four digits for text in a figure, "0.001234", "1234", "1.234×10⁻⁷".
+/// Formats a number with about four digits for a figure, "0.001234", "1234", "1.234×10⁻⁷".
 std::string short_number(double value);
 
-/// Range of data on a range of pixels.
+/// Linear axis: range of data and range of pixels.
 struct Axis {
   double low = 0.0;
   double high = 1.0;
@@ -48,10 +48,10 @@ struct Axis {
   }
 };
 
-/// Axis over the data and zero, with room at the ends.
+/// Returns an axis over the data and zero, with margins.
 Axis make_axis(double low, double high, double pixel_low, double pixel_high);
 
-/// Range of positive data on a range of pixels, each factor of ten as wide as any other.
+/// Logarithmic axis: range of positive data and range of pixels.
 struct LogAxis {
   double low = 1.0;
   double high = 10.0;
@@ -61,14 +61,14 @@ struct LogAxis {
   double map(double value) const;
 };
 
-/// Axis over positive data with room at the ends, at least half a factor of ten long.
+/// Returns an axis over positive data with margins, at least half a decade long.
 LogAxis make_log_axis(double low, double high, double pixel_low, double pixel_high);
 
-/// Ticks at powers of ten inside [low, high], at most `most` of them; at 2 and 5 times these too
-/// where that still fits.
+/// Returns at most `most` ticks at powers of ten in [low, high], and at 2 and 5 times these where
+/// they fit.
 std::vector<double> log_ticks(double low, double high, int most);
 
-/// "10⁻³", "2·10⁴", "0.5", "20": the number of a tick of log_ticks.
+/// Formats a tick of log_ticks(), "10⁻³", "2·10⁴", "0.5", "20".
 std::string log_tick_label(double value);
 
 enum class Grid { lines, none };
@@ -77,7 +77,7 @@ enum class Grid { lines, none };
 void draw_axes(Svg& svg, const Axis& x, const Axis& y, const std::string& x_label,
                const std::string& y_label, Grid grid);
 
-/// The same with logarithmic axes, with a grid.
+/// Draws frame, grid, ticks and labels of logarithmic axes.
 void draw_axes(Svg& svg, const LogAxis& x, const LogAxis& y, const std::string& x_label,
                const std::string& y_label);
 

@@ -15,10 +15,10 @@
 namespace perilink {
 namespace {
 
-/// More bars than there are colours have no legend.
+/// Legend and page; plots with more bars than colours have no legend.
 constexpr double legend_step = 84.0, page_height = 720.0;  // [px]
 
-/// Squares of what is larger leave the range of double precision.
+/// Largest number drawn; squares of larger ones overflow double precision.
 constexpr double largest_drawn = 1e150;
 
 /// Segments of one bar.
@@ -33,7 +33,8 @@ std::vector<BarCurve> curves_of_bars(const CsvTable& table, const std::string& p
   for (std::size_t k = 0; k < names.size(); ++k) {
     const int column = table.column(names[k]);
     if (column < 0) {
-      throw FileError(fmt::format("{}: has no column \"{}\"; no run writes it so", path, names[k]));
+      throw FileError(fmt::format("{}: has no column \"{}\"; it was not written by perilink run",
+                                  path, names[k]));
     }
     at[k] = static_cast<std::size_t>(column);
   }

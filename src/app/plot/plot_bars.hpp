@@ -8,10 +8,10 @@
 
 namespace perilink {
 
-/// Axial stress above, bond stress below, over the distance from the beginning of each bar.
+/// Draws axial stress above and bond stress below, over the distance from the start of each bar.
 /// \param table    rows of a bars_STEP.csv
-/// \param path     where it was, for messages
-/// \param caption  stands below the title
+/// \param path     path of the table, for messages
+/// \param caption  text below the title
 /// \throws FileError where columns are missing, or numbers too large to be drawn
 Svg draw_bars(const CsvTable& table, const std::string& path, const std::string& caption,
               const PlotLabels& labels);

@@ -30,7 +30,7 @@ std::vector<Vector3> as_vectors(const std::vector<double>& values) {
 }
 
 void read_lines(const VtuGrid& grid, const std::vector<double>& element, PlotBody& body) {
-  // A body of linear elements alone is drawn by its particles.
+  // A body of linear elements only is drawn by its nodes.
   const bool has_particles =
       !element.empty() && element.front() == static_cast<double>(FieldElement::particle);
   const VtuArray* stress = grid.find_cell_data("axial_stress");
@@ -56,8 +56,9 @@ void read_lines(const VtuGrid& grid, const std::vector<double>& element, PlotBod
   }
 }
 
-/// Square and cubic lattices have one size. Others fill the plane with hexagons of the particles'
-/// volumes, space with cubes. Files without volumes have nothing but the spacing.
+/// Returns the drawn size of each particle. Square and cubic lattices have one size. Others fill
+/// the plane with hexagons, or space with cubes, of the particle volumes. Files without volumes use
+/// the spacing.
 std::vector<double> particle_sizes(const VtuGrid& grid, const PlotBody& body) {
   std::vector<double> sizes(body.positions.size(), body.spacing);
   const VtuArray* volumes = grid.find_point_data("volume");
@@ -74,7 +75,7 @@ std::vector<double> particle_sizes(const VtuGrid& grid, const PlotBody& body) {
   return sizes;
 }
 
-/// Von Mises' equivalent of xx, yy, zz, xy, yz, xz.
+/// Returns the von Mises stress of the components xx, yy, zz, xy, yz, xz.
 double von_mises(const double* s) {
   const double normal =
       std::pow(s[0] - s[1], 2) + std::pow(s[1] - s[2], 2) + std::pow(s[2] - s[0], 2);
@@ -97,13 +98,13 @@ PlotBody read_body(const VtuGrid& grid, const std::string& path) {
   body.displacements = as_vectors(point_values("displacement", 3));
   body.damage = point_values("damage", 1);
   for (const double kind : point_values("kind", 1)) {
-    if (!(kind >= 0.0 && kind <= 3.0)) throw FileError(path + ": a particle has no known 'kind'");
+    if (!(kind >= 0.0 && kind <= 3.0)) throw FileError(path + ": a particle has an unknown 'kind'");
     body.kind.push_back(static_cast<int>(kind));
   }
   read_lines(grid, values_of(grid.find_cell_data("element"), "element", 1, path), body);
   body.is_mid_surface = body.dim == 3 && grid.field("thickness", 0.0) > 0.0;
   body.sizes = particle_sizes(grid, body);
-  // What can break is coloured by its damage.
+  // Breakable bodies are coloured by damage.
   const VtuArray* stress = grid.find_point_data("stress");
   const bool breaks = grid.find_point_data("crack_opening") != nullptr;
   if (!breaks && stress != nullptr && stress->components == 6) {
@@ -134,7 +135,7 @@ double automatic_scale(const PlotBody& body) {
   double size = 0.0;
   for (std::size_t c = 0; c < 3; ++c) size = std::max(size, high[c] - low[c]);
   if (!(size > 0.0)) return 1.0;
-  // Rounding down alone could lose more than half; a quarter above the aim is still fine.
+  // Rounding down could halve the scale, so aim a quarter higher.
   return round_down_to_nice(1.25 * share_of_size * size / largest);
 }
 

@@ -20,15 +20,15 @@ constexpr double figure_height = 560.0;
 constexpr double frame_bottom = figure_height - 72.0;
 constexpr double legend_left = frame_right + 24.0;
 constexpr double convergence_row = 22.0;
-constexpr double letter_width = 7.0;  ///< about the width of a letter in the legend
+constexpr double letter_width = 7.0;  ///< approximate width of a letter in the legend
 
-/// Colours that the colour-blind tell apart (Okabe & Ito 2008), without yellow, which is too pale.
+/// Colours for colour-blind readers (Okabe & Ito 2008), without yellow, which is too pale.
 constexpr std::array<const char*, 7> line_colors = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                     "#56b4e9", "#e69f00", "#000000"};
 
 std::string color_of(std::size_t line) { return line_colors[line % line_colors.size()]; }
 
-/// After all colours lines are dashed.
+/// Returns the stroke of a line; lines beyond the number of colours are dashed.
 std::string stroke_of(std::size_t line) {
   return fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\"{}", color_of(line),
                      line / line_colors.size() % 2 == 1 ? " stroke-dasharray=\"6 4\"" : "");
@@ -75,7 +75,7 @@ Axes axes_of(const ConvergencePlot& plot) {
       high = {std::max(high.cost, point.cost), std::max(high.error, point.error)};
     }
   }
-  if (!(high.cost > 0.0)) low = high = {1.0, 1.0};  // nothing to draw
+  if (!(high.cost > 0.0)) low = high = {1.0, 1.0};  // no point is drawn
   return {make_log_axis(low.cost, high.cost, frame_left, frame_right),
           make_log_axis(low.error, high.error, frame_bottom, convergence_top)};
 }

@@ -8,18 +8,18 @@
 
 namespace perilink {
 
-/// Errors of one combination of a study, against unknowns or seconds.
+/// Errors of one series of a study, against unknowns or seconds.
 struct ConvergenceLine {
   struct Point {
     double cost = 0.0;
     double error = 0.0;
   };
   std::string name;
-  std::vector<Point> points;    ///< those that are not positive are left out
-  std::optional<double> order;  ///< number in the legend; none: left out
+  std::vector<Point> points;    ///< points with non-positive values are not drawn
+  std::optional<double> order;  ///< order in the legend, if known
 };
 
-/// Labels and lines of a log-log picture.
+/// Labels and lines of a log-log plot.
 struct ConvergencePlot {
   std::string title;
   std::string cost_label;
@@ -27,8 +27,8 @@ struct ConvergencePlot {
   std::vector<ConvergenceLine> lines;
 };
 
-/// Error over cost, both axes logarithmic, one line with its own colour and mark for each
-/// combination, and a legend to the right.
+/// Draws error over cost on logarithmic axes, with a colour and mark for each series and a legend
+/// to the right.
 Svg draw_convergence(const ConvergencePlot& plot);
 
 }  // namespace perilink

@@ -41,11 +41,11 @@ struct Area {
   }
 };
 
-/// What stands beside the peak.
+/// Label of a peak.
 struct PeakLabel {
   std::string text;
   SvgPoint peak, at;
-  /// The peak is in the left half of the picture; the text runs to the right then.
+  /// Whether the peak is in the left half of the plot; the text then runs to the right.
   bool left_half = true;
 
   Area area() const {
@@ -67,8 +67,8 @@ PeakLabel label_of(const CurveFrame& frame, const char* name, const CurvePoint& 
   return label;
 }
 
-/// The peak; where the load climbed again after the body had failed the first one and the largest
-/// load.
+/// Returns the labels of the peak. Where the load rose again after failure, labels the first peak
+/// and the largest load.
 std::vector<PeakLabel> labels_of(const CurveFrame& frame, const StepRecord& peak,
                                  const std::optional<CurvePoint>& first_peak,
                                  const PlotLabels& labels) {
@@ -88,8 +88,8 @@ void mark_peak(Svg& svg, const PeakLabel& label) {
            "paint-order=\"stroke\"");
 }
 
-/// The corner of the frame where the legend meets neither labels nor, as far as that is possible,
-/// the curve.
+/// Returns the corner of the frame in which the legend covers no label and as little of the curve
+/// as possible.
 Area legend_area(const CurveFrame& frame, std::span<const PeakLabel> labels,
                  std::span<const CurvePoint> curve, std::size_t lines = 2) {
   constexpr double width = legend_width, margin = 2.0;

@@ -12,21 +12,23 @@
 
 namespace perilink {
 
-/// Paths of more events are drawn with their envelope.
+/// Number of events above which a path is drawn with its envelope.
 inline constexpr std::size_t events_for_envelope = 200;
 
-/// Row of the largest absolute load; `records` must not be empty.
+/// Returns the row of the largest absolute load; `records` must not be empty.
 std::size_t peak_row(std::span<const StepRecord> records);
 
-/// Loads over displacements of the rows, signs as they are.
+/// Returns loads over displacements of the rows, with their signs.
 std::vector<CurvePoint> points_of(std::span<const StepRecord> records);
 
-/// event_path() of the rows of a run; empty where its summary says that it breaks no single bonds.
+/// Returns event_path() of the rows of a run; empty where its summary shows a run without
+/// bond-breaking events.
 std::vector<CurvePoint> event_path_of(std::span<const StepRecord> records,
                                       const PlotLabels& labels);
 
-/// Load over displacement with the peak marked; a path of more than 200 events with its envelope.
-/// \param first_peak  from the run's summary; marked where the peak is another
+/// Draws load over displacement with the peak marked; a path of more than 200 events has its
+/// envelope.
+/// \param first_peak  from the run's summary; marked where it is not the peak
 Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels& labels,
                            const std::optional<CurvePoint>& first_peak = {});
 

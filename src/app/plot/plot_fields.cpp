@@ -24,7 +24,7 @@ constexpr const char* element_style = "stroke=\"#7d8894\" stroke-width=\"0.8\"";
 
 std::string stroke_width(double pixels) { return fmt::format("stroke-width=\"{:.2f}\"", pixels); }
 
-/// Everything that the parts of the picture need.
+/// Data shared by the parts of the picture.
 struct Scene {
   const PlotBody& body;
   const std::vector<Vector3>& seen;  ///< deformed, projected
@@ -35,7 +35,7 @@ struct Scene {
   double spacing_px() const { return body.spacing * page.pixels; }
   double size_px(Index i) const { return body.sizes[i] * page.pixels; }
   SvgPoint at(Index i) const { return page.at(seen[i]); }
-  /// Shade 0 is undamaged.
+  /// Returns the shade of a particle; 0 is undamaged.
   int shade(Index i) const {
     if (body.stress.empty() && !(body.damage[i] > 0.0)) return 0;
     const double value = body.stress.empty() ? body.damage[i] : body.stress[i] / colors.high;
@@ -43,7 +43,7 @@ struct Scene {
   }
 };
 
-/// Stresses from zero to the largest; of a body without any the bar is as good as that of another.
+/// Returns the colour bar, of damage or of stresses from zero to the largest.
 ColorBar color_bar(const PlotBody& body, const PlotLabels& labels) {
   ColorBar bar;
   if (body.stress.empty()) return bar;
@@ -61,8 +61,8 @@ std::string shade_color(int shade) {
   return shade == 0 ? undamaged_color : damage_color((shade - 0.5) / shades);
 }
 
-/// Cells of one shade are one path. They overlap a little where they are small, or the page would
-/// show through as a moiré pattern.
+/// Draws particles of a square lattice as cells, one path per shade. Small cells overlap slightly,
+/// to avoid a moiré pattern of the page.
 void draw_squares(Svg& svg, const Scene& scene) {
   const double size = scene.spacing_px() * (scene.spacing_px() < 7.0 ? 1.1 : 0.94);
   std::map<int, SvgPath> cells;  // light ones first, so that the damaged ones stay visible
@@ -76,8 +76,8 @@ void draw_squares(Svg& svg, const Scene& scene) {
   svg.close_group();
 }
 
-/// The same off the square lattice: dots, drawn by the round caps of strokes, each as wide as its
-/// particle, in steps of a quarter of a pixel.
+/// Draws particles off a square lattice as dots, by the round caps of strokes. Widths follow
+/// particle sizes in steps of a quarter of a pixel.
 void draw_dots(Svg& svg, const Scene& scene) {
   constexpr double step = 0.25;
   std::map<std::pair<int, long>, SvgPath> dots;
@@ -95,7 +95,7 @@ void draw_dots(Svg& svg, const Scene& scene) {
   svg.close_group();
 }
 
-/// Three dimensions: balls from back to front, those hidden by others left out.
+/// Draws particles in space as balls, from back to front, without hidden ones.
 void draw_balls(Svg& svg, const Scene& scene) {
   std::vector<Index> order;
   for (Index i = 0; i < scene.body.size(); ++i) {
@@ -110,7 +110,7 @@ void draw_balls(Svg& svg, const Scene& scene) {
   };
   std::unordered_map<long, double> front;
   for (const Index i : order) front[place(i)] = scene.seen[i][2];
-  // Particles of meshes that can be seen have half of a cell or less.
+  // Surface particles of meshes have half a cell or less.
   const double wide = on_square_lattice(scene.body) ? 1.1 : 1.4;
   svg.open_group("fill=\"none\" stroke-linecap=\"round\"");
   for (const Index i : order) {
@@ -125,7 +125,7 @@ void draw_balls(Svg& svg, const Scene& scene) {
   svg.close_group();
 }
 
-/// Crack faces by their opening, in steps from closed to the widest.
+/// Number of shades of crack faces, from closed to the widest opening.
 constexpr int opening_steps = 6;
 
 std::string face_style(int step, double width) {
@@ -136,17 +136,18 @@ std::string face_style(int step, double width) {
                      stroke_width(width * (1.0 + part)));
 }
 
-/// The widest of all broken bonds; zero where the file has no openings.
+/// Returns the largest opening of a broken bond; zero where the file has no openings.
 double largest_opening(const PlotBody& body) {
   double largest = 0.0;
   for (const double opening : body.openings) largest = std::max(largest, opening);
   return largest;
 }
 
-/// A broken bond between nearest neighbours shows as the face between their cells, once on either
-/// side: closed cracks become one line, open ones two. Longer bonds would only hide the crack.
+/// Draws crack faces. A broken bond between nearest neighbours is drawn on both sides as the face
+/// between their cells: closed cracks become one line, open ones two. Longer bonds would hide the
+/// crack.
 void draw_crack_faces(Svg& svg, const Scene& scene) {
-  const double nearest = scene.square ? 1.2 : 1.5;  // sizes are those of halved cells at surfaces
+  const double nearest = scene.square ? 1.2 : 1.5;  // surface particles have sizes of half cells
   const double widest = largest_opening(scene.body);
   std::map<int, SvgPath> paths;
   for (std::size_t k = 0; k < scene.body.broken_bonds.size(); ++k) {
@@ -178,7 +179,7 @@ void draw_crack_faces(Svg& svg, const Scene& scene) {
   for (const auto& [step, path] : paths) svg.path(path, face_style(step, width));
 }
 
-/// How much longer a line between two particles is than in the undeformed body, in spacings.
+/// Returns the elongation of the line between two particles on the page, in spacings.
 double drawn_opening(const Scene& scene, const Ends& ends) {
   const auto [i, j] = ends;
   const Vector3 a = view(scene.body.positions[i], scene.body.dim);
@@ -189,8 +190,8 @@ double drawn_opening(const Scene& scene, const Ends& ends) {
   return (after - before) / scene.body.spacing;
 }
 
-/// Broken bonds as hairlines, fainter the more there are: on a coarse grid they show where the long
-/// bonds went before the near ones. Across a gap that can be seen they would only fill it.
+/// Draws broken bonds as hairlines, fainter the more there are. On coarse lattices they show long
+/// bonds that broke first. Bonds across a visible gap are not drawn.
 void draw_bond_hairlines(Svg& svg, const Scene& scene) {
   constexpr std::size_t too_many = 2000;
   constexpr double visible_gap = 0.5;
@@ -208,7 +209,7 @@ void draw_bond_hairlines(Svg& svg, const Scene& scene) {
                              opacity, stroke_width(0.8)));
 }
 
-/// Finite elements hide the particles that they carry, unless these show stresses.
+/// Draws finite elements over the particles that they constrain, unless particles show stresses.
 void draw_elements(Svg& svg, const Scene& scene) {
   SvgPath path;
   for (Index e = 0; e < scene.body.elements.rows(); ++e) {
@@ -224,7 +225,7 @@ std::string bar_width(const Scene& scene) {
   return stroke_width(std::clamp(0.35 * scene.spacing_px(), 2.0, 5.0));
 }
 
-/// Bars by their stress, where the file has it: from grey to red in tension, to blue in
+/// Draws bars coloured by stress where the file has it: grey to red in tension, to blue in
 /// compression.
 void draw_bars(Svg& svg, const Scene& scene, std::vector<KeyEntry>& key) {
   if (scene.body.segments.empty()) return;
@@ -260,7 +261,7 @@ void draw_bars(Svg& svg, const Scene& scene, std::vector<KeyEntry>& key) {
   if (least < 0.0) key.push_back({"bar, stress to " + short_number(least), style(-steps)});
 }
 
-/// \param length  unit; empty: not known
+/// \param length  unit of length; empty: unknown
 std::vector<KeyEntry> draw_body(Svg& svg, const Scene& scene, const std::string& length) {
   std::vector<KeyEntry> key;
   SvgPath ghosts;
@@ -269,7 +270,7 @@ std::vector<KeyEntry> draw_body(Svg& svg, const Scene& scene, const std::string&
   }
   if (scene.body.dim == 3) {
     draw_balls(svg, scene);
-    // Elsewhere bonds would shine through from the far side.
+    // In solid bodies bonds of the far side would be visible.
     if (scene.body.is_mid_surface) draw_bond_hairlines(svg, scene);
   } else {
     if (scene.square) {

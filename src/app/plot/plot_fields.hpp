@@ -9,16 +9,16 @@
 
 namespace perilink {
 
-/// Numbers of the state that the figure quotes.
+/// Numbers in the caption of the figure.
 struct FieldsCaption {
   Index broken_bonds = 0;
   double load_factor = 0.0;
   double load = 0.0;
-  std::optional<double> time = std::nullopt;  ///< in explicit analyses, which count no bonds
+  std::optional<double> time = std::nullopt;  ///< explicit analyses only
 };
 
-/// The deformed body: particles coloured by damage, or by the von Mises stress where the file has
-/// stresses (elastic analyses), the faces of cracks, bars, ghosts.
+/// Draws the deformed body: particles coloured by damage, or by von Mises stress in elastic
+/// analyses, crack faces, bars and ghosts.
 /// \param scale  factor on the displacements; 0: automatic
 Svg draw_fields(const PlotBody& body, const FieldsCaption& caption, const PlotLabels& labels,
                 double scale);

@@ -74,14 +74,14 @@ void draw_scale_bar(Svg& svg, const BodyPage& page, const std::string& length_un
   svg.text({end + 10, y + 4.5}, in_unit(short_number(length), length_unit), "start", small_style);
 }
 
-/// Room for a letter of the key, in wide fonts too.
+/// Width of a letter of the key, also in wide fonts.
 constexpr double letter = 7.6;
 
-/// From the right end of the line with the scale bar on; what has no room there stands above.
+/// Draws the key from the right end of the line with the scale bar, with further entries above it.
 void draw_key(Svg& svg, const BodyPage& page, const std::vector<KeyEntry>& key) {
   const double first = page.width - 20.0;
   double x = first, y = page.height - 22.0;
-  double least = page.left + 0.22 * (page.right - page.left) + 70.0;  // the end of the scale bar
+  double least = page.left + 0.22 * (page.right - page.left) + 70.0;  // right end of the scale bar
   const auto width_of = [](const std::string& name) {
     return letter * static_cast<double>(name.size());
   };
@@ -105,9 +105,9 @@ void draw_key(Svg& svg, const BodyPage& page, const std::vector<KeyEntry>& key) 
   }
 }
 
-/// Which way the axes of space go, in the upper right corner.
+/// Draws the directions of the axes in space, in the upper right corner.
 void draw_triad(Svg& svg, const BodyPage& page) {
-  constexpr double length = 30.0, beyond = 1.36;  // to the middle of the letter
+  constexpr double length = 30.0, beyond = 1.36;  // position of the letter's centre
   const SvgPoint origin{page.width - 64.0, 48.0};
   const auto end = [&](int axis, double part) {
     Vector3 unit{};
@@ -137,7 +137,7 @@ BodyPage make_page(const PlotBody& body, const std::vector<Vector3>& seen) {
       high[c] = std::max(high[c], seen[i][c]);
     }
   }
-  if (!(high[0] >= low[0])) low[0] = low[1] = high[0] = high[1] = 0.0;  // nothing to see
+  if (!(high[0] >= low[0])) low[0] = low[1] = high[0] = high[1] = 0.0;  // no point is drawn
   const double margin = std::max(body.spacing, 0.02 * std::max(high[0] - low[0], high[1] - low[1]));
   for (std::size_t c = 0; c < 2; ++c) {
     low[c] -= margin;
@@ -150,7 +150,7 @@ BodyPage make_page(const PlotBody& body, const std::vector<Vector3>& seen) {
   page.right = left_margin + (high[0] - low[0]) * page.pixels;
   page.top = top_margin;
   page.bottom = top_margin + (high[1] - low[1]) * page.pixels;
-  if (page.right - page.left < smallest_width) {  // a column stands in the middle of its page
+  if (page.right - page.left < smallest_width) {  // a narrow body is centred on its page
     const double shift = (smallest_width - (page.right - page.left)) / 2;
     page.low[0] -= shift / page.pixels;
     page.right = page.left + smallest_width;

@@ -8,7 +8,7 @@
 #include "app/plot/svg.hpp"
 
 /// \file
-/// The frame of a picture of the body: where it goes on the page, axes, scale bar, colour bar, key.
+/// Page of a picture of the body: position, axes, scale bar, colour bar and key.
 
 namespace perilink {
 
@@ -24,7 +24,7 @@ struct BodyPage {
   }
 };
 
-/// Fits the points that are seen, crumbs left out.
+/// Returns a page that fits the drawn points, without particles that lost all bonds.
 BodyPage make_page(const PlotBody& body, const std::vector<Vector3>& seen);
 
 /// Entry of the key under the picture: a sample drawn with `style` and its name.
@@ -34,15 +34,15 @@ struct KeyEntry {
   bool dot = false;  ///< the sample is a dot, not a line
 };
 
-/// What the colours of the particles mean.
+/// Meaning of the particle colours.
 struct ColorBar {
   std::string label = "damage";
   double low = 0.0;
   double high = 1.0;
 };
 
-/// Title, line of numbers, axes (of bodies in space their directions, in a corner), scale bar,
-/// colour bar and key.
+/// Draws title, caption, axes (in space their directions in a corner), scale bar, colour bar and
+/// key.
 void draw_page(Svg& svg, const BodyPage& page, int dim, const PlotLabels& labels,
                const std::string& caption, const ColorBar& colors,
                const std::vector<KeyEntry>& key);

@@ -16,7 +16,7 @@ StageLabel label_of(Index number, const PlotLabels& labels) {
   return place < labels.stages.size() ? labels.stages[place] : StageLabel{};
 }
 
-/// A disc with the number of the stage.
+/// Draws a disc with the number of the stage.
 void mark(Svg& svg, const StagePath& stage, SvgPoint at) {
   svg.circle(at, 8.0,
              fmt::format("fill=\"{}\" stroke=\"#fff\" stroke-width=\"1\"", color_of(stage)));

@@ -11,21 +11,21 @@
 
 namespace perilink {
 
-/// The curve of a stage, from where its loads were when it began.
+/// Curve of a stage, starting from the loads at its beginning.
 struct StagePath {
   Index number = 0;  ///< from one
   std::string name;
   std::vector<CurvePoint> points;
 };
 
-/// The stages of a history; empty: it has none. Loads that change again go on from the row before;
-/// others begin at their own first row, since both axes are theirs.
+/// Returns the stages of a history; empty: it has none. A stage that changes the loads of the
+/// previous stage continues its curve; others start at their first row, since their axes differ.
 std::vector<StagePath> paths_of_stages(std::span<const StepRecord> records,
                                        const PlotLabels& labels);
 
-/// Every stage in a colour of its own, with its number where it begins, and their names.
-/// \param legend       middle of the first line of the legend, at its left [px]
-/// \param line_height  distance of its lines [px]
+/// Draws every stage in its own colour, with a number at its beginning, and the legend.
+/// \param legend       left end of the first legend line, at mid-height [px]
+/// \param line_height  distance of legend lines [px]
 void draw_stages(Svg& svg, const CurveFrame& frame, std::span<const StagePath> stages,
                  SvgPoint legend, double line_height);
 

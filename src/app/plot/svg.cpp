@@ -13,7 +13,7 @@ namespace {
 
 constexpr double grid_per_pixel = 100.0;
 
-/// Hundredths of a pixel as decimal text without trailing zeros or a leading one.
+/// Appends hundredths of a pixel as decimal text without trailing zeros or a leading one.
 void append_hundredths(std::string& text, long value) {
   if (value < 0) {
     text += '-';

@@ -4,7 +4,7 @@
 #include <string_view>
 
 /// \file
-/// Scalable vector graphics written as text: no display, no library, the same bytes everywhere.
+/// Scalable vector graphics as text, with the same bytes on every machine.
 
 namespace perilink {
 
@@ -14,15 +14,15 @@ struct SvgPoint {
   double y = 0.0;
 };
 
-/// Data of a <path>. Coordinates are rounded to a grid of 1/100 px and written relative to the
-/// point before, which keeps large drawings small; the rounding does not add up.
+/// Data of a <path>. Coordinates are rounded to 1/100 px and written relative to the previous
+/// point, which keeps files small. Rounding errors do not accumulate.
 class SvgPath {
  public:
   void move_to(SvgPoint to);
   void line_to(SvgPoint to);
-  /// A dot as wide as the stroke; its caps must be round (viewers disagree on square ones).
+  /// Adds a dot as wide as the stroke. Caps must be round, because viewers disagree on square ones.
   void dot(SvgPoint at);
-  /// A square along the axes.
+  /// Adds a square with sides along the axes.
   void square(SvgPoint center, double side);
 
   bool empty() const { return data_.empty(); }
@@ -57,9 +57,9 @@ class Svg {
   /// Defines a clipping rectangle, used as `clip-path="url(#id)"`.
   void clip_rect(std::string_view id, SvgPoint corner, double width, double height);
 
-  /// The whole file.
+  /// Returns the text of the file.
   std::string str() const;
-  /// \throws FileError
+  /// Writes the file. \throws FileError
   void save(const std::string& path) const;
 
  private:

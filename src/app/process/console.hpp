@@ -4,11 +4,11 @@
 
 namespace perilink {
 
-/// Writes "perilink: TEXT" to standard error, printable. Never throws: a full disk behind it or a
-/// closed pipe must not end a run.
+/// Writes "perilink: TEXT" to standard error, with control characters removed. Never throws, so
+/// that a full disk or closed pipe does not end a run.
 void complain(const std::string& text) noexcept;
 
-/// Writes a text to standard output, printable.
+/// Writes a text to standard output, with control characters removed.
 void say(const std::string& text);
 
 }  // namespace perilink

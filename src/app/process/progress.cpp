@@ -14,13 +14,13 @@ constexpr double terminal_interval = 0.1;  // [s]
 constexpr double log_interval = 10.0;      // [s]
 constexpr int bar_letters = 24;
 
-/// Nobody may be there to read it: no reason for a run to end.
+/// Writes to standard error and ignores failures, which must not end a run.
 void show(const std::string& text) {
   std::fputs(text.c_str(), stderr);
   std::fflush(stderr);
 }
 
-/// Over the line that stands there.
+/// Overwrites the current line of the terminal.
 void draw_line(const std::string& text) { show(fmt::format("\r{}\033[K", text)); }
 
 void erase_line() { draw_line(""); }
@@ -79,9 +79,11 @@ CalibrationProgress::~CalibrationProgress() {
 
 void CalibrationProgress::update(int search, double unbalanced) {
   if (!shown_) return;
-  // Nothing is drawn while a search lasts: a time "so far" would soon be wrong.
-  draw_line(fmt::format("calibrating bonds: search {} begun after {}, forces out of balance {:.1e}",
-                        search, format_duration(since_start_.seconds()), unbalanced));
+  // The line stays during a solve, so it gives the time at its start.
+  draw_line(
+      fmt::format("calibrating bonds: solve {} started after {}, forces out of balance "
+                  "{:.1e}",
+                  search, format_duration(since_start_.seconds()), unbalanced));
   drawn_ = true;
 }
 

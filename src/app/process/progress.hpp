@@ -7,16 +7,16 @@
 
 namespace perilink {
 
-/// Where a run stands, for people: a bar that is drawn over itself on a terminal, a plain line now
-/// and then elsewhere, nothing when quiet. Goes to standard error.
+/// Progress of a run on standard error: a bar redrawn on a terminal, occasional plain lines
+/// elsewhere, no output when quiet.
 class ProgressBar {
  public:
   explicit ProgressBar(bool quiet);
 
   /// Whether it is time to draw again.
   bool is_due();
-  /// \param state  in words
-  /// \param done   fraction of the run that is done, where it is known
+  /// \param state  text of the current state
+  /// \param done   completed fraction of the run, if known
   void draw(const std::string& state, std::optional<double> done);
   /// Ends the line of the bar.
   void finish();
@@ -29,8 +29,8 @@ class ProgressBar {
   bool drawn_ = false;
 };
 
-/// Where the calibration of bonds stands, for people at a terminal: a line drawn over itself on
-/// standard error, and gone at the end; nothing elsewhere or when quiet.
+/// Progress of the bond calibration on a terminal: a line redrawn on standard error and removed at
+/// the end; no output elsewhere or when quiet.
 class CalibrationProgress {
  public:
   explicit CalibrationProgress(bool quiet);
@@ -38,7 +38,7 @@ class CalibrationProgress {
   CalibrationProgress(const CalibrationProgress&) = delete;
   CalibrationProgress& operator=(const CalibrationProgress&) = delete;
 
-  /// To be called before every search, see CalibrationObserver.
+  /// Draws the progress. Called before every solve, see CalibrationObserver.
   void update(int search, double unbalanced);
 
  private:
@@ -47,7 +47,7 @@ class CalibrationProgress {
   bool drawn_ = false;
 };
 
-/// "3 s", "2 min 10 s", "1 h 05 min".
+/// Formats a duration, "3 s", "2 min 10 s", "1 h 05 min".
 std::string format_duration(double seconds);
 
 }  // namespace perilink

@@ -14,7 +14,7 @@ namespace {
 
 Ranks* shared = nullptr;
 
-/// The first of the variables that is set, as a number; -1: none.
+/// Returns the first environment variable that is set, as a number; -1: none.
 int first_of(std::initializer_list<const char*> variables) {
   for (const char* name : variables) {
     if (const char* text = std::getenv(name)) return std::atoi(text);
@@ -24,7 +24,7 @@ int first_of(std::initializer_list<const char*> variables) {
 
 }  // namespace
 
-// Open MPI; MPICH and those that follow it
+// variables of Open MPI; of MPICH and its derivatives
 bool is_one_of_many() { return first_of({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) > 1; }
 
 void become_rank(char** words) {
@@ -34,8 +34,9 @@ void become_rank(char** words) {
   if (!fault) execv(program.c_str(), words);
   if (first_of({"OMPI_COMM_WORLD_RANK", "PMI_RANK"}) <= 0) {
     complain(
-        "several processes were started, and this build knows no MPI: all would do the same\n"
-        "  start one process without mpiexec, or build with MPI (docs/mpi.md)");
+        "mpiexec started several processes, but this build has no MPI: each "
+        "would run the whole case\n  start one process without mpiexec, or "
+        "build with MPI (docs/mpi.md)");
   }
 }
 

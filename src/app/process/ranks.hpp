@@ -7,11 +7,11 @@ namespace perilink {
 /// Whether mpiexec has started this process as one of several.
 bool is_one_of_many();
 
-/// Goes on as perilink-mpi, which lies beside the program where it was built with MPI. Comes back
-/// where there is none; the first process says so.
+/// Replaces this process by perilink-mpi, which builds with MPI install next to the program.
+/// Returns where it does not exist; the first process then prints an error.
 void become_rank(char** words);
 
-/// The processes that share the work of this one, two at least; null where it is alone.
+/// Returns the communicator of at least two processes; null in serial runs.
 Ranks* ranks();
 void set_ranks(Ranks* ranks);
 

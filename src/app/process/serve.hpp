@@ -4,11 +4,11 @@
 
 namespace perilink {
 
-/// What the other ranks do until the first dismisses them. What goes wrong here ends all ranks with
-/// a message: the others would wait for ever.
+/// Worker loop of all ranks except 0, until shutdown. An error here ends all ranks with a message,
+/// to avoid a deadlock.
 void serve(Ranks& ranks);
 
-/// Lets the other ranks come back from serve().
+/// Shuts down the worker loops of the other ranks.
 void dismiss(Ranks& ranks);
 
 }  // namespace perilink

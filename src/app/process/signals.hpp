@@ -2,10 +2,9 @@
 
 namespace perilink {
 
-/// Makes Ctrl-C, SIGTERM and SIGHUP (a terminal that is closed) ask the run to stop at its next
-/// event; those that are ignored stay so. A second Ctrl-C or SIGTERM ends the program at once.
-/// Output that nobody reads any more ends nothing. To be called before anything is printed on
-/// standard output.
+/// Makes Ctrl-C, SIGTERM and SIGHUP (a closed terminal) stop the run at its next event; ignored
+/// signals stay ignored. A second Ctrl-C or SIGTERM ends the program at once. A closed output pipe
+/// does not end it. Must be called before the first output.
 void catch_stop_signals();
 bool stop_signal_received();
 

@@ -20,10 +20,10 @@
 namespace perilink {
 namespace {
 
-/// Part of the address space that the stacks of threads may take; the rest is for the model.
+/// Largest fraction of the address space for thread stacks; the rest is for the model.
 constexpr double most_for_stacks = 0.5;
 
-/// More are a slip of the pen, as in --threads.
+/// Most threads; more are taken for a typing error, as in --threads.
 constexpr int most_threads = 1024;
 
 double stack_size() {
@@ -35,14 +35,14 @@ double stack_size() {
   return static_cast<double>(bytes);
 }
 
-/// Does not touch the heap, where a thread would take one of its own.
+/// Waits without using the heap, because each thread would allocate a heap arena.
 void* wait_for_end(void* end) {
   static_cast<std::latch*>(end)->wait();
   return nullptr;
 }
 
-/// How many threads can live at once, this one included: OpenMP ends the program where it cannot
-/// make one, so it has to be known before.
+/// Returns how many threads can exist at once, including this one. OpenMP ends the program if it
+/// cannot start a thread, so the number must be known first.
 int threads_that_start(int wanted) {
   std::vector<pthread_t> others(static_cast<std::size_t>(wanted - 1));
   std::latch end(1);
@@ -59,7 +59,7 @@ int threads_that_start(int wanted) {
 int threads_with_room(int wanted) {
   const double space = available_address_space();
   if (std::isinf(space)) return wanted;
-  mallopt(M_ARENA_MAX, 1);  // heaps of threads would take 64 MB each
+  mallopt(M_ARENA_MAX, 1);  // an arena per thread would take 64 MB each
   const double stacks = most_for_stacks * space / std::max(stack_size(), 1.0);
   return static_cast<int>(std::min<double>(wanted, 1.0 + std::floor(stacks)));
 }
@@ -78,7 +78,7 @@ int set_threads(int wanted) {
   if (wanted <= 0) {
     wanted = omp_get_max_threads();
     const char* const asked = std::getenv("OMP_NUM_THREADS");
-    if (asked == nullptr || std::atoi(asked) != wanted) {  // unset, or none that OpenMP takes
+    if (asked == nullptr || std::atoi(asked) != wanted) {  // unset, or invalid for OpenMP
       wanted = static_cast<int>(std::min<double>(wanted, std::ceil(granted_processors())));
     }
   }
@@ -88,10 +88,10 @@ int set_threads(int wanted) {
     complain(fmt::format(
         "{} of {} threads are used: {}; the results do not depend on it", threads, wanted,
         threads < most ? "the limits on the process (ulimit -v, -d, -u) leave no room for more"
-                       : "the program and its linear algebra library (OpenBLAS) serve no more"));
+                       : "the program and its linear algebra library (OpenBLAS) support no more"));
   }
   omp_set_num_threads(threads);
-#pragma omp parallel  // now, while there is room: they stay
+#pragma omp parallel  // started early, while memory is free; they persist
   {}
   return threads;
 }

@@ -4,16 +4,17 @@
 
 namespace perilink {
 
-/// Processors whose time a container may take (docker run --cpus), by the files of cgroups, version
-/// 2 or 1, at the root that it sees; infinity: all. OpenMP counts the processors of the host there.
+/// Returns the processors granted to a container (docker run --cpus), from the cgroup files,
+/// version 2 or 1, at their visible root; infinity: no limit. OpenMP counts the processors of the
+/// host.
 double granted_processors(const std::string& cgroups = "/sys/fs/cgroup");
 
-/// Sets the number of threads of everything that follows: as many as are wanted, or fewer, with a
-/// word on standard error, where a limit on the process leaves no room for them or the libraries
-/// serve no more. Results do not depend on it.
-/// \param wanted  0: what OMP_NUM_THREADS says, or all processors that the process may use and is
+/// Sets the number of threads for all later work. Uses fewer than wanted, with a message on
+/// standard error, where process limits or libraries allow fewer. Results do not depend on the
+/// number.
+/// \param wanted  0: OMP_NUM_THREADS, or all processors that the process may use and is
 ///                granted
-/// \return how many there are
+/// \return the number of threads
 int set_threads(int wanted);
 
 }  // namespace perilink

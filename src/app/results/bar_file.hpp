@@ -7,10 +7,9 @@
 
 namespace perilink {
 
-/// Text of bars_STEP.csv: a row for each segment, bar after bar from the beginning of each.
-/// Columns: bar (from 1, in the order of the case), distance of the segment's middle from the
-/// beginning along the bar, x, y and z of it, axial_strain, axial_stress, axial_force, slip,
-/// bond_stress (BarState).
+/// Returns the text of bars_STEP.csv: a row for each bar element, bar after bar from its beginning.
+/// Columns: bar (from 1, in case order), distance of the element's middle along the bar, x, y, z,
+/// axial_strain, axial_stress, axial_force, slip, bond_stress (BarState).
 std::string bar_table(const Network& network, const BarState& state);
 
 }  // namespace perilink

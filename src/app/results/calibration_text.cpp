@@ -9,7 +9,7 @@
 namespace perilink {
 namespace {
 
-/// Out of balance by more than the errors that users of a coarse model expect.
+/// Residual above which the calibration warns; it exceeds the errors expected of a coarse model.
 constexpr double harmful = 1e-2;
 
 }  // namespace
@@ -35,8 +35,8 @@ std::optional<std::string> calibration_shortfall(const Network& network) {
       report.unmet, worst, joined(network.particles.position(report.worst_particle)));
   if (worst > harmful) {
     text +=
-        "; WARNING: strains around it are wrong by about as much, so mesh that place more evenly "
-        "or take a longer horizon";
+        "; WARNING: strains around it have about this relative error; mesh "
+        "that region more evenly or choose a longer horizon";
   }
   return text;
 }

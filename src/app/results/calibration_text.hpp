@@ -7,18 +7,19 @@
 #include "network/network.hpp"
 
 /// \file
-/// What the calibration of bonds reached, as users read it.
+/// Results of the bond calibration as text and JSON.
 
 namespace perilink {
 
-/// One line: largest force out of balance before and after, range of weights, bonds at the floor.
+/// Returns a line with the largest force out of balance before and after, the range of weights and
+/// the bonds at the lower bound.
 std::string calibration_line(const CalibrationReport& report);
 
-/// Where the equations of calibrated bonds could not be met, and how far; nothing where they are
-/// met or nothing is calibrated.
+/// Returns the position and size of the largest residual of the calibration; empty where its
+/// equations are met or no bond is calibrated.
 std::optional<std::string> calibration_shortfall(const Network& network);
 
-/// The same numbers for summary.json.
+/// Returns the calibration report for summary.json.
 nlohmann::ordered_json calibration_json(const CalibrationReport& report);
 
 }  // namespace perilink

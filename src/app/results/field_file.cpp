@@ -12,7 +12,7 @@
 namespace perilink {
 namespace {
 
-/// Rows of `dim` numbers as rows of three, as VTK wants vectors.
+/// Pads rows of `dim` numbers with zeros to rows of three, which VTK requires for vectors.
 std::vector<double> padded_to_three(std::span<const double> values, int dim) {
   const std::size_t width = static_cast<std::size_t>(dim);
   std::vector<double> padded(values.size() / width * 3, 0.0);
@@ -66,7 +66,7 @@ void append_cells(VtuGrid& grid, const Network& network, std::span<const Index> 
   }
 }
 
-/// Half of stress times strain of every cell.
+/// Returns half of stress times strain of every cell.
 std::vector<double> energy_densities(std::span<const double> strains,
                                      std::span<const double> stresses, int dim) {
   const std::size_t width = static_cast<std::size_t>(dim) * dim;

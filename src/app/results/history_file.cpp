@@ -17,10 +17,10 @@ namespace {
 
 constexpr double seconds_between_flushes = 0.5;
 
-/// What a case has to have for a column.
+/// Feature of a case that a column depends on.
 enum class With { nothing, stages, elements, batches };
 
-/// The one list of columns of quasistatic runs, from which both the writer and the reader are made.
+/// Column of quasistatic histories; writer and reader use the same list.
 struct Column {
   const char* name;
   double (*get)(const StepRecord&);
@@ -47,10 +47,11 @@ constexpr Column column(const char* name, With with = With::nothing) {
           std::is_integral_v<Value>, with};
 }
 
-/// Squares of what is larger leave the range of double precision, and axes of what is finite.
+/// Largest number read; squares of larger ones overflow double precision, and plots need finite
+/// ranges.
 constexpr double largest_number = 1e150;
 
-/// Whether an integer of a row can hold it; -1 stands for no element.
+/// Whether an integer field of a row can hold the value; -1 stands for no element.
 bool is_count(double value) {
   return value >= -1.0 && value <= std::numeric_limits<Index>::max() && std::trunc(value) == value;
 }
@@ -88,7 +89,7 @@ struct TimeColumn {
   }
 };
 
-/// That of runs over time.
+/// Columns of time histories.
 constexpr std::array time_columns = {
     TimeColumn{"step", [](const ExplicitRecord& r) { return 1.0 * r.step; }},
     TimeColumn{"time", [](const ExplicitRecord& r) { return r.time; }},
@@ -191,8 +192,8 @@ std::vector<StepRecord> history_records(const CsvTable& table, const std::string
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     for (const double value : table.rows[row]) {
       if (std::abs(value) <= largest_number) continue;
-      throw FileError(
-          fmt::format("{}: row {} holds {}, too large for any run", path, row + 1, value));
+      throw FileError(fmt::format("{}: row {} holds {}, larger than any result of a run", path,
+                                  row + 1, value));
     }
   }
   std::vector<StepRecord> records(table.rows.size());
@@ -202,16 +203,17 @@ std::vector<StepRecord> history_records(const CsvTable& table, const std::string
     for (std::size_t row = 0; row < records.size(); ++row) {
       const double value = table.rows[row][static_cast<std::size_t>(place)];
       if (column.counts && !is_count(value)) {
-        throw FileError(fmt::format("{}: row {}: column {} holds {}, which is no count", path,
-                                    row + 1, column.name, value));
+        throw FileError(
+            fmt::format("{}: row {}: column {} holds {}, not a whole number of at least -1", path,
+                        row + 1, column.name, value));
       }
       column.set(records[row], value);
     }
   }
   for (std::size_t row = 1; row < records.size() && table.column("step") >= 0; ++row) {
     if (records[row].step > records[row - 1].step) continue;
-    throw FileError(fmt::format("{}: row {}: step {} comes after step {}", path, row + 1,
-                                records[row].step, records[row - 1].step));
+    throw FileError(fmt::format("{}: row {}: step {} follows step {}, but steps must increase",
+                                path, row + 1, records[row].step, records[row - 1].step));
   }
   return records;
 }

@@ -12,33 +12,33 @@
 
 namespace perilink {
 
-/// Columns of the history of a case, without its gauges.
+/// Returns the columns of the history of a case, without gauges.
 std::vector<std::string> history_columns(const CaseFile& input);
 
-/// Whether a column belongs to runs of some kind; else it is that of a gauge.
+/// Whether a column is a standard column of some analysis type; otherwise it is a gauge.
 bool is_history_column(const std::string& name);
 
-/// Writes DIR/history.csv (what happened, the same in every run on a machine) and DIR/timing.csv
-/// (how long each row took) of any run. Rows reach the disk at most twice a second, since runs make
-/// thousands of events per second, and when the writer is destroyed.
+/// Writes DIR/history.csv, the same in every run on a machine, and DIR/timing.csv with the time of
+/// each row. Rows are flushed at most twice a second, because runs have thousands of events per
+/// second, and by the destructor.
 class HistoryFile {
  public:
   /// \throws FileError
   HistoryFile(const std::string& directory, const CaseFile& input);
 
-  /// A row of a quasistatic run.
-  /// \param gauges  their values, in the order of the case
+  /// Appends a row of a quasistatic run.
+  /// \param gauges  gauge values, in the order of the case
   void append(const StepRecord& record, std::span<const double> gauges = {});
-  /// The same of a run over time, whose rows are timed here.
+  /// Appends a row of a time-dependent run and measures its time.
   void append(const ExplicitRecord& record, std::span<const double> gauges = {});
-  /// Brings all rows to the disk: call it at the end, to learn of a full disk.
+  /// Flushes all rows; call it at the end to detect a full disk.
   /// \throws FileError
   void finish();
 
  private:
   void write(std::vector<double> row, std::span<const double> gauges, double seconds);
 
-  bool bonds_break_;                ///< and not particles
+  bool bonds_break_;                ///< else particles crack
   std::vector<std::size_t> shown_;  ///< columns of quasistatic runs
   CsvWriter history_;
   CsvWriter timing_;
@@ -46,14 +46,15 @@ class HistoryFile {
   Timer since_flush_;
 };
 
-/// What to say where CsvTable::cut_off is set.
+/// Note for files with CsvTable::cut_off.
 inline constexpr const char* cut_off_note =
-    "history.csv ends within a row, which is left out: the run was killed, or the file is damaged";
+    "history.csv ends within a row, which is ignored: the run was killed, "
+    "or the file is damaged";
 
-/// Rows of a history.csv; columns that the file lacks keep their defaults.
-/// \param path  only named in messages
+/// Returns the rows of a history.csv; missing columns keep their defaults.
+/// \param path  path of the table, for messages
 /// \throws FileError when one of the columns load and displacement is missing, or when numbers
-/// cannot be those of a run: counts that are no whole numbers, steps that do not grow
+/// are invalid: fractional counts, steps that do not increase
 std::vector<StepRecord> history_records(const CsvTable& table, const std::string& path);
 
 }  // namespace perilink

@@ -10,7 +10,7 @@
 namespace perilink {
 namespace {
 
-/// A vector field of slots as rows of three numbers, one for each particle.
+/// Returns a vector field of slots as rows of three numbers per particle.
 std::vector<double> vectors_of(const LatticeRows& lattice, const std::vector<double>& field) {
   std::vector<double> vectors(3 * lattice.particle_slot.size(), 0.0);
   for (std::size_t i = 0; i < lattice.particle_slot.size(); ++i) {
@@ -28,7 +28,7 @@ std::vector<double> numbers_of(const LatticeRows& lattice, const std::vector<dou
   return numbers;
 }
 
-/// Six components for each particle, in the order xx, yy, zz, xy, yz, zx.
+/// Returns the stresses of each particle in the order xx, yy, zz, xy, yz, zx.
 std::vector<double> stresses(const ExplicitModel& model, const ExplicitState& state) {
   const LatticeParticles particles(model);
   std::vector<double> values;
@@ -51,7 +51,7 @@ std::vector<double> plastic_strains(const ExplicitModel& model, const ExplicitSt
   return values;
 }
 
-/// In the order in which their damage began, those of one step in that of their slots.
+/// Returns cracked particles in the order in which their damage began; of one step by slot number.
 std::vector<Index> cracked_particles(const LatticeRows& lattice, const ExplicitState& state) {
   std::vector<Index> cracked;
   const auto step = [&](Index i) { return state.cracked_in[lattice.particle_slot[i]]; };

@@ -34,15 +34,15 @@ bool is_result_file(const std::string& name) {
   return name.ends_with(".vtu") || name.ends_with(".svg");
 }
 
-/// Where a file stands in the order of removal: first what speaks of others, lest a removal that is
-/// cut short leaves a summary or a list of files that are gone.
+/// Returns the rank of a file in the order of removal. Files that refer to others are removed
+/// first, so that an interrupted removal leaves no dangling summary or list.
 int rank_of_removal(const fs::path& file) {
   const std::string name = file.filename().string();
   if (name == "summary.json" || name == "fields.pvd") return name == "fields.pvd" ? 1 : 0;
   return 2;
 }
 
-/// What a run that was killed left half written.
+/// Whether a file is the unfinished output of a killed run.
 bool is_left_over(const std::string& name) {
   for (std::size_t dot = name.find('.'); dot != std::string::npos; dot = name.find('.', dot + 1)) {
     const std::string whole = name.substr(0, dot);
@@ -51,15 +51,15 @@ bool is_left_over(const std::string& name) {
   return false;
 }
 
-/// Locks the directory, without waiting. \return descriptor that holds the lock, -1 where another
-/// process has it
+/// Locks the directory without blocking. \return the descriptor of the lock; -1 where another
+/// process holds it
 int lock_directory(const fs::path& directory) {
   const int descriptor = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) {
     throw FileError(
         fmt::format("{}: cannot be opened: {}", directory.string(), std::strerror(errno)));
   }
-  // Some network disks know no locks: then there is none.
+  // Some network disks support no locks; the directory then stays unlocked.
   if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return descriptor;
   ::close(descriptor);
   return -1;
@@ -110,30 +110,31 @@ void require_result(const fs::path& directory) {
   const std::string place = directory.string();
   if (!fs::exists(directory, error)) throw FileError(place + ": there is no such directory");
   if (!fs::is_directory(directory, error)) {
-    throw FileError(place + ": is not a directory; give that of a result of perilink run");
+    throw FileError(place + ": is not a directory; give the directory of a result of perilink run");
   }
   if (fs::exists(directory / "history.csv", error)) return;
   const char* hint = fs::exists(directory / "study.toml", error)
                          ? "it holds a study of perilink converge"
                          : "perilink run writes one";
   throw FileError(
-      fmt::format("{}: is no result of a run: there is no history.csv in it ({})", place, hint));
+      fmt::format("{}: is not a result of a run: it has no history.csv ({})", place, hint));
 }
 
 ResultDirectory::ResultDirectory(const fs::path& directory, bool force) {
   std::error_code error;
   if (!fs::is_directory(directory, error)) {
-    refuse_old_results(directory, force);  // a file of this name
+    refuse_old_results(directory, force);  // also refuses a file of this name
     fs::create_directories(directory, error);
     if (error) {
-      throw FileError(fmt::format("{}: cannot be made: {}", directory.string(), error.message()));
+      throw FileError(
+          fmt::format("{}: cannot be created: {}", directory.string(), error.message()));
     }
   }
   lock_ = lock_directory(directory);
   if (lock_ < 0) {
     throw FileError(
-        fmt::format("{}: another run writes its results there at this moment\n"
-                    "  wait for its end, or choose another directory with --out DIR",
+        fmt::format("{}: another run is writing its results there\n  wait for its end, or "
+                    "choose another directory with --out DIR",
                     directory.string()));
   }
   try {

@@ -6,33 +6,30 @@
 
 namespace perilink {
 
-/// Default place of the results of a case: results/<name of the case file>.
+/// Returns the default directory of the results of a case: results/<name of the case file>.
 std::filesystem::path default_result_directory(const std::string& case_path);
 
-/// Refuses a directory that holds results of an earlier run, unless `force` is set; changes
-/// nothing.
-/// \return the files of that run, in the order in which they go
+/// Refuses a directory with results of an earlier run, unless `force` is set. Removes no file.
+/// \return the files of that run, in the order of removal
 /// \throws FileError
 std::vector<std::filesystem::path> refuse_old_results(const std::filesystem::path& directory,
                                                       bool force);
 
-/// Refuses a directory in which a copy that is written there would take the place of the user's own
-/// file.
+/// Refuses a directory in which a written copy would overwrite the user's own file.
 /// \param copy     name of the copy
 /// \param written  "this case with its resolved form"
 /// \throws FileError
 void refuse_own_file(const std::filesystem::path& directory, const char* copy,
                      const std::string& own, const char* written);
 
-/// Refuses what is no result of a run, and says what it is instead. \throws FileError
+/// Refuses a path that is not a result of a run and says what it is. \throws FileError
 void require_result(const std::filesystem::path& directory);
 
-/// The directory of a run while it writes. An existing result is refused unless `force` is set;
-/// then the files that a run writes, and only those, are removed. No second run can have the
-/// directory at the same time; when the process ends, in whatever way, it is free again.
+/// Locked directory of a run. An existing result is refused unless `force` is set; then only files
+/// that a run writes are removed. The lock excludes other runs and ends with the process.
 class ResultDirectory {
  public:
-  /// Makes the directory. \throws FileError
+  /// Creates and locks the directory. \throws FileError
   ResultDirectory(const std::filesystem::path& directory, bool force);
   ~ResultDirectory();
   ResultDirectory(const ResultDirectory&) = delete;

@@ -11,23 +11,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Room for the summary of a run with many notes [bytes].
+/// Space reserved for the summary of a run with many notes [bytes].
 constexpr std::size_t reserve = 8 * 1024;
-/// More is no summary [bytes].
+/// Largest size of a summary that is read [bytes].
 constexpr std::size_t longest_summary = std::size_t{16} << 20;
 
 std::string path_in(const fs::path& directory) { return (directory / "summary.json").string(); }
 
-/// Bytes that are no UTF-8, in the path of a case say, are replaced.
+/// Returns the JSON text of a summary; invalid UTF-8, for example in paths, is replaced.
 std::string text_of(const nlohmann::ordered_json& summary) {
   return summary.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 [[noreturn]] void refuse(const fs::path& directory, const std::string& fault) {
-  throw FileError(fmt::format(
-      "{}: {}, so the file is damaged\n"
-      "  delete it: then the results are taken as those of a run that was killed; or run again",
-      path_in(directory), fault));
+  throw FileError(
+      fmt::format("{}: {}, so the file is damaged\n  delete it, so that the results "
+                  "count as those of a killed run, or run the case again",
+                  path_in(directory), fault));
 }
 
 }  // namespace
@@ -43,8 +43,10 @@ nlohmann::ordered_json summary_head(const CaseFile& input, const std::string& st
 }
 
 void write_running_summary(const fs::path& directory, const CaseFile& input) {
-  std::string text = text_of(summary_head(
-      input, "running", "the run goes on, or it was killed: at its end it replaces this file"));
+  std::string text =
+      text_of(summary_head(input, "running",
+                           "the run is not finished, or it was killed; at its end it replaces "
+                           "this file"));
   text.insert(text.size() - 1, reserve - text.size() % reserve, ' ');
   write_whole_file(path_in(directory), text);
 }
@@ -72,7 +74,7 @@ std::optional<nlohmann::ordered_json> read_summary_file(const fs::path& director
   const std::string text = read_regular_file(path, longest_summary);
   if (text.empty()) refuse(directory, "is empty");
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(text, nullptr, false);
-  if (!json.is_object()) refuse(directory, "is not the JSON of a summary");
+  if (!json.is_object()) refuse(directory, "is not a JSON object");
   if (!json.contains("status")) refuse(directory, "lacks the \"status\" of every summary");
   for (const std::string_view quantity : words_of(Quantity{})) {
     const auto value = json.find(quantity);

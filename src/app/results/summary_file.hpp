@@ -8,34 +8,34 @@
 #include "io/case/case_file.hpp"
 
 /// \file
-/// DIR/summary.json, whatever the analysis: written first when a run starts, with the status
-/// "running", and replaced at its end.
+/// DIR/summary.json of all analyses, written at the start with status "running" and replaced at the
+/// end.
 
 namespace perilink {
 
-/// What every summary begins with: whose run it is, of which kind, and how it stands.
+/// Returns the common beginning of summaries: case, analysis type, status and reason.
 nlohmann::ordered_json summary_head(const CaseFile& input, const std::string& status,
                                     const std::string& reason);
 
-/// Says that a run is under way, or was killed. Takes the room that the last summary will need.
+/// Writes a summary with status "running", padded to reserve space for the final summary.
 /// \throws FileError
 void write_running_summary(const std::filesystem::path& directory, const CaseFile& input);
 
-/// Says that a run failed before it computed anything. \throws FileError
+/// Writes the summary of a run that failed before its analysis. \throws FileError
 void write_failed_summary(const std::filesystem::path& directory, const CaseFile& input,
                           const std::string& reason);
 
-/// Replaces the file; on a full disk the summary of write_running_summary() makes room.
+/// Replaces the summary; on a full disk the reserve of write_running_summary() is used.
 /// \throws FileError
 void write_summary_file(const std::filesystem::path& directory,
                         const nlohmann::ordered_json& summary);
 
-/// Reads the file back; nothing where there is none.
-/// \throws FileError where it is no JSON object, has no status, or a Quantity of it is no number
+/// Reads the summary; empty where there is none.
+/// \throws FileError where it is not a JSON object, lacks a status, or a quantity is not a number
 std::optional<nlohmann::ordered_json> read_summary_file(const std::filesystem::path& directory);
 
-/// A text of a summary, printable; empty where it has none of this name.
-/// \throws FileError where the value is something else
+/// Returns a printable text of a summary; empty where the key is missing.
+/// \throws FileError where the value is not a text
 std::string summary_text(const nlohmann::ordered_json& summary, const std::string& key,
                          const std::filesystem::path& directory);
 

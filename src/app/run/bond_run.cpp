@@ -26,8 +26,8 @@ std::vector<double> densities(const CaseFile& input) {
   return density;
 }
 
-/// Parts of the body, of a hundredth of its particles or more, that have no elastic supports and in
-/// which no displacement is prescribed.
+/// Counts unsupported parts of the body with at least a hundredth of its particles: no elastic
+/// support and no prescribed displacement acts on them.
 Index count_loose_pieces(const Model& model, const BondRunState& state) {
   const Network& network = model.network;
   const auto width = static_cast<std::size_t>(network.width());
@@ -78,7 +78,7 @@ void MovingBondsRun::write_state(const ExplicitRecord& record, const BondRunStat
     moment.time = record.time;
     const bool bonds_break = !model_.network.has_states();
     std::vector<double> motion = state.motion.displacement;
-    follow_particles(model_.network, motion);  // anchors stand still in these runs
+    follow_particles(model_.network, motion);  // embedded points are not unknowns of these runs
     VtuGrid grid =
         make_field_grid(model_.network, state.bonds.secants(), motion, moment,
                         bonds_break ? state.broken : std::vector<Index>{}, neighbourhoods_);
@@ -94,7 +94,7 @@ void MovingBondsRun::write_state(const ExplicitRecord& record, const BondRunStat
   });
 }
 
-/// Bonds turn with the body where strains are Green's, and small strains are none then.
+/// With Green's strains bonds rotate with the body, and small-strain stresses would be wrong.
 void MovingBondsRun::add_forces_and_cracks(VtuGrid& grid, const ExplicitRecord& record,
                                            const BondRunState& state,
                                            const std::vector<double>& motion) {
@@ -139,8 +139,7 @@ bool MovingBondsRun::stop_requested() { return stop_signal_received(); }
 
 namespace {
 
-/// A run with type = "explicit" of a body with bonds, which move instead of going from equilibrium
-/// to equilibrium.
+/// A run with type = "explicit" of a body with bonds, integrated in time.
 class BondRun final : public MovingBondsRun {
  public:
   BondRun(const CaseFile& of_case, int on_threads, bool quiet)

@@ -6,19 +6,19 @@
 
 namespace perilink {
 
-/// What an explicit case of bonds adds to its model.
+/// Inertia and options of an explicit case of bonds.
 struct BondRunCase {
   Inertia inertia;
   BondRunRules rules;
-  ExplicitOptions options;  ///< threads left at one
+  ExplicitOptions options;  ///< with one thread
 };
 
-/// Masses and steps of a case with type = "explicit" whose body has bonds.
+/// Builds masses and time steps of a case with type = "explicit" and bonds.
 /// \throws InputError for a time step above the critical one, or too many steps
 BondRunCase build_bond_run(const CaseFile& input, const Model& model);
 
-/// A run whose bonds move: every row goes into the history, the states at the times that the case
-/// asks for (and the first and the last, in a dynamic relaxation all) into field files.
+/// A run of bonds in motion. Every row goes into the history. Field files hold the first, the last
+/// and the requested states; in a dynamic relaxation all states.
 class MovingBondsRun : public NetworkRun, protected BondRunObserver {
  public:
   MovingBondsRun(const CaseFile& of_case, int on_threads, bool quiet);
@@ -29,13 +29,13 @@ class MovingBondsRun : public NetworkRun, protected BondRunObserver {
   void on_iteration(Index load_step, Index iteration, double residual) override;
   bool stop_requested() override;
   void write_state(const ExplicitRecord& record, const BondRunState& state);
-  /// \param motion  that of the state, with the anchors of bars
+  /// \param motion  motion of the state, with the embedded points of bars
   void add_forces_and_cracks(VtuGrid& grid, const ExplicitRecord& record, const BondRunState& state,
                              const std::vector<double>& motion);
 
   Index steps_ = 0;                ///< in the whole run
   std::vector<ToldCrack> cracks_;  ///< in the last field file
-  Index loose_pieces_ = 0;         ///< parts of the broken body at the end that nothing holds
+  Index loose_pieces_ = 0;         ///< unsupported parts of the broken body at the end
 
  private:
   Csr neighbourhoods_;

@@ -19,7 +19,7 @@ namespace perilink {
 DamageRun::DamageRun(const CaseFile& of_case, int on_threads, bool quiet)
     : NetworkRun(of_case, on_threads, quiet),
       is_broken_(static_cast<std::size_t>(model_.network.num_elements()), 0) {
-  // Pre-cracks have broken these before.
+  // Pre-cracks cut these.
   for (const Index element : model_.network.cut_elements) is_broken_[element] = 1;
   if (const auto note = note_of_separated_body(input, model_, threads)) notes.push_back(*note);
   plan += fmt::format(", {} unknowns", model_.unknowns.count);
@@ -48,7 +48,7 @@ void DamageRun::analyse() {
   }
 }
 
-/// From the beginning, without the elements that the run has converted by now.
+/// Restarts the run with the elements released so far.
 void DamageRun::begin_again(const MissedRelease& late) {
   ++missed_releases_;
   EmbeddedBody& body = *model_.embedded;
@@ -81,11 +81,12 @@ void DamageRun::tell(Summary& summary) const {
   }
   if (auto warning = balance_.warning()) found.warnings.push_back(std::move(*warning));
   if (missed_releases_ > 0) {
-    summary.add_note(fmt::format(
-        "{} conversions of elements came late: a bond was past its limit before its element let go "
-        "of it. Each time the run began again with these elements converted; a smaller `alert` in "
-        "[elements] saves that time",
-        missed_releases_));
+    summary.add_note(
+        fmt::format("{} missed releases: a bond was past its limit before its host element "
+                    "released it. Each time the run was restarted with these elements "
+                    "released from the beginning. A smaller `alert` in [elements] avoids "
+                    "restarts",
+                    missed_releases_));
   }
   summary.add_note(note_of_clamps(model_, broken_));
   if (const auto text = text_of_peaks(result_, model_, broken_)) {
@@ -98,7 +99,7 @@ void DamageRun::tell(Summary& summary) const {
   if (model_.embedded) tell_elements(summary);
 }
 
-/// Quantities of the bonds at the peak and at the end, and what is doubtful about them.
+/// Reports quantities of the bonds at the peak and at the end, with warnings.
 void DamageRun::tell_stresses(Summary& summary, Equilibria& found) const {
   const auto at = [&](double load) {
     const double scale = input.stages.empty() ? std::abs(load) : 1.0;
@@ -129,13 +130,13 @@ void DamageRun::tell_elements(Summary& summary) const {
                work > 0.0 ? result_.last.constraint_energy / work : 0.0);
 }
 
-/// With which displacements are to be multiplied, StepState::displacement.
+/// Returns the factor on StepState::displacement.
 double DamageRun::scale_of(const StepRecord& record) const {
   return input.stages.empty() ? record.load_factor : 1.0;
 }
 
-/// The element of the last row has failed by now; where several failed in one load step their order
-/// within the step is that of their numbers.
+/// Records the element that failed in the last row. Several failures of one load step are ordered
+/// by number.
 void DamageRun::note_broken(const StepRecord& record, StateSource& source) {
   const std::size_t count = static_cast<std::size_t>(record.broken_bonds);
   if (count == broken_.size()) return;
@@ -158,7 +159,7 @@ void DamageRun::note_places(const StepRecord& record, StateSource& source) {
     return;
   highest_ = std::abs(record.load);
   high_rows_.push_back({highest_, record.load_factor, {}});
-  if (model_.prescribed_regions.empty()) return;  // a look at the state may cost a solve
+  if (model_.prescribed_regions.empty()) return;  // reading the state may cost a solve
   const StepState state = source.state();
   high_rows_.back().places =
       region_forces(model_, record.load_factor, state.secants, state.displacement, {}, state.whole);
@@ -173,7 +174,7 @@ std::vector<RegionForce> DamageRun::places_at_peak() const {
   return {};
 }
 
-/// Before anything breaks stresses are in proportion to the load.
+/// Records the largest compression. Before the first break stresses are in proportion to the load.
 void DamageRun::note_compression(const StepRecord& record, const VtuGrid& grid) {
   const bool by_stages = !input.stages.empty();
   const double load = by_stages ? 1.0 : std::abs(record.load);
@@ -185,8 +186,8 @@ void DamageRun::note_compression(const StepRecord& record, const VtuGrid& grid) 
   }
 }
 
-/// The first row, the first of each stage, and what the case asks for: a load step may pass a
-/// number of broken bonds; the first row beyond it counts then.
+/// Whether fields are due: at the first row of the run and of each stage, and at requested rows and
+/// numbers of broken bonds. A load step may skip such a number; the next row counts then.
 bool DamageRun::wants_fields(const StepRecord& record) const {
   if (!files_->has_fields() || record.stage != last_stage_) return true;
   const std::optional<int>& rows = input.output.fields_every_rows;

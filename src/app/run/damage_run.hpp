@@ -9,8 +9,8 @@
 
 namespace perilink {
 
-/// A run with type = "damage": every row goes into the history, the states that the case asks for
-/// (and the first and the last) into field files.
+/// A run with type = "damage". Every row goes into the history. Field files hold the first, the
+/// last and the requested states.
 class DamageRun final : public NetworkRun, public StepObserver {
  public:
   DamageRun(const CaseFile& of_case, int on_threads, bool quiet);
@@ -38,26 +38,27 @@ class DamageRun final : public NetworkRun, public StepObserver {
   void show_progress(const StepRecord& record);
 
   DamageResult result_;
-  Index missed_releases_ = 0;  ///< after each of which the run began again
+  Index missed_releases_ = 0;  ///< number of restarts after a missed release
   Csr neighbourhoods_;         ///< made with the first field file
-  std::vector<Index> broken_;  ///< bonds and ties, in the order of breaking
+  std::vector<Index> broken_;  ///< bonds and bond-slip springs, in the order of breaking
   std::vector<std::uint8_t> is_broken_;
-  Index last_element_ = no_index;  ///< that failed at the end of the last row
-  Index last_events_ = 1;          ///< elements that failed with it
+  Index last_element_ = no_index;  ///< element that failed at the end of the last row
+  Index last_events_ = 1;          ///< number of elements that failed with it
   Index broken_at_fields_ = 0;     ///< number of broken bonds in the last field file
-  Index last_stage_ = 0;           ///< where the last row was
+  Index last_stage_ = 0;           ///< stage of the last row
   double highest_ = 0.0;           ///< |load| so far
   std::vector<SupportRegion> places_held_;
-  std::vector<std::size_t> set_of_stage_;  ///< in Model::sets
+  std::vector<std::size_t> set_of_stage_;  ///< index in Model::sets, per stage
   std::vector<double> set_factors_;        ///< per set, in the last row
   std::vector<ToldCrack> cracks_;          ///< in the last field file
-  /// A row with the largest |load| so far, where there are several places.
+  /// A row with the largest |load| so far, recorded where there are several regions.
   struct HighRow {
     double load, load_factor;
-    std::vector<RegionForce> places;  ///< driven ones; others follow from the load factor
+    std::vector<RegionForce>
+        places;  ///< boundary regions; load regions follow from the load factor
   };
   std::vector<HighRow> high_rows_;
-  Compression compression_;  ///< at a load of one; of stages the largest of all field files
+  Compression compression_;  ///< at unit load; with stages the largest of all field files
   SoftenedEnergy softened_;  ///< at the end
 };
 

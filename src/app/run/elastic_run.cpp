@@ -30,7 +30,7 @@ VtuGrid make_grid(const Model& model, const Csr& neighbourhoods, Secants secants
   return grid;
 }
 
-/// Share of the bonds whose vectors change by more than a tenth of their lengths.
+/// Returns the fraction of bonds with vectors that change by more than a tenth of their length.
 /// \param motion  shape (particles, width)
 double share_of_large_motion(const Model& model, std::span<const double> motion) {
   constexpr double small = 0.1;
@@ -41,7 +41,7 @@ double share_of_large_motion(const Model& model, std::span<const double> motion)
   for (Index e = 0; e < model.network.first_slip_spring;
        ++e) {  // bonds of the solid, or edges of elements
     const Index i = bonds.first[e], j = bonds.second[e];
-    double length = 0.0, change = 0.0;  // squares
+    double length = 0.0, change = 0.0;  // squared
     for (int a = 0; a < particles.dim; ++a) {
       const double u = motion[j * width + a] - motion[i * width + a];
       const double x = particles.position(j)[a] - particles.position(i)[a];
@@ -93,7 +93,7 @@ class ElasticRun final : public NetworkRun {
         neighbourhoods = bonds_of_particles(model_.network.bonds, model_.network.particles.size());
       }
       VtuGrid grid = make_grid(model_, neighbourhoods, secants, displacement, bars, moment);
-      neighbourhoods = {};  // the file takes room, too
+      neighbourhoods = {};  // frees memory before the file is written
       return grid;
     });
   }

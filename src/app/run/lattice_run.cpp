@@ -76,7 +76,7 @@ class LatticeRun final : public RunKind, private ExplicitObserver {
     });
   }
 
-  /// Forces in the step before, as in the history.
+  /// Writes the forces of the previous step, as in the history.
   void write_reactions(const ExplicitRecord& record, const ExplicitState& state) {
     const std::vector<SupportRegion> held = support_regions(input, built_.places);
     if (held.empty()) return;

@@ -8,15 +8,16 @@
 namespace perilink {
 namespace {
 
-/// \throws InputError where mpiexec has started several processes and they cannot share the case
+/// Refuses cases that several MPI processes cannot share. \throws InputError
 void refuse_several_processes(const CaseFile& input) {
   if (ranks() == nullptr) return;
   const auto refuse = [&](const char* key, const char* value, const char* allowed) {
-    throw InputError(input.where(key),
-                     fmt::format("is \"{}\", which the {} processes of mpiexec cannot share; they "
-                                 "share {}",
-                                 value, ranks()->count(), allowed),
-                     "start one process without mpiexec; --threads shares its work among threads");
+    throw InputError(
+        input.where(key),
+        fmt::format("is \"{}\", which does not run on the {} processes of mpiexec; allowed "
+                    "are {}",
+                    value, ranks()->count(), allowed),
+        "start one process without mpiexec; --threads uses several processors");
   };
   if (input.analysis.type == AnalysisType::relaxation) {
     refuse("analysis.type", "relaxation", "\"elastic\", \"damage\" and \"explicit\"");

@@ -11,7 +11,7 @@
 namespace perilink {
 namespace {
 
-/// Part of the forces on a place that equilibrium leaves undecided.
+/// Relative round-off of the force on a region.
 constexpr double undecided = 1e-9;
 
 }  // namespace
@@ -77,8 +77,9 @@ std::string text_of_ranks(const FactorStatistics& factor) {
 std::string solver_text(const FactorStatistics& factor) {
   std::string work =
       factor.subdomains > 0
-          ? fmt::format("conjugate gradients with {} boxes, made {} time{}", factor.subdomains,
-                        factor.factorizations, factor.factorizations == 1 ? "" : "s")
+          ? fmt::format("conjugate gradients with {} subdomains, factorised {} time{}",
+                        factor.subdomains, factor.factorizations,
+                        factor.factorizations == 1 ? "" : "s")
           : fmt::format("{} factorisations", factor.factorizations);
   if (factor.iterations > 0) work += fmt::format(", {} iterations", factor.iterations);
   return work + text_of_ranks(factor);
@@ -103,9 +104,10 @@ namespace {
 std::string solver_text(const ElasticResult& solution) {
   if (solution.displacement.empty()) return "no equilibrium found";
   if (solution.subdomains == 0) return "1 factorisation";
-  return fmt::format("{} iterations of conjugate gradients with {} boxes{}, error {:.1e}",
-                     solution.iterations, solution.subdomains, text_of_ranks(solution.factor),
-                     solution.error);
+  return fmt::format(
+      "{} iterations of conjugate gradients with {} subdomains{}, error "
+      "{:.1e}",
+      solution.iterations, solution.subdomains, text_of_ranks(solution.factor), solution.error);
 }
 
 }  // namespace
@@ -175,10 +177,10 @@ void tell_stages(Summary& summary, const CaseFile& input, const std::vector<Stag
     const bool goes_on =
         k + 1 < stages.size() && input.stages[k + 1].loads == input.stages[k].loads;
     if (stage.largest.load != stage.peak.load && !goes_on && k + 1 < stages.size()) {
-      summary.warnings.push_back(fmt::format(
-          "stage \"{}\": residual strength: its load reached {:.6g}, and climbed again, to "
-          "{:.6g}, which is carried by what is left of a body that has failed",
-          name, stage.peak.load, stage.largest.load));
+      summary.warnings.push_back(
+          fmt::format("stage \"{}\": its load reached {:.6g}, fell, and rose again to "
+                      "{:.6g}; the later peak is the residual strength after failure",
+                      name, stage.peak.load, stage.largest.load));
     }
     summary.line(k == 0 ? "stages" : "", "{}: {}, load factor {:.6g}, load {:.6g}, {} broken bonds",
                  name, stage.reason, stage.last.load_factor, stage.last.load,
@@ -199,7 +201,7 @@ void tell_quasistatic(Summary& summary, const CaseFile& input, const Model& mode
     const std::vector<std::uint8_t>& whole = model.embedded->whole;
     const auto carrying = std::count(whole.begin(), whole.end(), 1);
     summary.add("elements", carrying);
-    summary.line("elements", "{} carry particles, which would have {} unknowns", carrying,
+    summary.line("elements", "{} constrain particles with {} unknowns", carrying,
                  model.embedded->free.count);
   }
   summary.add("notes", summary.notes);

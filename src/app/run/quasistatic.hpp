@@ -11,7 +11,7 @@
 #include "app/run/summary.hpp"
 
 /// \file
-/// What damage and elastic runs find and tell alike: both go from equilibrium to equilibrium.
+/// Results common to damage and elastic runs, which are sequences of equilibria.
 
 namespace perilink {
 
@@ -20,35 +20,35 @@ struct ElasticAnswer {
   Termination termination = Termination::completed;
   std::string reason;
   ElasticResult solution;
-  StepRecord row;  ///< all its history
+  StepRecord row;  ///< the only row of its history
   PeakWatch peaks;
 };
 
 /// \throws SolverError when the stiffness matrix is not positive definite
 ElasticAnswer solve_elastic(const Model& model, const ElasticOptions& options);
 
-/// Force on the body at a loaded or driven place.
+/// Force on the body at a load region or boundary region.
 struct RegionForce {
   std::string name;
   std::vector<double> force;  ///< size dim [force]
 };
 
-/// Whether there are several; one bears the whole load.
+/// Whether there are several load or boundary regions; a single one carries the whole load.
 inline bool has_several_places(const Model& model) {
   return model.load_regions.size() + model.prescribed_regions.size() > 1;
 }
 
-/// Forces of all places at a load factor.
-/// \param secants  one per element; this and the next only looked at where places are driven
+/// Returns the forces of all load and boundary regions at a load factor.
+/// \param secants  one per element; used with `motion` for boundary regions only
 /// \param motion   at load factor 1, shape (particles, width) [length]
-/// \param forces   that hold the particles so, where they are known (InternalForce::forces)
+/// \param forces   internal forces, where they are known (InternalForce::forces)
 /// \param whole    see ModelState::whole
 std::vector<RegionForce> region_forces(const Model& model, double load_factor, Secants secants,
                                        std::span<const double> motion,
                                        std::vector<double> forces = {},
                                        std::span<const std::uint8_t> whole = {});
 
-/// What equilibria tell.
+/// Results of a sequence of equilibria for the summary.
 struct Equilibria {
   explicit Equilibria(const DamageResult& result);
   explicit Equilibria(const ElasticAnswer& answer);
@@ -57,25 +57,26 @@ struct Equilibria {
   const PeakWatch& peaks;
   bool has_events = false;  ///< bonds break or yield
   const FactorStatistics& factor;
-  std::string solver;                             ///< what it took
-  double unsolved = 0.0;                          ///< left by iterations, norm of energy [-]
-  double initial_stiffness = 0.0;                 ///< [force / length]
-  double largest_residual = 0.0;                  ///< over the loads [-]
-  Index broken_bonds = 0;                         ///< with the one that separated the body
-  double energy_error = 0.0;                      ///< over the work [-]
-  std::optional<double> smoothed_peak_load = {};  ///< where the path of events is long enough
-  std::vector<RegionForce> places = {};           ///< at the peak, where there are several
-  std::vector<std::string> warnings = {};         ///< beside those about the balance
+  std::string solver;              ///< description of the solver and its work
+  double unsolved = 0.0;           ///< error of the iterations in the energy norm [-]
+  double initial_stiffness = 0.0;  ///< [force / length]
+  double largest_residual = 0.0;   ///< over the loads [-]
+  Index broken_bonds = 0;          ///< includes the bond that separated the body
+  double energy_error = 0.0;       ///< over the work [-]
+  std::optional<double> smoothed_peak_load = {};  ///< empty for short paths of events
+  std::vector<RegionForce> places =
+      {};  ///< region forces at the peak, if there are several regions
+  std::vector<std::string> warnings = {};  ///< without those on the balance
 };
 
-/// Curve, energies and errors.
+/// Reports the curve, energies and errors.
 void tell_equilibria(Summary& summary, const CaseFile& input, const Equilibria& found);
 
-/// How each stage ended; nothing where there are none.
+/// Reports how each stage ended; does nothing without stages.
 void tell_stages(Summary& summary, const CaseFile& input, const std::vector<StageResult>& stages);
 
-/// The same with the model and what its solution took.
-/// \param seconds  that the analysis took
+/// Reports curve, energies and errors with the size of the model and the cost of its solution.
+/// \param seconds  wall time of the analysis
 void tell_quasistatic(Summary& summary, const CaseFile& input, const Model& model,
                       const Equilibria& found, double seconds);
 

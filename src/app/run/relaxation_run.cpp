@@ -24,7 +24,7 @@ RelaxationOptions relaxation_options(const CaseFile& input, int threads) {
 
 namespace {
 
-/// A run with type = "relaxation": bonds that are brought to rest.
+/// A run with type = "relaxation": bonds are brought to static equilibrium by damped motion.
 class RelaxationRun final : public MovingBondsRun {
  public:
   RelaxationRun(const CaseFile& of_case, int on_threads, bool quiet)

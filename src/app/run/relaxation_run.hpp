@@ -5,7 +5,7 @@
 
 namespace perilink {
 
-/// Options of a case with type = "relaxation".
+/// Returns the options of a case with type = "relaxation".
 RelaxationOptions relaxation_options(const CaseFile& input, int threads);
 
 }  // namespace perilink

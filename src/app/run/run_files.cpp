@@ -11,7 +11,7 @@
 namespace perilink {
 namespace {
 
-/// The time of a step may fall short of the time that is wanted by this part of itself.
+/// Part of a requested time by which a step may fall short of it.
 constexpr double round_off = 1e-9;
 
 std::string table_name(const char* kind, Index step) {

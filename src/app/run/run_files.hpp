@@ -18,37 +18,37 @@
 
 namespace perilink {
 
-/// What a run of any kind leaves while it goes on: rows of the history with their gauges, field
-/// files and a progress line. The kinds of runs say what is in them.
+/// Output files of a run of any analysis type: history with gauges, field files and a progress
+/// line. The analysis types supply the contents.
 class RunFiles {
  public:
-  /// \param directory  which must be there
+  /// \param directory  existing directory
   /// \throws FileError
   RunFiles(const CaseFile& input, std::filesystem::path directory, bool quiet);
 
-  /// \param gauges  their values, in the order of the case
+  /// \param gauges  gauge values, in the order of the case
   void add_row(const StepRecord& record, std::span<const double> gauges);
   void add_row(const ExplicitRecord& record, std::span<const double> gauges);
-  /// Takes back all rows and field files. \throws FileError
+  /// Removes all rows and field files. \throws FileError
   void begin_again();
-  /// Whether the row over time that was added last is one whose fields the case asks for: the
-  /// first, the first at or after each of output.fields_times, of a relaxation every one.
+  /// Whether fields are due at the last time row. They are due at the first row and at the first
+  /// one at or after each of output.fields_times; in a relaxation at every row.
   bool fields_are_due(double time);
-  /// Writes fields_STEP.vtu, unless it is there.
-  /// \param at         place of the file in the series of fields.pvd
-  /// \param make_grid  makes what is in it
+  /// Writes fields_STEP.vtu, unless it exists.
+  /// \param at         time or load factor of the file in fields.pvd
+  /// \param make_grid  returns the contents
   void write_fields(Index step, double at, const std::function<VtuGrid()>& make_grid);
-  /// Writes KIND_STEP.csv beside the fields, KIND one of `tables`.
+  /// Writes KIND_STEP.csv next to the field file; KIND is one of `tables`.
   void write_table(const char* kind, Index step, const std::string& text);
   static constexpr std::array<const char*, 2> tables = {"bars", "reactions"};
-  /// Draws the progress of a run in steps, where it is time to.
+  /// Draws the progress of a run in steps, if due.
   void show_steps(const ExplicitRecord& record, Index steps);
   ProgressBar& bar() { return bar_; }
   bool has_fields() const { return !series_.empty(); }
-  /// Brings everything to the disk and ends the progress line. \throws FileError
+  /// Flushes all files and ends the progress line. \throws FileError
   void finish();
   Index rows() const { return rows_; }
-  /// What the rows over time tell so far.
+  /// Returns the peaks of the time rows so far.
   const PeakWatch& peaks() const { return peaks_; }
   double seconds_writing() const { return seconds_writing_; }
 
@@ -66,10 +66,10 @@ class RunFiles {
   double seconds_writing_ = 0.0;
 };
 
-/// "3 broken bonds" or, of state-based particles, "3 cracked particles".
+/// Returns "3 broken bonds" or, for state-based particles, "3 cracked particles".
 std::string cracks_text(const CaseFile& input, const ExplicitRecord& record);
 
-/// What a field file says of the row that it belongs to.
+/// Returns the state values of a row for its field file.
 template <class Record>
 FieldMoment moment_of(const Record& record, const CaseFile& input, const Model& model) {
   FieldMoment moment{record.step, record.broken_bonds, record.load_factor, record.load,

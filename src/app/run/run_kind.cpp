@@ -29,7 +29,7 @@ void NetworkRun::write_reactions(const StepRecord& row, const std::vector<Suppor
   if (places.empty()) return;
   const ReactionTable table = reaction_table(places, model_, state);
   files_->write_table("reactions", row.step, table.text);
-  // Sums of n numbers are at most sqrt(n) times the root of the sum of their squares.
+  // A sum of n numbers is at most sqrt(n) times the root of the sum of their squares.
   const double numbers = static_cast<double>(model_.unknowns.number.size());
   balance_.add(row.step, table.sum, longest_side(model_.network.particles),
                std::max(1e-8, std::sqrt(numbers) * row.residual));

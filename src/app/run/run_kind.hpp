@@ -19,17 +19,17 @@ struct PhaseSeconds {
   double set_up = 0.0;    ///< reading, particles, bonds, constants
   double analysis = 0.0;  ///< assembly, factorisation, events or steps
   double output = 0.0;    ///< field files
-  std::vector<std::pair<std::string, double>> parts = {};  ///< what is in the first two
+  std::vector<std::pair<std::string, double>> parts = {};  ///< parts of the first two
 };
 
-/// How a run ended, in its result.
+/// Termination status and reason in the result of a run.
 struct RunOutcome {
   Termination& termination;
   std::string& reason;
 };
 
-/// One kind of run: `perilink run` takes all kinds through the same frame. Constructors build the
-/// model of the case and tell what is known before the analysis.
+/// A run of one analysis type, with an interface common to all. Constructors build the model and
+/// collect notes known before the analysis.
 class RunKind {
  public:
   /// \param of_case  must outlive the run
@@ -41,17 +41,17 @@ class RunKind {
     return *(files_ = std::make_unique<RunFiles>(input, directory, quiet));
   }
   RunFiles& files() const { return *files_; }
-  /// Runs the analysis; an ending that it tells itself is in verdict().
+  /// Runs the analysis. Its termination status is in run_outcome().
   virtual void analyse() = 0;
   virtual RunOutcome run_outcome() = 0;
-  /// Adds what this kind of run tells, between what all kinds tell.
+  /// Adds the results of this analysis type to the summary.
   virtual void tell(Summary& summary) const = 0;
 
   const CaseFile& input;
   const int threads;
   std::string plan;                        ///< sizes and steps to come, for the log
-  std::vector<std::string> notes;          ///< what is worth knowing before the analysis
-  std::optional<std::string> calibration;  ///< what that of the bonds reached, where there is one
+  std::vector<std::string> notes;          ///< known before the analysis
+  std::optional<std::string> calibration;  ///< result of the bond calibration, if there is one
   PhaseSeconds seconds;
 
  protected:
@@ -64,10 +64,10 @@ class NetworkRun : public RunKind {
   NetworkRun(const CaseFile& of_case, int on_threads, bool quiet);
 
  protected:
-  /// "3.2 M bond-steps/s".
+  /// Returns a rate, "3.2 M bond-steps/s".
   std::string bond_rate(Index steps) const;
-  /// Writes reactions_STEP.csv of an equilibrium and compares its sum with zero: to 1e-8, or what
-  /// the residual of the equilibrium can leave.
+  /// Writes reactions_STEP.csv of an equilibrium and checks that its sum vanishes, to 1e-8 or to
+  /// the bound from the residual of the equilibrium.
   void write_reactions(const StepRecord& row, const std::vector<SupportRegion>& places,
                        const ModelState& state);
 
@@ -75,24 +75,24 @@ class NetworkRun : public RunKind {
   ReactionBalance balance_;
 };
 
-/// Builds the model of a case for the kind of run that it asks for.
+/// Builds the model of a case and its run.
 /// \param input  must outlive the run
-/// \throws InputError where the case makes no sense for its body
+/// \throws InputError where the case does not fit its body
 std::unique_ptr<RunKind> make_run(const CaseFile& input, int threads, bool quiet);
 
-/// Single kinds.
+/// Builds a run of one analysis type, see make_run().
 std::unique_ptr<RunKind> make_elastic_run(const CaseFile& input, int threads, bool quiet);
 std::unique_ptr<RunKind> make_relaxation_run(const CaseFile& input, int threads, bool quiet);
 std::unique_ptr<RunKind> make_bond_run(const CaseFile& input, int threads, bool quiet);
 std::unique_ptr<RunKind> make_lattice_run(const CaseFile& input, int threads);
 
-/// "3.2 M particle-steps/s"; zero of no time.
+/// Formats a rate, "3.2 M particle-steps/s"; zero for no time.
 std::string rate_text(double count, double seconds, const std::string& unit);
 
-/// What a run tells at its end.
+/// Returns the summary of a run at its end.
 Summary summary_of(RunKind& run, const std::filesystem::path& directory);
 
-/// build_model(), while people at a terminal see how the calibration of the bonds comes along.
+/// Calls build_model() and shows the progress of the calibration on a terminal.
 Model build_model_visibly(const CaseFile& input, bool quiet);
 
 }  // namespace perilink

@@ -7,7 +7,7 @@
 namespace perilink {
 namespace {
 
-/// How many elements end at particles that supports or driven displacements hold.
+/// Counts elements that end at particles with supports or prescribed displacements.
 std::size_t count_at_clamps(const Model& model, std::span<const Index> elements) {
   const Bonds& bonds = model.network.bonds;
   return std::count_if(elements.begin(), elements.end(), [&](Index e) {
@@ -22,23 +22,25 @@ std::optional<std::string> note_of_clamps(const Model& model, std::span<const In
   const std::size_t at_clamp = count_at_clamps(model, broken);
   if (at_clamp == 0) return std::nullopt;
   return fmt::format(
-      "{} of {} broken bonds end at particles of [[supports]] or [[displacements]]; where the body "
-      "should not break there, give it a material with fracture_energy = \"infinite\"; hold planes "
-      "of symmetry by [[symmetry]], which this note leaves out",
+      "{} of {} broken bonds end at particles of [[supports]] or "
+      "[[displacements]]; if the clamps caused these breaks, give the "
+      "clamped regions a material with fracture_energy = \"infinite\"; model "
+      "planes of symmetry by [[symmetry]], which this note ignores",
       at_clamp, broken.size());
 }
 
 std::optional<std::string> text_of_peaks(const PeakWatch& peaks, bool bars) {
   if (!peaks.climbed_again()) return std::nullopt;
   return fmt::format(
-      "{}the load reached {:.6g} at displacement {:.6g} ({}), it fell or a crack went through the "
-      "body, and the load climbed again, to {:.6g} at {:.6g} ({}){}",
+      "{}the load reached {:.6g} at displacement {:.6g} ({}), it fell or a "
+      "crack separated the body, and the load rose again to {:.6g} at {:.6g} "
+      "({}){}",
       bars ? "" : "residual strength: ", peaks.first().load, peaks.first().displacement,
       bars ? "first_peak_load" : "peak_load", peaks.highest().load, peaks.highest().displacement,
       bars ? "peak_load" : "largest_load",
       bars ? ""
-           : ": the later load is carried by what is left of a body that has failed, or by what "
-             "cannot break, and is not the body's strength");
+           : ": the later peak is the residual strength after failure, or comes "
+             "from unbreakable parts; it is not the strength of the body");
 }
 
 std::optional<std::string> text_of_peaks(const DamageResult& result, const Model& model,
@@ -51,8 +53,8 @@ std::optional<std::string> text_of_peaks(const DamageResult& result, const Model
   const auto at_clamps = count_at_clamps(model, later);
   if (at_clamps == 0) return text;
   return fmt::format(
-      "{}; {} of the {} bonds that broke since then end at particles of "
-      "[[supports]] or [[displacements]]",
+      "{}; {} of the {} bonds that broke after the first peak end at "
+      "particles of [[supports]] or [[displacements]]",
       *text, at_clamps, later.size());
 }
 

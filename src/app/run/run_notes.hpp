@@ -9,18 +9,18 @@
 
 namespace perilink {
 
-/// Where bonds broke at particles that supports or driven displacements hold: nothing of the body
-/// may be wrong with that, but often the grips are.
-/// \param broken  elements that broke
+/// Returns a note on bonds that broke at particles with supports or prescribed displacements. Such
+/// breaks may be physical, but often the clamps cause them.
+/// \param broken  broken elements
 std::optional<std::string> note_of_clamps(const Model& model, std::span<const Index> broken);
 
-/// Where the load climbed above its first peak after the body had failed: which peak is which. A
-/// doubt, with bars a note.
-/// \param bars  reinforce the body: the larger load is its peak
+/// Returns a text on the peaks where the load rose above its first peak after the body had failed.
+/// It is a warning; with bars a note.
+/// \param bars  whether bars reinforce the body, so that the larger load is its peak
 std::optional<std::string> text_of_peaks(const PeakWatch& peaks, bool bars);
 
-/// The peaks of a damage run, and how many of the bonds that broke after the first one end at
-/// grips.
+/// Returns this text for a damage run, with the number of bonds that broke at clamps after the
+/// first peak.
 /// \param broken  elements in the order in which they broke
 std::optional<std::string> text_of_peaks(const DamageResult& result, const Model& model,
                                          std::span<const Index> broken);

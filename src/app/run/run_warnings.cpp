@@ -11,7 +11,7 @@ namespace perilink {
 
 namespace {
 
-/// Part of the energy at the end that is motion [-].
+/// Returns the kinetic fraction of the energy at the end [-].
 double moving_part(const EnergyBalance& energy) {
   const double all = energy.kinetic + energy.stored + energy.internal_damping +
                      energy.external_damping + energy.fractured + energy.plastic;
@@ -20,28 +20,29 @@ double moving_part(const EnergyBalance& energy) {
 
 std::string text_of_pieces(Index pieces) {
   if (pieces == 0) return "the body, or pieces of it, move freely or are far from equilibrium";
-  return pieces == 1 ? "a piece of the body is held by nothing"
-                     : fmt::format("{} pieces of the body are held by nothing", pieces);
+  return pieces == 1 ? "a piece of the body is unsupported"
+                     : fmt::format("{} pieces of the body are unsupported", pieces);
 }
 
-/// Runs that were cut short were not meant to end where they did.
+/// Adds warnings on the motion at the end. Interrupted runs get none.
 void warning_motion(const ExplicitResult& result, const RunFacts& facts,
                     std::vector<std::string>& warnings) {
   constexpr double most_moving = 0.1;
   if (facts.impact || result.termination != Termination::completed) return;
   if (result.last.time < facts.wave_time) {
-    warnings.push_back(fmt::format(
-        "the run ends after {:.2g}, before a wave has gone along the body and back, which takes "
-        "{:.2g}: what happens at one end is not known at the other; are modulus, density and time "
-        "in units of one system?",
-        result.last.time, facts.wave_time));
+    warnings.push_back(
+        fmt::format("the run ends after {:.2g}, before an elastic wave has crossed the "
+                    "body and returned ({:.2g}): the far end has not responded to the "
+                    "load; are modulus, density and time in units of one system?",
+                    result.last.time, facts.wave_time));
   }
   const double moving = moving_part(result.last.energy);
   if (moving <= most_moving) return;
-  warnings.push_back(fmt::format(
-      "{:.0f} % of the work is kinetic energy at the end: {}; loads and displacements are no "
-      "static ones: load more slowly, damp the motion, or hold what flies",
-      100.0 * moving, text_of_pieces(facts.loose_pieces)));
+  warnings.push_back(
+      fmt::format("{:.0f} % of the work is kinetic energy at the end: {}; loads and "
+                  "displacements are not static: load more slowly, damp the motion, or "
+                  "support the free pieces",
+                  100.0 * moving, text_of_pieces(facts.loose_pieces)));
 }
 
 }  // namespace
@@ -64,19 +65,20 @@ std::vector<std::string> warnings_about(const ExplicitResult& result, const RunF
   std::vector<std::string> warnings;
   if (result.largest_surplus > most_surplus) {
     warnings.push_back(
-        fmt::format("energy appeared from nothing or vanished, up to {:.2g} % of the work: forces "
-                    "and losses of these rules belong to no energy, or the step is too large",
+        fmt::format("the energy balance has an error of up to {:.2g} % of the work: the "
+                    "constitutive rules are not conservative, or the time step is too "
+                    "large; reduce the time step",
                     100.0 * result.largest_surplus));
   }
   const double load = std::abs(facts.peak_load), reaction = std::abs(result.peak_load);
-  // Supports that hold nothing but symmetry feel next to nothing of the load.
+  // Supports that only enforce symmetry carry a negligible part of the load.
   const bool carries = reaction > 0.5 * load && load > 0.0;
   const double difference = std::abs(load - reaction);
   if (carries && difference > most_difference * reaction) {
     warnings.push_back(
-        fmt::format("the peaks of load and reaction differ by {:.2g} %: inertia, or damping of the "
-                    "motion by mass, is in the load; load more slowly, damp less, or read the "
-                    "reaction",
+        fmt::format("the peaks of load and reaction differ by {:.2g} %: the load includes "
+                    "inertia or mass-proportional damping; load more slowly, damp less, or "
+                    "use the reaction",
                     100.0 * difference / reaction));
   }
   warning_motion(result, facts, warnings);
@@ -87,10 +89,11 @@ std::vector<std::string> warnings_at_rest(const EnergyBalance& energy) {
   constexpr double most_surplus = 0.01;
   const double kept = energy.stored + energy.fractured;
   if (kept <= (1.0 + most_surplus) * energy.external_work) return {};
-  return {fmt::format(
-      "{:.6g} is stored and dissipated, but the load steps saw a work of {:.6g} only: bonds broke "
-      "at a larger load than at the ends of their step; take smaller steps of load_factors",
-      kept, energy.external_work)};
+  return {
+      fmt::format("the stored and dissipated energy {:.6g} exceeds the work of the load "
+                  "steps {:.6g}: bonds broke at larger loads than at the ends of their "
+                  "steps; use smaller steps in load_factors",
+                  kept, energy.external_work)};
 }
 
 std::optional<std::string> warning_about_size(const CurvePoint& peak, double length) {
@@ -98,9 +101,10 @@ std::optional<std::string> warning_about_size(const CurvePoint& peak, double len
   const double part = std::abs(peak.displacement) / length;
   if (part <= small) return std::nullopt;
   return fmt::format(
-      "the peak, {:.6g} at displacement {:.6g}, lies where the body has moved by {:.2g} of its "
-      "longest side: bonds are made for small displacements and cannot tell whether it bears this "
-      "load; look at the curve before, and end the run there by [stop]",
+      "the peak, {:.6g} at displacement {:.6g}, lies where the displacement "
+      "is {:.2g} of the body's longest side: the theory assumes small "
+      "displacements, so this peak is not the strength of the body; use the "
+      "curve before it, and end the run there by [stop]",
       peak.load, peak.displacement, part);
 }
 
@@ -108,27 +112,29 @@ std::optional<std::string> warning_about_end(double displacement, double length)
   const double part = std::abs(displacement) / length;
   if (part <= 1.0) return std::nullopt;
   return fmt::format(
-      "at the end the body has moved by {:.2g} of its longest side: it could not bear the load and "
-      "hangs together by next to nothing; the last rows, their work and energies are no states of "
-      "it: look at the rows before, drive displacements, or end the run by [stop]",
+      "at the end the displacement is {:.2g} of the body's longest side: the "
+      "remaining ligament carries no load; disregard the last rows with "
+      "their work and energies; prescribe displacements, or end the run by "
+      "[stop]",
       part);
 }
 
 std::optional<std::string> warning_about_motion(double share) {
-  constexpr double few = 0.01;  // around point loads strains have no limit
+  constexpr double few = 0.01;  // strains around point loads are singular
   if (share <= few) return std::nullopt;
   return fmt::format(
-      "{:.2g} % of the body is stretched or turned by more than a tenth, where the theory, one of "
-      "small displacements, is no good: take smaller loads; are loads and moduli in units of one "
-      "system?",
+      "{:.2g} % of the body is stretched or rotated by more than a tenth, "
+      "beyond the range of the theory of small displacements; use smaller "
+      "loads; are loads and moduli in units of one system?",
       100.0 * share);
 }
 
 std::string warning_about_crushing(const CurvePoint& largest) {
   return fmt::format(
-      "bonds are shorter than small strains allow, or were about to be: the largest load, {:.6g} "
-      "at displacement {:.6g}, may be borne by what is crushed and is no strength of the body; "
-      "look at the curve before, and end the run there by [stop]",
+      "bonds are compressed beyond small strains: the largest load, {:.6g} "
+      "at displacement {:.6g}, may be carried by crushed material and is not "
+      "the strength of the body; use the curve before it, and end the run "
+      "there by [stop]",
       largest.load, largest.displacement);
 }
 
@@ -150,17 +156,19 @@ std::optional<std::string> warning_about_compression(const Compression& at_large
   constexpr double most = 10.0;  // compressive over tensile strength of concrete and rock
   if (at_largest_load.times <= most) return std::nullopt;
   return fmt::format(
-      "no crushing law: at the largest load the largest compressive principal stress is {:.4g}, "
-      "{:.3g} times the tensile strength, and has passed the compressive strength of most brittle "
-      "materials, about ten times: the body may crush before; compare it with the compressive "
-      "strength, or give the material softening = \"concrete\"",
+      "no crushing law: at the largest load the largest compressive "
+      "principal stress is {:.4g}, {:.3g} times the tensile strength; most "
+      "brittle materials crush at about ten times: the body may crush before "
+      "this load; compare the stress with the compressive strength, or give "
+      "the material softening = \"concrete\"",
       at_largest_load.stress, at_largest_load.times);
 }
 
 namespace {
 
-/// Energy that events in tension take from a bond until its secant is this, over half of its
-/// stiffness times the square of its extension at the critical stretch [-].
+/// Returns the energy that tension events dissipate in a bond until it reaches a secant stiffness
+/// ratio [-]. The reference is half of the stiffness times the squared extension at the critical
+/// stretch.
 double energy_until(const BondLaw& law, double secant) {
   double energy = 0.0;
   for (int k = 0; law.segment(k).secant > secant; ++k) {
@@ -173,7 +181,7 @@ double energy_until(const BondLaw& law, double secant) {
 }  // namespace
 
 SoftenedEnergy softened_energy(const Network& network, Secants secants) {
-  constexpr double of_crack = 0.1;  // bonds at the strength of a sound body have lost 3 to 5 %
+  constexpr double of_crack = 0.1;  // bonds of an intact body at its strength have lost 3 to 5 %
   SoftenedEnergy energy;
   for (Index e = 0; e < network.first_slip_spring; ++e) {
     const double left = secants.least(e);
@@ -193,35 +201,36 @@ std::optional<std::string> warning_about_diffuse_softening(const SoftenedEnergy&
   constexpr double most = 0.1;
   if (!(energy.cracks > 0.0) || energy.diffuse <= most * energy.cracks) return std::nullopt;
   return fmt::format(
-      "diffuse softening: bonds that softened outside the cracks dissipated {:.4g}, {:.0f} % of "
-      "the energy of the cracks: the body takes more energy than fracture_energy times the area of "
-      "its cracks, and loads may be too large; {}, or let bonds break only where cracks may run "
-      "(fracture_energy = \"infinite\" elsewhere)",
+      "diffuse softening: bonds that softened outside the cracks dissipated "
+      "{:.4g}, {:.0f} % of the energy of the cracks: the body dissipates "
+      "more energy than fracture_energy times the area of its cracks, and "
+      "loads may be too large; {}, or make bonds breakable only where cracks "
+      "may run (fracture_energy = \"infinite\" elsewhere)",
       energy.diffuse, 100.0 * energy.diffuse / energy.cracks, horizon_advice);
 }
 
 std::vector<std::string> warnings_of_balance(double energy_error, double largest_residual,
                                              double unsolved) {
-  // Results are printed with six digits; equilibria are exact but for round-off, which leaves ten.
+  // Results are printed with six digits; round-off leaves ten digits of an equilibrium.
   constexpr double most_imbalance = 1e-6;
   std::vector<std::string> warnings;
-  // Written so that what is not a number is in doubt too.
+  // Written so that not-a-number warns too.
   if (!(energy_error <= most_imbalance)) {
     warnings.push_back(
-        fmt::format("work and energies are out of balance, up to {:.2g} of the work: the body is "
-                    "so compliant that round-off has reached its results",
+        fmt::format("work and energies are out of balance, up to {:.2g} of the work: the "
+                    "body is so compliant that round-off affects its results",
                     energy_error));
   }
   if (!(unsolved <= most_imbalance)) {
     warnings.push_back(
-        fmt::format("up to {:.2g} of the load is out of balance, since the iterations ended at an "
-                    "error of {:.1g}: a smaller `tolerance` in [analysis], or solver = "
-                    "\"direct\", brings displacements nearer",
+        fmt::format("up to {:.2g} of the load is out of balance, because the iterations "
+                    "ended at an error of {:.1g}; for more accurate displacements give a "
+                    "smaller `tolerance` in [analysis], or solver = \"direct\"",
                     largest_residual, unsolved));
   } else if (!(largest_residual <= most_imbalance)) {
     warnings.push_back(
-        fmt::format("up to {:.2g} of the load is out of balance: the stiffness matrix is so close "
-                    "to singular that displacements are not solved for to six digits",
+        fmt::format("up to {:.2g} of the load is out of balance: the stiffness matrix is "
+                    "nearly singular, and displacements have fewer than six correct digits",
                     largest_residual));
   }
   return warnings;

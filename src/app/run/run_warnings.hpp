@@ -14,17 +14,17 @@
 
 namespace perilink {
 
-/// What the doubts about an explicit run have to know of it.
+/// Data for the warnings about an explicit run.
 struct RunFacts {
   double peak_load = 0.0;  ///< largest load of the history [force]
-  bool impact = false;     ///< moved by velocities: motion is what the run is about
-  /// In which a wave goes along the body and back [time].
+  bool impact = false;     ///< loaded by prescribed velocities, so that motion is expected
+  /// Time in which an elastic wave crosses the body and returns [time].
   double wave_time = 0.0;
-  Index loose_pieces = 0;  ///< pieces of the body that nothing holds at the end
+  Index loose_pieces = 0;  ///< unsupported pieces of the body at the end
 };
 
-/// The longest side of the box around a body [length].
-/// \param position  takes a particle and an axis: its coordinate [length]
+/// Returns the longest side of the box around a body [length].
+/// \param position  takes a particle and an axis, returns the coordinate [length]
 template <class Position>
 double longest_side(int dim, Index particles, Position position) {
   double longest = 0.0;
@@ -47,59 +47,59 @@ inline double longest_side(const Particles& particles) {
 /// \param length  longest side of the body [length]
 RunFacts run_facts(const CaseFile& input, double length, double peak_load);
 
-/// What makes the numbers of an explicit run doubtful, a sentence each: energy that is missing or
-/// too much by more than a hundredth of the work, a load that the supports do not feel, a run that
-/// ends before a wave has come back, and more than a tenth of the work in motion at the end, unless
-/// the run is an impact.
+/// Returns the warnings about an explicit run: an energy error above a hundredth of the work, a
+/// load not balanced by reactions, and a run shorter than the travel of a wave. Kinetic energy
+/// above a tenth of the work warns too, except in impacts.
 std::vector<std::string> warnings_about(const ExplicitResult& result, const RunFacts& facts);
 
-/// The same of a dynamic relaxation: more energy stored and dissipated than its load steps saw as
-/// work.
+/// Returns the warnings about a dynamic relaxation: more energy stored and dissipated than the work
+/// of its load steps.
 std::vector<std::string> warnings_at_rest(const EnergyBalance& energy);
 
-/// A peak at displacements for which bonds of small displacements are not made.
+/// Returns a warning about a peak beyond the range of small displacements.
 /// \param length  longest side of the body [length]
 std::optional<std::string> warning_about_size(const CurvePoint& peak, double length);
 
-/// A last row in which the body has moved farther than it is long.
+/// Returns a warning about a last displacement larger than the body.
 std::optional<std::string> warning_about_end(double displacement, double length);
 
-/// The same of an elastic run: more than a hundredth of the bonds change by more than a tenth of
-/// their lengths, longer or turned.
-/// \param share  how many do, over all bonds or edges of linear elements [-]
+/// Returns a warning about large motion in an elastic run: more than a hundredth of the bonds
+/// change by more than a tenth of their lengths.
+/// \param share  their fraction of all bonds or edges of linear elements [-]
 std::optional<std::string> warning_about_motion(double share);
 
-/// Compression of the particle where it is most times the tensile strength of its material.
+/// Compression of the particle with the largest ratio to the tensile strength of its material.
 struct Compression {
-  double stress = 0.0;  ///< largest compressive principal one [force/length^2]
-  double times = 0.0;   ///< that over the tensile strength [-]
+  double stress = 0.0;  ///< largest compressive principal stress [force/length^2]
+  double times = 0.0;   ///< stress over the tensile strength [-]
 };
 
-/// Compression of particles whose material can break in tension only.
+/// Returns the largest compression of particles without a crushing law.
 /// \param principal  stresses, shape (particles, 3)
 Compression largest_compression(const Network& network, std::span<const double> principal);
 
-/// A body that is compressed by more than ten times its tensile strength.
+/// Returns a warning about compression above ten times the tensile strength.
 std::optional<std::string> warning_about_compression(const Compression& at_largest_load);
 
-/// Energy that bonds have dissipated by softening in tension [force length].
+/// Energy dissipated by softening bonds in tension [force length].
 struct SoftenedEnergy {
-  double cracks = 0.0;   ///< by those that have lost a tenth of their fracture energy or more
-  double diffuse = 0.0;  ///< by others: the body softens there without a crack
+  double cracks = 0.0;   ///< by bonds that have lost at least a tenth of their fracture energy
+  double diffuse = 0.0;  ///< by other bonds, outside cracks
 };
 SoftenedEnergy softened_energy(const Network& network, Secants secants);
 
-/// Diffuse softening of more than a tenth of the energy of the cracks.
+/// Returns a warning about diffuse softening above a tenth of the energy of the cracks.
 std::optional<std::string> warning_about_diffuse_softening(const SoftenedEnergy& energy);
 
-/// The largest load of a run that went on, or ended, where bonds are too short for small strains.
+/// Returns a warning about the largest load of a run with bonds compressed beyond small strains.
 std::string warning_about_crushing(const CurvePoint& largest);
 
-/// The same of a quasistatic run: energies that balance, or forces, to no more than six digits.
-/// \param energy_error      largest of all rows, over the work [-]
+/// Returns the warnings about a quasistatic run with energies or forces balanced to fewer than six
+/// digits.
+/// \param energy_error      largest error of all rows, over the work [-]
 /// \param largest_residual  forces out of balance, over the loads [-]
-/// \param unsolved          what conjugate gradients have left of the answer, in the norm of energy
-///                          [-]; 0 by a factor
+/// \param unsolved          error of conjugate gradients in the energy norm
+///                          [-]; 0 with a factor
 std::vector<std::string> warnings_of_balance(double energy_error, double largest_residual,
                                              double unsolved = 0.0);
 

@@ -15,7 +15,7 @@
 namespace perilink {
 namespace {
 
-/// The first piece of the solid that is not held without some elements; empty: there is none.
+/// Returns the first piece of the solid that is unsupported without some elements; empty: none.
 std::string loose_piece(const Model& model, const std::vector<Index>& without) {
   Network open = model.network;
   for (const Index element : without) open.stiffness[element] = 0.0;
@@ -43,10 +43,10 @@ void refuse_pieces_on_bars(const CaseFile& input, const Model& model, int thread
   try {
     require_held_pieces(model, damage_options(input, threads));
   } catch (const SolverError& error) {
-    throw InputError(input.where(item_key("rebar", 0)),
-                     fmt::format("nothing but bars holds {}, and it moves freely on them: {}",
-                                 piece, error.what()),
-                     "hold the piece with [[supports]] or [[springs]]");
+    throw InputError(
+        input.where(item_key("rebar", 0)),
+        fmt::format("only bars hold {}, and it moves freely on them: {}", piece, error.what()),
+        "hold the piece with [[supports]] or [[springs]]");
   }
 }
 
@@ -63,15 +63,16 @@ std::optional<std::string> note_of_separated_body(const CaseFile& input, const M
     } else {
       require_held_pieces(model, damage_options(input, threads));
     }
-  } catch (const SolverError&) {  // they separate it, or leave a body that resists nothing
-    throw InputError(input.where(item_key("cracks", 0)),
-                     fmt::format("cut {} off, and the loads pull it away: nothing but closed faces "
-                                 "of the cracks could hold it",
-                                 piece),
-                     "end the cracks inside the body, hold the piece with [[supports]] or "
-                     "[[springs]], or press the faces together in an earlier one of [[stages]]");
+  } catch (const SolverError&) {  // the cracks separate the piece, or the body has no stiffness
+    throw InputError(
+        input.where(item_key("cracks", 0)),
+        fmt::format("cut {} off, and the loads pull it away: only closed crack faces could "
+                    "hold it",
+                    piece),
+        "end the cracks inside the body, hold the piece with [[supports]] or "
+        "[[springs]], or press the faces together in an earlier one of [[stages]]");
   }
-  return fmt::format("cracks cut {} off: nothing but their closed faces holds it{}", piece,
+  return fmt::format("cracks cut {} off: only their closed faces hold it{}", piece,
                      input.analysis.type == AnalysisType::elastic
                          ? ""
                          : ", and the run ends where the loads pull it away");

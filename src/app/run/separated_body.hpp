@@ -8,13 +8,14 @@
 
 namespace perilink {
 
-/// \throws InputError where a piece of the solid hangs on bars alone and moves freely on them, as
-/// across straight ones; costs a factorisation where a piece hangs on bars alone
+/// Refuses a piece of the solid that only bars support and that moves freely on them, as on
+/// straight parallel bars. Costs a factorisation where only bars support a piece. \throws
+/// InputError
 void refuse_pieces_on_bars(const CaseFile& input, const Model& model, int threads);
 
-/// Where cracks cut a piece of the body off, so that nothing but their closed bonds holds it: what
-/// to tell of it. Costs a factorisation then.
-/// \throws InputError where the loads of the beginning pull the piece away, and as above
+/// Returns a note on a piece of the body that only closed bonds of cracks support. Costs a
+/// factorisation then.
+/// \throws InputError where the first loads pull the piece away, and as refuse_pieces_on_bars()
 std::optional<std::string> note_of_separated_body(const CaseFile& input, const Model& model,
                                                   int threads);
 

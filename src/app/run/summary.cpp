@@ -13,7 +13,7 @@
 
 namespace perilink {
 
-/// Cracks that a summary tells.
+/// Most cracks in a summary.
 constexpr std::size_t most_cracks = 10;
 
 void tell_peaks(Summary& summary, const CaseFile& input, const PeakWatch& peaks,
@@ -32,7 +32,7 @@ void tell_peaks(Summary& summary, const CaseFile& input, const PeakWatch& peaks,
                bears ? fmt::format(", reaction of supports {:.6g}", *reaction) : "",
                input.units.empty() ? "" : "  [" + input.units + "]");
   if (largest.load != peak.load) {
-    summary.line("", "{:.6g} at {:.6g} is the largest load, of the failed body", largest.load,
+    summary.line("", "{:.6g} at {:.6g} is the largest load, after failure", largest.load,
                  largest.displacement);
   }
 }
@@ -101,7 +101,7 @@ std::int64_t bonds_and_slip_springs(const Model& model) {
 
 std::string cells_text(const Network& network) {
   if (!network.cells) return "";
-  return fmt::format(", {} linear elements beside them", network.cells->cells.size());
+  return fmt::format(", {} linear elements tied to them", network.cells->cells.size());
 }
 
 }  // namespace
@@ -129,7 +129,9 @@ void tell_cracks(Summary& summary, const std::vector<ToldCrack>& cracks) {
   }
   if (cracks.empty()) return;
   const ToldCrack& first = cracks.front();
-  summary.line("cracks", "the largest has {} damaged bond{} and is open by {:.4g} at most, at ({})",
+  summary.line("cracks",
+               "the largest has {} damaged bond{} and a largest opening of {:.4g}, at "
+               "({})",
                first.state.bonds, first.state.bonds == 1 ? "" : "s", first.state.largest,
                joined(first.at));
 }
@@ -159,7 +161,7 @@ std::string size_text(const Model& model) {
 double peak_memory_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  return 1024.0 * static_cast<double>(usage.ru_maxrss);  // Linux counts kilobytes
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);  // Linux reports kilobytes
 }
 
 }  // namespace perilink

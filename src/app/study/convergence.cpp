@@ -8,7 +8,7 @@
 namespace perilink {
 namespace {
 
-/// Orders between which a limit is looked for; beyond them three values say nothing about it.
+/// Range of orders searched for a limit; outside it three values do not determine one.
 constexpr double least_order = 0.1;
 constexpr double largest_order = 10.0;
 
@@ -47,7 +47,7 @@ void remove_rigid_motion(const Particles& particles, std::span<double> field) {
     inertia += v * (r.squaredNorm() * Eigen::Matrix3d::Identity() - r * r.transpose());
     moment += v * r.cross(vector_at(field, i, dim));
   });
-  // A plane body turns about the third axis only, though its inertia has the other two.
+  // A plane body rotates only about the third axis, but its inertia tensor has the other two.
   if (dim == 2) moment.head<2>().setZero();
   const Eigen::Vector3d omega = inertia.completeOrthogonalDecomposition().solve(moment);
   for (Index i = 0; i < particles.size(); ++i) {

@@ -18,7 +18,7 @@ ConvergencePlot study_picture(const StudyFile& study, std::span<const StudySerie
     ConvergenceLine& line = plot.lines[member.series];
     const double at = cost == Cost::unknowns ? member.unknowns : member.seconds.total();
     line.points.push_back({at, member.errors[error]});
-    // The finest pair with an order speaks for the line.
+    // The legend gives the order of the finest pair that has one.
     if (!std::isnan(member.orders[error])) line.order = member.orders[error];
   }
   return plot;

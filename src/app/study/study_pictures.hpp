@@ -7,12 +7,12 @@
 
 namespace perilink {
 
-/// What stands on the lower axis of a picture of a study.
+/// Quantity on the horizontal axis of a study plot.
 enum class Cost { unknowns, seconds };
 
-/// The picture of one error of a study, one line per series. Members come as compare_members leaves
-/// them.
-/// \param error  its number in the study
+/// Returns the plot of one error of a study, one line per series. Members must be in the order of
+/// compare_members().
+/// \param error  index of the error in the study
 ConvergencePlot study_picture(const StudyFile& study, std::span<const StudySeries> series,
                               std::span<const StudyMember> members, std::size_t error, Cost cost);
 

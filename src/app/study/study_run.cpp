@@ -28,7 +28,7 @@ namespace {
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
-/// Keeps the last values of the gauges; lets Ctrl-C end a long run.
+/// Keeps the last gauge values and stops the run on Ctrl-C.
 class StudyObserver final : public StepObserver {
  public:
   explicit StudyObserver(const Model& model) : model_(model) {}
@@ -49,14 +49,15 @@ class StudyObserver final : public StepObserver {
   const Model& model_;
 };
 
-/// Refuses refinements that no member could have.
+/// Refuses refinements that do not fit the body.
 void check_refinement(const VarySection& vary, const BodySection& body) {
   const bool of_lattice =
       vary.refinement == Refinement::spacing || vary.refinement == Refinement::columns;
   if (of_lattice && body.mesh) {
     throw InputError(
         vary.where,
-        "is given, but the body of the case is a mesh, whose particles are its vertices",
+        "is given, but the body of the case is a mesh with particles at its "
+        "vertices",
         is_geometry(*body.mesh)
             ? "refine with `mesh_size`: sizes of the cells of the geometry"
             : "refine with `mesh`, a list of meshes, or name a geometry as the case's `mesh` "
@@ -70,27 +71,27 @@ void check_refinement(const VarySection& vary, const BodySection& body) {
   if (vary.refinement == Refinement::mesh_size && !is_geometry(*body.mesh)) {
     throw InputError(
         vary.where,
-        fmt::format("is given, but the body of the case, {}, is meshed already",
+        fmt::format("is given, but the body of the case, {}, is a mesh file, not a geometry",
                     perilink::quoted(*body.mesh)),
         "refine with `mesh`, a list of meshes, or name a geometry (.geo, .step, .stp, .brep) as "
         "the case's `mesh`");
   }
 }
 
-/// What one repeat leaves.
+/// Results of one repeat.
 struct Repeat {
   CaseFile input;
   Model model;
   Termination termination = Termination::completed;
   std::string reason;
   Summary found;                     ///< the quantities of its run
-  std::optional<std::string> note;   ///< on its peaks
+  std::optional<std::string> note;   ///< note on the peaks
   std::vector<double> displacement;  ///< elastic cases only, shape (particles, width) [length]
   std::vector<double> gauges;
   MemberSeconds seconds;
 };
 
-/// Keys of a member over those of the case.
+/// Returns the keys with which a member overrides the case.
 std::vector<TomlValue> keys_of(const StudySeries& series, const TomlValue& refinement) {
   std::vector<TomlValue> keys = series.keys;
   keys.push_back(refinement);
@@ -142,7 +143,7 @@ Repeat run_once(const StudyFile& study, const std::vector<TomlValue>& keys, int 
   return repeat;
 }
 
-/// Place of a gauge in the case; the number of gauges where it has none of the name.
+/// Returns the index of a gauge in the case; the number of gauges where no gauge has the name.
 std::size_t gauge_number(const CaseFile& input, const std::string& name) {
   const auto named = [&](const GaugeSection& gauge) { return gauge.name == name; };
   return std::find_if(input.gauges.begin(), input.gauges.end(), named) - input.gauges.begin();
@@ -178,7 +179,7 @@ void fill_in(StudyMember& member, const StudyFile& study, const Repeat& repeat) 
   }
 }
 
-/// Reference of the series that ends with these members, coarse to fine.
+/// Returns the reference of a series, coarse to fine.
 double reference_of(const ErrorSection& error, std::size_t number,
                     const std::vector<const StudyMember*>& members) {
   if (error.reference == Reference::number) return error.reference_value;
@@ -195,7 +196,7 @@ double reference_of(const ErrorSection& error, std::size_t number,
   return limit ? limit->limit : no_number;
 }
 
-/// \param members  one series, coarse to fine, none of which failed
+/// \param members  one series without failures, coarse to fine
 void compare_series(const StudyFile& study, const std::vector<StudyMember*>& members) {
   if (members.empty()) return;
   const std::vector<const StudyMember*> all(members.begin(), members.end());
@@ -301,7 +302,7 @@ void check_members(const StudyFile& study, const std::vector<StudySeries>& all) 
     }
   }
   throw InputError({study.path, 0, "vary"}, "leaves no member that the case accepts",
-                   "the first is refused so: " + first_fault);
+                   "the first member is refused: " + first_fault);
 }
 
 StudyMember run_member(const StudyFile& study, const StudySeries& series,
@@ -326,7 +327,8 @@ StudyMember run_member(const StudyFile& study, const StudySeries& series,
   } catch (const InputError& error) {
     member.failure = error.what();
     member.bad_input = true;
-  } catch (const std::exception& error) {  // the solver, no memory: the other members go on
+  } catch (
+      const std::exception& error) {  // solver failure or no memory; the other members still run
     member.failure = failure_text(error);
   }
   return member;

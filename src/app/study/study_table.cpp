@@ -12,21 +12,22 @@
 namespace perilink {
 namespace {
 
-/// Columns that name a member.
+/// Writes the columns that identify a member.
 void begin_row(CsvRow& row, std::span<const StudySeries> series, const StudyMember& member) {
   row.text(series[member.series].name).text(refinement_text(member.refinement));
 }
 
-/// What went wrong, without the advice on the lines below.
+/// Returns the first line of a message, without the advice below it.
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-/// "1.234e-05" or dashes where there is no number.
+/// Formats a number, "1.234e-05", or dashes for not-a-number.
 std::string cell(double value, const char* format, int width) {
   return std::isnan(value) ? fmt::format("{:>{}}", "-", width)
                            : fmt::format(fmt::runtime(format), value, width);
 }
 
-/// "4, as given", "3.98, the finest member's", or the formulas of a closed form.
+/// Describes a reference: "4, as given", "3.98, the finest member's", or the formulas of a closed
+/// form.
 std::string reference_text(const ErrorSection& error, double reference) {
   if (error.is_field()) {
     std::string formulas;
@@ -39,7 +40,7 @@ std::string reference_text(const ErrorSection& error, double reference) {
   }
   if (error.reference == Reference::number) return fmt::format("{:.8g}, as given", reference);
   if (error.reference == Reference::finest) {
-    if (std::isnan(reference)) return "none: one member alone has a result";
+    if (std::isnan(reference)) return "none: only one member has a result";
     return fmt::format("{:.8g}, the finest member's", reference);
   }
   return std::isnan(reference) ? "none: the finest members approach no limit"
@@ -111,9 +112,9 @@ class Report {
   }
 
   const StudyFile& study_;
-  const StudyMember* finest_ = nullptr;  ///< the last of the series that has a result
+  const StudyMember* finest_ = nullptr;  ///< finest member of the series with a result
   std::string text_;
-  std::string below_;  ///< what is to be said of the members of a series
+  std::string below_;  ///< notes on the members of a series
 };
 
 }  // namespace

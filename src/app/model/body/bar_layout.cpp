@@ -23,12 +23,12 @@ namespace {
 /// Points this close to a face, in spacings, are inside.
 constexpr double inside_tolerance = 1e-6;
 
-/// What is looked at along a bar, in spacings.
+/// Distance of the points that are tested along a bar, in spacings.
 constexpr double look_step = 0.25;
 
 using Points = std::vector<Vector3>;
 
-/// The part of a box that the cover leaves.
+/// Returns the part of a box inside the cover.
 Box room_of(const CaseFile& input, std::size_t k, int dim) {
   const BarLayout& layout = *input.rebar[k].layout;
   const auto region =
@@ -36,7 +36,7 @@ Box room_of(const CaseFile& input, std::size_t k, int dim) {
                    [&](const Region& candidate) { return candidate.name == layout.region; });
   if (!region->group.empty() || region->round) {
     throw InputError(input.where(item_key("rebar", k, "inside")),
-                     fmt::format("is \"{}\", which is no box", layout.region),
+                     fmt::format("is \"{}\", not a box", layout.region),
                      "name a region of intervals, or give the `points` of each bar");
   }
   Box room = region->box;
@@ -53,12 +53,13 @@ Box room_of(const CaseFile& input, std::size_t k, int dim) {
   return room;
 }
 
-/// Evenly from one end of an interval to the other; one alone lies in the middle.
+/// Returns position k of `number` evenly spaced positions from `lower` to `upper`; a single one
+/// lies in the middle.
 double even(double lower, double upper, int k, int number) {
   return number == 1 ? 0.5 * (lower + upper) : lower + (upper - lower) * k / (number - 1);
 }
 
-/// Bars beside a face, along an axis.
+/// Lays bars next to a face, parallel to an axis.
 std::vector<Points> bars_at_face(const BarLayout& layout, const Box& room, int dim) {
   const int normal = *layout.face % 3, across = 3 - normal - layout.along;
   std::vector<Points> bars;
@@ -75,7 +76,7 @@ std::vector<Points> bars_at_face(const BarLayout& layout, const Box& room, int d
   return bars;
 }
 
-/// Stirrups around an axis; in the plane straight ones across it.
+/// Lays stirrups around an axis; in two dimensions straight bars across it.
 std::vector<Points> stirrups(const BarLayout& layout, const Box& room, int dim) {
   const int along = layout.along;
   const double length = room.upper[along] - room.lower[along];
@@ -102,7 +103,7 @@ std::vector<Points> stirrups(const BarLayout& layout, const Box& room, int dim) 
   return bars;
 }
 
-/// More bars than this are a slip of the pen.
+/// Most bars of an entry; more are taken for a typing error.
 constexpr double most_bars = 1e5;
 
 void refuse_too_many(const CaseFile& input, std::size_t k, double count) {
@@ -113,19 +114,19 @@ void refuse_too_many(const CaseFile& input, std::size_t k, double count) {
                                                               : "copies";
   throw InputError(input.where(item_key("rebar", k, key)),
                    fmt::format("makes {:.0f} bars; an entry may have {:.0f}", count, most_bars),
-                   "look at the units, or lay fewer");
+                   "check the units, or lay fewer bars");
 }
 
-/// Closed bars have no ends that a hook could hold.
+/// Refuses hooks on closed bars, which have no ends.
 void refuse_hooks_of_closed(const CaseFile& input, std::size_t k, const Points& bar) {
   if (input.rebar[k].hooks == Hooks::none || bar.front() != bar.back()) return;
   throw InputError(input.where(item_key("rebar", k, "hooks")),
                    fmt::format("is \"{}\", but the bar is closed: it has no ends",
                                word_of(input.rebar[k].hooks)),
-                   "delete it; what holds a closed bar is its corners");
+                   "delete the key; closed bars are anchored by their corners");
 }
 
-/// The curves of a physical group.
+/// Returns the curves of a physical group as bars.
 std::vector<Points> drawn_bars(const CaseFile& input, std::size_t k, const Body& body) {
   const std::string& name = input.rebar[k].group;
   const SourceLocation where = input.where(item_key("rebar", k, "group"));
@@ -139,7 +140,7 @@ std::vector<Points> drawn_bars(const CaseFile& input, std::size_t k, const Body&
       if (!curves.empty()) return curves;
     } catch (const std::invalid_argument& error) {
       throw InputError(where, fmt::format("is {}, which {}", quoted(name), error.what()),
-                       "draw every bar once: Coherence in gmsh joins what lies together");
+                       "draw every bar once; Coherence in gmsh joins coinciding curves");
     }
     throw InputError(where, fmt::format("is {}, whose lines have no length", quoted(name)), "");
   }
@@ -150,7 +151,7 @@ std::vector<Points> drawn_bars(const CaseFile& input, std::size_t k, const Body&
           : suggest(name, names));
 }
 
-/// The bars of an entry without copies.
+/// Returns the bars of an entry before they are copied.
 std::vector<Points> first_bars(const CaseFile& input, std::size_t k, const Body& body) {
   const RebarSection& section = input.rebar[k];
   const int dim = body.particles.dim;
@@ -197,8 +198,8 @@ BarBond bond_of(const RebarSection& section) {
   return bond;
 }
 
-/// \param damage  something may yield or slip
-/// \param staged  loads may fall
+/// \param damage  whether bars may yield or slip
+/// \param staged  whether loads may decrease
 BarMaterial material_of(const RebarSection& section, bool damage, bool staged) {
   BarMaterial material{section.youngs_modulus, section.area};
   material.slip_springs_break = section.slip_springs_break;
@@ -210,14 +211,14 @@ BarMaterial material_of(const RebarSection& section, bool damage, bool staged) {
   if (section.yield_strength) material.yield_strength = *section.yield_strength;
   ForceCurve curve{section.curve};
   if (section.yield_strength && (section.hardening_modulus > 0.0 || section.rupture_strain)) {
-    // Hardening without an end goes on to a hundred times the yield strain.
+    // Hardening without rupture_strain extends to a hundred times the yield strain.
     const double yield = *section.yield_strength / section.youngs_modulus;
     const double end = section.rupture_strain.value_or(100.0 * yield);
     curve.points = {{yield, *section.yield_strength},
                     {end, *section.yield_strength + section.hardening_modulus * (end - yield)}};
   }
   const bool yields = section.yield_strength || !curve.points.empty();
-  if (yields && staged) material.shifts = true;  // flow is left behind between stages
+  if (yields && staged) material.shifts = true;  // plastic strain remains between stages
   if (curve.points.empty()) return material;
   if (section.rupture_strain) {
     const double end = *section.rupture_strain;
@@ -229,7 +230,7 @@ BarMaterial material_of(const RebarSection& section, bool damage, bool staged) {
   return material;
 }
 
-/// Tells whether points lie in the body.
+/// Returns a test whether a point lies in the body.
 std::function<bool(const Vector3&)> inside_of(const CaseFile& input, const Body& body) {
   const double tolerance = inside_tolerance * body.lattice.spacing;
   if (input.body.mesh) {
@@ -239,7 +240,7 @@ std::function<bool(const Vector3&)> inside_of(const CaseFile& input, const Body&
     mesh.cells = body.cells.vertices;
     std::vector<Index> all(static_cast<std::size_t>(body.cells.size()));
     std::iota(all.begin(), all.end(), 0);
-    // The sides of a hole are chords of its curve.
+    // Mesh edges are chords of a curved hole, so points on the curve need the tolerance.
     const auto cells =
         std::make_shared<CellSearch>(mesh, all, 1e-3 * body.lattice.spacing + tolerance);
     return [cells](const Vector3& point) { return cells->contains(point); };
@@ -257,7 +258,7 @@ std::function<bool(const Vector3&)> inside_of(const CaseFile& input, const Body&
   };
 }
 
-/// The first point of a bar outside the body.
+/// Returns the first point of a bar outside the body.
 std::optional<Vector3> first_outside(const RebarLine& bar, double step,
                                      const std::function<bool(const Vector3&)>& inside) {
   Points corners = {bar.from};
@@ -306,7 +307,7 @@ void refuse_bars_outside(const CaseFile& input, const Body& body, const LaidBars
   for (std::size_t bar = 0; bar < bars.lines.size(); ++bar) {
     const std::size_t k = bars.sections[bar];
     const RebarSection& section = input.rebar[k];
-    // Nodes in the air hang on their bar alone.
+    // Nodes outside the body are connected only to their bar.
     const bool stays_in_line = section.bends || section.bond == RebarBond::concrete;
     if (section.across_gaps && stays_in_line) continue;
     const auto point = first_outside(bars.lines[bar], look_step * body.lattice.spacing, inside);
@@ -316,7 +317,8 @@ void refuse_bars_outside(const CaseFile& input, const Body& body, const LaidBars
         fmt::format("leaves the body at ({})",
                     joined({point->data(), static_cast<std::size_t>(body.particles.dim)})),
         section.across_gaps
-            ? "set bends = true: without bending stiffness nothing keeps a bar in line in the air"
+            ? "set bends = true: outside the body a bar without bending stiffness is "
+              "a mechanism"
             : "move the bar into the body, or set across_gaps = true for one that runs through "
               "air");
   }

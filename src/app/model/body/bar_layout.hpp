@@ -9,18 +9,19 @@
 
 namespace perilink {
 
-/// Bars that the entries of [[rebar]] lay, in their order.
+/// Bars of all [[rebar]] entries, in their order.
 struct LaidBars {
   std::vector<RebarLine> lines;
   std::vector<BarMaterial> materials;  ///< per bar
-  std::vector<std::size_t> sections;   ///< number of the entry, per bar
+  std::vector<std::size_t> sections;   ///< index of the entry, per bar
 };
 
+/// Lays the bars of all [[rebar]] entries.
 /// \param body  with the groups of its mesh
 /// \throws InputError  where the cover leaves no room, or the mesh has no such curves
 LaidBars lay_bars(const CaseFile& input, const Body& body);
 
-/// Refuses bars that leave the body, through air as well, unless their entry wants them to.
+/// Refuses bars that leave the body, including through gaps, unless their entry sets across_gaps.
 void refuse_bars_outside(const CaseFile& input, const Body& body, const LaidBars& bars);
 
 }  // namespace perilink

@@ -7,7 +7,7 @@
 namespace perilink {
 namespace {
 
-/// The edges of the cells as bonds that cannot break.
+/// Returns a network of the cell edges as unbreakable bonds.
 Network edge_network(const Body& body) {
   Network network;
   network.particles = body.particles;

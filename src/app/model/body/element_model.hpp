@@ -5,9 +5,9 @@
 
 namespace perilink {
 
-/// Puts linear elements on the cells of a body: fills `elements` and `network` of the model, and
-/// gives the body the facets of the cells and its particles the integrals of their shape functions,
-/// so that loads are those of the elements.
+/// Builds linear elements on the cells of a body and fills `elements` and `network` of the model.
+/// The body gets the facets of the cells. Particle volumes become the integrals of the shape
+/// functions, so that loads are consistent nodal loads.
 void build_elements(const CaseFile& input, Body& body, Model& model);
 
 }  // namespace perilink

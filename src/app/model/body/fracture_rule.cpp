@@ -10,8 +10,8 @@
 namespace perilink {
 namespace {
 
-/// Largest ratio between steps of a lattice to which the cost of cracks applies; it was measured
-/// where they are equal.
+/// Largest ratio of lattice steps for which the fracture-energy correction applies. It was measured
+/// with equal steps.
 constexpr double nearly_equal = 1.1;
 
 bool bonds_can_break(const Network& network) {
@@ -21,7 +21,7 @@ bool bonds_can_break(const Network& network) {
   return false;
 }
 
-/// Longest over shortest step of a lattice, each over that of the regular one.
+/// Ratio of the longest to the shortest step of a lattice, each relative to the regular lattice.
 double ratio_of_steps(const Lattice& lattice) {
   Vector3 steps = lattice.step;
   if (lattice.pattern == Pattern::hexagonal) steps[1] /= std::sqrt(0.75);
@@ -39,7 +39,7 @@ std::vector<double> count_on_the_path(const CaseFile& input, const Body& body,
     return costs;
   }
   for (SolidMaterial& material : network.materials) {
-    // Bonds that soften do not snap.
+    // Softening bonds release no kinetic energy.
     const bool snaps = material.softening.shape.kind == Softening::brittle;
     costs.push_back(snaps ? crack_cost(body, network, material) : 1.0);
     material.fracture_energy /= costs.back();
@@ -62,26 +62,29 @@ std::optional<std::string> short_horizon_note(const Model& model) {
     return std::nullopt;
   }
   return fmt::format(
-      "the horizon is {:.3g} spacings: below 3, what a crack dissipates per area differs by 10 % "
-      "and more from one path to another; take horizon_ratio = 3 or more where bonds break",
+      "the horizon is {:.3g} spacings: below 3, the energy that a crack "
+      "dissipates per area depends on its direction by 10 % and more; take "
+      "horizon_ratio = 3 or more where bonds break",
       ratio);
 }
 
 std::optional<std::string> unmeasured_cost_note(const Model& model) {
   if (model.crack_cost.empty() || !bonds_can_break(model.network)) return std::nullopt;
-  constexpr const char* what = "what a crack dissipates per area was not measured";
+  constexpr const char* what = "the fracture-energy correction was not measured";
   if (model.lattice.pattern != Pattern::irregular) {
     const double ratio = ratio_of_steps(model.lattice);
     if (ratio <= nearly_equal) return std::nullopt;
     return fmt::format(
-        "{} on lattices like this one, whose steps differ by {:.0f} %: that of equal steps is "
-        "taken; choose a spacing that divides all sides of the body more evenly",
+        "{} on lattices like this one, whose steps differ by {:.0f} %: the "
+        "correction for equal steps is used; choose a spacing that divides all "
+        "sides of the body more evenly",
         what, 100.0 * (ratio - 1.0));
   }
   if (model.network.dim() == 2 || model.network.shell || !model.network.carries_moments())
     return std::nullopt;
   return fmt::format(
-      "{} in irregular clouds in space whose bonds bend: that of bonds without bending is taken",
+      "{} for three-dimensional unstructured particle sets with bending "
+      "bonds: the correction for bonds without bending is used",
       what);
 }
 

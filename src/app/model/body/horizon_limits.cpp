@@ -13,12 +13,12 @@
 namespace perilink {
 namespace {
 
-/// A horizon means nothing beyond the diagonal of the body, and this many spacings: in bodies of a
-/// few particles a usual horizon reaches farther than the body.
+/// A horizon is refused above the diagonal of the body and above this many spacings. In bodies of a
+/// few particles a usual horizon exceeds the diagonal.
 constexpr double least_ratio_refused = 20.0;
 
-/// What a run holds for a bond, its factor not counted. Lattices of bars that are solved by boxes,
-/// where nothing breaks, hold less: 56 to 62.
+/// Memory of a run per bond without its factor. Bar lattices solved with subdomains, in which
+/// nothing breaks, take less: 56 to 62.
 constexpr double bytes_per_bond = 300.0, bytes_per_bar = 65.0;
 
 constexpr const char* usual = "two to four spacings are usual: horizon_ratio = 3";
@@ -31,8 +31,8 @@ double diagonal_of(const HorizonReach& reach) {
   return std::hypot(reach.extents[0], reach.extents[1], reach.extents[2]);
 }
 
-/// Neighbours of a particle: those of the infinite lattice, along each axis no more than what the
-/// horizon reaches and what the body has.
+/// Estimates the neighbours of a particle: those of the infinite lattice, limited along each axis
+/// by the horizon and by the size of the body.
 double neighbours_of(const HorizonReach& reach) {
   const double ratio = reach.horizon / reach.spacing;
   const double ball = reach.dim == 2 ? std::numbers::pi * ratio * ratio
@@ -119,7 +119,7 @@ void refuse_impossible_horizon(const CaseFile& input, const HorizonReach& reach)
 void refuse_shearing_lattice(const CaseFile& input, const Lattice& lattice, double horizon) {
   const bool rows = lattice.pattern == Pattern::rectangular || lattice.pattern == Pattern::cubic;
   if (!rows || input.body.model != BodyModel::bond_based) return;
-  double longest = 0.0;  // diagonal of a face of its cells
+  double longest = 0.0;  // diagonal of a cell face
   for (int a = 0; a < lattice.dim; ++a) {
     for (int b = 0; b < a; ++b) {
       longest = std::max(longest, std::hypot(lattice.step[a], lattice.step[b]));
@@ -129,8 +129,9 @@ void refuse_shearing_lattice(const CaseFile& input, const Lattice& lattice, doub
   const double least = std::ceil(1e4 * longest / lattice.spacing) / 1e4;
   throw InputError(
       input.where(horizon_key(input.body)),
-      fmt::format("makes the horizon {:.6g}, shorter than the diagonals of the lattice, {:.6g}: "
-                  "bonds along the rows alone do not resist shear, and the body would fold up",
+      fmt::format("makes the horizon {:.6g}, shorter than the diagonals of the lattice, "
+                  "{:.6g}: bonds along the rows do not resist shear, and the body would "
+                  "be a mechanism",
                   horizon, longest),
       fmt::format("give at least horizon_ratio = {:.4f}; two to four are usual", least));
 }

@@ -5,30 +5,30 @@
 
 namespace perilink {
 
-/// Key of [body] that gives the horizon.
+/// Returns the key of [body] that gives the horizon.
 std::string horizon_key(const BodySection& body);
 
-/// What a horizon is held against before a bond is made.
+/// Sizes against which a horizon is checked before bonds are made.
 struct HorizonReach {
   double horizon = 0.0;    ///< [length]
   double spacing = 0.0;    ///< spacing of particles, mean edge of a mesh [length]
-  double particles = 0.0;  ///< about
+  double particles = 0.0;  ///< approximate number
   Vector3 extents{};       ///< size of the body along each axis [length]
   int dim = 2;
-  double memory = 0.0;  ///< what the machine has [bytes]
+  double memory = 0.0;  ///< memory of the machine [bytes]
 };
 
-/// The same of the particles of a body on this machine.
+/// Returns the sizes for the particles of a body on this machine.
 HorizonReach reach_of(const Particles& particles, double horizon, double spacing);
-/// The same of a lattice that fills a box.
+/// Returns the sizes for a lattice that fills a box on this machine.
 HorizonReach reach_of(const Box& box, int dim, double horizon, double spacing);
 
-/// Refuses a horizon below the spacing, one far longer than the body, which bonds every particle to
-/// every other, and one whose bonds no memory or number can hold.
+/// Refuses a horizon below the spacing, and one that bonds all particles to each other in a larger
+/// body. Also refuses a horizon with more bonds than memory or the index type can hold.
 /// \throws InputError
 void refuse_impossible_horizon(const CaseFile& input, const HorizonReach& reach);
 
-/// Refuses bonds along the rows of a square or cubic lattice only, which resist no shear.
+/// Refuses square and cubic lattices with bonds along the rows only, which resist no shear.
 /// \throws InputError
 void refuse_shearing_lattice(const CaseFile& input, const Lattice& lattice, double horizon);
 

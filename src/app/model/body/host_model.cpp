@@ -20,18 +20,18 @@
 namespace perilink {
 namespace {
 
-/// Particles this close to the border of an element lie on it, in spacings.
+/// Distance within which a particle lies on the border of an element, in spacings.
 constexpr double border_tolerance = 1e-6;
 
-/// Elements are at least so many spacings wide, or they would carry no particle of their own.
+/// Smallest width of an element in spacings; smaller ones would contain no particle.
 constexpr double least_spacings = 2.0;
 
 bool carries_particles(const ElementsSection& section) {
   return section.spacings || section.size || section.mesh;
 }
 
-/// Planes between elements of about one size, through rows of particles where these are evenly
-/// spaced, those of nodes between the planes too if the body has so many.
+/// Returns planes between elements of about equal size. They pass through rows of evenly spaced
+/// particles, as do the mid-side nodes where the body has enough rows.
 std::vector<double> divide(const Model& model, int axis, double size, int order) {
   const Particles& particles = model.network.particles;
   double lower = particles.position(0)[axis], upper = lower;
@@ -70,8 +70,8 @@ double size_of_elements(const CaseFile& input, const Model& model) {
   return size;
 }
 
-/// Centres of facets of the surface and between materials of different stiffness: strains jump
-/// there, which elements do not follow.
+/// Returns the centres of surface facets and of interfaces between materials of different
+/// stiffness. Strains jump there, which elements cannot represent.
 std::vector<double> faces_of(const Model& model) {
   std::vector<double> faces;
   for (Index f = 0; f < model.facets.size(); ++f) {
@@ -107,7 +107,7 @@ Hosts find_hosts(const CaseFile& input, const Model& model) {
   return hosts_on_grid(particles, faces, divisions, section.order, tolerance);
 }
 
-/// Per particle, whether an element may carry it.
+/// Per particle, whether an element may constrain it.
 std::vector<std::uint8_t> particles_to_carry(const CaseFile& input, const Model& model) {
   const ElementsSection& section = *input.elements;
   const auto count = static_cast<std::size_t>(model.network.particles.size());
@@ -129,7 +129,8 @@ std::vector<std::uint8_t> particles_to_carry(const CaseFile& input, const Model&
   return carry;
 }
 
-/// Pairs of neighbours: edges of the cells of a mesh, and in lattices what is about as near.
+/// Returns pairs of near neighbours: the edges of mesh cells, and in lattices particles within 1.8
+/// spacings.
 Bonds nearest_pairs(const Model& model) {
   constexpr double nearest = 1.8;  // spacings
   const Particles& particles = model.network.particles;
@@ -146,7 +147,7 @@ Bonds nearest_pairs(const Model& model) {
   return pairs;
 }
 
-/// Elements with a particle whose nearest neighbours a pre-crack cuts off.
+/// Marks elements with a particle that a pre-crack separates from a near neighbour.
 std::vector<std::uint8_t> cracked_elements(const CaseFile& input, const Model& model,
                                            const Hosts& hosts) {
   std::vector<std::uint8_t> cracked(static_cast<std::size_t>(hosts.size()), 0);
@@ -167,9 +168,9 @@ std::vector<std::uint8_t> cracked_elements(const CaseFile& input, const Model& m
   return cracked;
 }
 
-/// Whether the particles of an element tell all its nodes apart: none can move without one of them.
+/// Whether the particles of an element determine the displacements of all its nodes.
 bool has_full_rank(const Hosts& hosts, Index element) {
-  constexpr double least = 1e-3;  // singular value, over the largest
+  constexpr double least = 1e-3;  // smallest singular value over the largest
   const auto nodes = static_cast<Index>(hosts.nodes_of.row(element).size());
   const auto count = static_cast<Index>(hosts.inside.row(element).size());
   if (count < nodes) return false;
@@ -182,7 +183,7 @@ bool has_full_rank(const Hosts& hosts, Index element) {
   return squares[0] > least * least * squares[nodes - 1];
 }
 
-/// Whether a later stage drives a particle of the element, or grips it.
+/// Whether a later stage prescribes a displacement of, or clamps, a particle of the element.
 bool is_gripped_later(const Model& model, const EmbeddedBody& body, Index element) {
   for (const Index i : body.hosts.inside.row(element)) {
     for (int a = 0; a < body.free.width; ++a) {
@@ -219,12 +220,11 @@ void carry_particles(const CaseFile& input, Model& model) {
   }
   const auto whole = std::count(body.whole.begin(), body.whole.end(), 1);
   if (whole == 0) {
-    throw InputError(
-        input.where("elements"),
-        "leaves no element whole: surfaces, supports, cracks or regions cross all of them, or "
-        "there are fewer particles in them than nodes",
-        "make the elements smaller where they are crossed, larger where they are only a spacing or "
-        "two wide, or delete the table");
+    throw InputError(input.where("elements"),
+                     "leaves no element: surfaces, supports, cracks or regions cross all "
+                     "elements, or each contains fewer particles than nodes",
+                     "give a smaller size where they are crossed, a larger size where they "
+                     "are only a spacing or two wide, or delete the table");
   }
   model.unknowns = embedded_motion(body.hosts, body.free, body.whole);
   model.embedded = std::move(body);

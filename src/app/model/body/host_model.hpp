@@ -4,10 +4,10 @@
 
 namespace perilink {
 
-/// Puts the finite elements of [elements] on the body of a model with supports and loads: its
-/// unknowns are theirs from then on. Elements that a crack, a support, a surface or another region
-/// crosses are left out, and their particles are free from the start.
-/// \throws InputError  where elements are no larger than particles are apart, or none is whole
+/// Constrains particles by the finite elements of [elements], in a model with supports and loads.
+/// The unknowns become those of the elements. Elements crossed by a crack, a support, a surface or
+/// another region are left out; their particles are free from the start.
+/// \throws InputError  where elements are too small for the spacing, or none is left
 void carry_particles(const CaseFile& input, Model& model);
 
 }  // namespace perilink

@@ -20,7 +20,7 @@ namespace perilink {
 namespace {
 
 constexpr double most_lattice_particles = 3e7;
-/// Largest distance of the lattice point from the body [spacings].
+/// Largest distance between the lattice point and the body [spacings].
 constexpr double farthest_offset = 1e6;
 
 void refuse_size(const CaseFile& input, const LatticeCut& cut, int dim) {
@@ -42,13 +42,14 @@ void refuse_size(const CaseFile& input, const LatticeCut& cut, int dim) {
       fmt::format("at most {:.0e} are possible: choose a coarser spacing", most_lattice_particles));
 }
 
-/// Counts what holes take: one that is smaller than it looks between particles, or lies beside
-/// them, takes fewer than its user thinks.
+/// Counts the particles removed by each hole. A small hole, or one between particles, may remove
+/// fewer than expected.
 class HoleCounter {
  public:
   explicit HoleCounter(const LatticeShape& shape) : shape_(shape) {
     for (const Region* hole : shape.holes()) {
-      if (hole->group.empty()) counts_.try_emplace(hole, 0);  // cells of groups are no body at all
+      if (hole->group.empty())
+        counts_.try_emplace(hole, 0);  // cells of hole groups are not part of the body
     }
   }
 
@@ -129,14 +130,14 @@ LatticeMaterial lattice_material(const CaseFile& input) {
     material.crushing_energy = own.crushing_energy.value_or(0.0);
   }
   material.internal_damping = own.internal_damping;
-  if (own.fundamental_period) {  // else build_explicit_case finds it
+  if (own.fundamental_period) {  // else build_explicit_case() computes it
     material.external_damping = own.external_damping;
     material.fundamental_period = *own.fundamental_period;
   }
   return material;
 }
 
-/// Groups of the mesh that the case names, with the particles in their cells.
+/// Collects the mesh groups named in the case, with the particles in their cells.
 class GroupFinder {
  public:
   GroupFinder(const CaseFile& input, const LatticeShape& shape, Model& model)
@@ -225,13 +226,16 @@ Model build_lattice_model(const CaseFile& input) {
   model.notes = std::move(notes);
   model.network = std::move(statics.network);
   if (statics.left_out > 0) {
-    model.notes.push_back(fmt::format(
-        "{} particles that hang on single bonds or a line of them are left out", statics.left_out));
+    model.notes.push_back(
+        fmt::format("{} particles connected only by single bonds or a line of bonds are "
+                    "left out",
+                    statics.left_out));
   }
   if (body.rules == LatticeRules::least_2018) {
     model.notes.emplace_back(
-        "variant = \"2018\": the smaller of two force states derives from no energy; this elastic "
-        "answer takes their mean, as the other variants do");
+        "variant = \"2018\": the smaller of two force states is not "
+        "conservative; this elastic analysis uses their mean, as the other "
+        "variants do");
   }
   return model;
 }

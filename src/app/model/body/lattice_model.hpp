@@ -11,25 +11,25 @@
 
 namespace perilink {
 
-/// The lattice of a case with model = "lattice" before anything is prescribed; for an elastic
-/// analysis without damage and damping.
-/// \param notes  gets what the user should know of the body
-/// \throws InputError where the case makes no sense for its body: no lattice point in it, too many,
+/// Builds the lattice of a case with model = "lattice", without prescribed motions. Lattices of
+/// elastic analyses have neither damage nor damping.
+/// \param notes  receives notes on the body
+/// \throws InputError where the case does not fit its body: no lattice point in it, too many,
 /// a spacing too large for the softening
 ExplicitModel build_lattice(const CaseFile& input, const LatticeShape& shape,
                             std::vector<std::string>& notes);
 
-/// The softening that a material of the case asks for; strength zero where it is unbreakable.
+/// Returns the softening law of a material of the case; strength zero where it is unbreakable.
 CrackOpeningLaw softening_of(const MaterialSection& material);
 
-/// A model with particles and groups only, in which supports, loads and gauges find their places.
-/// \param slots  where its particles are in the lattice
+/// Returns a model with particles and groups only, for supports, loads and gauges to refer to.
+/// \param slots  slots of its particles in the lattice
 /// \throws InputError where a region is a group of the mesh without area (2D) or volume (3D)
 Model lattice_places(const CaseFile& input, const LatticeShape& shape, const ExplicitModel& body,
                      std::span<const Index> slots);
 
-/// Particles and bonds of the model of an elastic analysis, with notes on what is left out of it.
-/// \throws InputError as above
+/// Builds particles and bonds of an elastic analysis, with notes on particles left out.
+/// \throws InputError as build_lattice() and lattice_places()
 Model build_lattice_model(const CaseFile& input);
 
 }  // namespace perilink

@@ -12,12 +12,11 @@
 
 namespace perilink {
 
-/// Whether a point belongs to something.
+/// Test whether a point belongs to a region.
 using PointTest = std::function<bool(const Vector3&)>;
 
-/// Where the body of a case with model = "lattice" is: in the regions of its material but not in
-/// the holes; of a case with a mesh in the cells that have the material. Points a millionth of the
-/// spacing outside are inside.
+/// Shape of a body with model = "lattice": its material's regions without the holes, or the mesh
+/// cells of the material. Points within a millionth of the spacing of it are inside.
 class LatticeShape {
  public:
   /// \throws InputError where the mesh cannot be read or does not suit the case
@@ -25,19 +24,20 @@ class LatticeShape {
   LatticeShape(const LatticeShape&) = delete;
   LatticeShape& operator=(const LatticeShape&) = delete;
 
-  /// Around the body [length].
+  /// Returns the bounding box of the body [length].
   Box box() const;
   bool holds(const Vector3& point) const;
   /// Whether a point lies in the regions or cells of the material, holes or not.
   bool is_solid(const Vector3& point) const;
-  /// Whether a point lies in a hole without a group; the side of a hole belongs to the body.
+  /// Whether a point lies in a hole that is not a mesh group. The boundary of a hole belongs to the
+  /// body.
   bool is_in_hole(const Region& hole, const Vector3& point) const;
-  /// Holes of the case; one that is named twice is here twice.
+  /// Returns the holes of the case; a hole named twice appears twice.
   std::span<const Region* const> holes() const { return holes_; }
-  /// Notes on the mesh that it was read from.
+  /// Returns notes on the mesh file.
   const std::vector<std::string>& notes() const { return notes_; }
 
-  /// Whether points lie in a region of the case; `body` is not one of them.
+  /// Returns a test whether points lie in a region of the case other than `body`.
   /// \param key  place in the case, for messages
   /// \throws InputError where the region is a group of the mesh without area (2D) or volume (3D)
   PointTest test_of(const Region& region, const std::string& key) const;
@@ -51,7 +51,7 @@ class LatticeShape {
   std::vector<const Region*> solid_, holes_;
   Mesh mesh_;
   std::vector<std::string> notes_;
-  std::optional<CellSearch> cells_;  ///< search in the mesh with the material
+  std::optional<CellSearch> cells_;  ///< search among mesh cells of the material
 };
 
 }  // namespace perilink

@@ -27,7 +27,7 @@ fs::path seen_from_case(const CaseFile& input, const std::string& file) {
 
 fs::path mesh_path(const CaseFile& input) { return seen_from_case(input, *input.body.mesh); }
 
-/// The group of a name, of the highest dimension where several have it.
+/// Returns the group with a name, of the highest dimension where several share it.
 const MeshGroup* find_group(const Mesh& mesh, const std::string& name) {
   const auto found = std::find_if(mesh.groups.rbegin(), mesh.groups.rend(),
                                   [&](const MeshGroup& group) { return group.name == name; });
@@ -62,7 +62,7 @@ void refuse_unknown_groups(const CaseFile& input, const Mesh& mesh) {
   }
 }
 
-/// Says which group a name means that has several, and the unit of a geometry that has one.
+/// Adds notes on names shared by several groups and on the unit of a geometry file.
 void add_notes(const CaseFile& input, MeshInput& read) {
   for (const Region& region : input.regions) {
     const auto named = [&](const MeshGroup& group) { return group.name == region.group; };
@@ -90,7 +90,7 @@ void add_notes(const CaseFile& input, MeshInput& read) {
       joined(lower), joined(upper)));
 }
 
-/// Regions of the materials with the material of each, in the order in which they count.
+/// Regions of the materials with the material of each, in order of precedence.
 struct Patches {
   std::vector<Region> regions;
   std::vector<Index> material;
@@ -119,10 +119,10 @@ void refuse_loose_lines(const CaseFile& input, const std::string& key, const Bod
   if (!group.loose) return;
   throw InputError(
       input.where(key),
-      fmt::format("is {}, a line of which, at ({}), is no side of a cell", quoted(group.name),
+      fmt::format("is {}, a line of which, at ({}), is not an edge of a cell", quoted(group.name),
                   joined({group.loose->data(), static_cast<std::size_t>(body.particles.dim)})),
-      "join it with the body before it is meshed (BooleanFragments or Coherence in gmsh); where it "
-      "is for bars, give intervals");
+      "embed it in the body before meshing (BooleanFragments or Coherence in "
+      "gmsh); for bars, give intervals");
 }
 
 Mesh read_mesh(const CaseFile& input, const std::string& key, const std::string& file,
@@ -133,10 +133,10 @@ Mesh read_mesh(const CaseFile& input, const std::string& key, const std::string&
                              : read_gmsh_file(path, dim);
   } catch (const FileError& error) {
     throw InputError(input.where(key), error.what(),
-                     "give the file as seen from the folder of the case");
+                     "give the path relative to the folder of the case");
   } catch (const InputError& error) {
     if (key == "body.mesh") throw;
-    throw InputError(input.where(key), fmt::format("cannot be taken: {}", error.what()), "");
+    throw InputError(input.where(key), fmt::format("cannot be used: {}", error.what()), "");
   }
 }
 
@@ -146,7 +146,7 @@ const MeshGroup& group_of_cells(const CaseFile& input, const Mesh& mesh, const R
   if (group->dim == mesh.dim) return *group;
   throw InputError(
       input.where(key),
-      fmt::format("the region {} is a group of {}, which hold no {}", quoted(region.name),
+      fmt::format("the region {} is a group of {}, which contain no {}", quoted(region.name),
                   elements_of(*group), contents),
       fmt::format("name a physical {}, or give a box", mesh.dim == 2 ? "surface" : "volume"));
 }
@@ -163,7 +163,7 @@ MeshInput read_mesh_input(const CaseFile& input, int dim) {
 
 namespace {
 
-/// Per cell of the mesh, nonzero where it is an ordinary finite element; empty: nowhere.
+/// Per cell of the mesh, nonzero where it is a tied finite element; empty: no such element.
 std::vector<std::uint8_t> ordinary_elements(const CaseFile& input, const MeshInput& read) {
   std::vector<std::uint8_t> tied;
   if (!input.elements || input.elements->tied.empty()) return tied;
@@ -184,8 +184,8 @@ std::vector<std::uint8_t> ordinary_elements(const CaseFile& input, const MeshInp
     bonded += inside[cell] == no_index && read.material[cell] != no_index;
   }
   if (std::count(tied.begin(), tied.end(), 1) == 0) {
-    throw InputError(input.where(key), "holds no cell of the mesh",
-                     "name regions that hold the centres of cells");
+    throw InputError(input.where(key), "contains no cell of the mesh",
+                     "name regions that contain centres of cells");
   }
   if (bonded == 0) {
     throw InputError(input.where(key), "leaves no cell for bonds",
@@ -195,7 +195,7 @@ std::vector<std::uint8_t> ordinary_elements(const CaseFile& input, const MeshInp
   return tied;
 }
 
-/// Lines beside the mesh hold no facet, and few particles if any.
+/// Refuses regions of lines outside the mesh, which contain no facet and hardly a particle.
 void refuse_regions_of_curves(const CaseFile& input, const Body& body) {
   for (std::size_t i = 0; i < input.regions.size(); ++i) {
     const auto group =
@@ -214,7 +214,8 @@ Body read_mesh_body(const CaseFile& input, int dim, std::vector<std::string>& no
   const bool takes_cracks = input.body.method == BodyMethod::bonds && !input.elements &&
                             input.body.model != BodyModel::particles;
   if (const Index sides = takes_cracks ? weld_slits(read.mesh) : 0; sides > 0) {
-    notes.push_back(fmt::format("the mesh has slits of {} sides, which are pre-cracks", sides));
+    notes.push_back(
+        fmt::format("the mesh has slits of {} cell sides, treated as pre-cracks", sides));
   }
   const auto& [mesh, material, mesh_notes] = read;
   const auto left_out = std::count(material.begin(), material.end(), no_index);
@@ -237,7 +238,7 @@ CaseFile seen_from(const CaseFile& input, const fs::path& directory) {
   CaseFile moved = input;
   const auto move = [&](std::optional<std::string>& file) {
     if (!file || fs::path(*file).is_absolute()) return;
-    // Links are followed: ".." beyond one would lead elsewhere.
+    // Resolve links first: ".." after a link would lead elsewhere.
     const fs::path mesh = fs::weakly_canonical(seen_from_case(input, *file));
     file = mesh.lexically_relative(fs::weakly_canonical(directory)).string();
   };

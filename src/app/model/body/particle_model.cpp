@@ -57,22 +57,22 @@ void refuse_wide_bands(const CaseFile& input, const Particles& particles, const 
 
 std::string fit_text(const ParticleFitReport& report, const Particles& particles) {
   std::string text = fmt::format(
-      "constants of {} particles by least squares: exact for {}, stresses of uniform strains wrong "
-      "by {:.2g} in the mean",
+      "constants of {} particles by least squares: exact for {}, mean "
+      "relative stress error under uniform strain {:.2g}",
       particles.size(), report.exact, report.mean_residual);
   if (report.largest_residual > 0.0 && report.worst != no_index) {
     text += fmt::format(", {:.2g} at most, at ({})", report.largest_residual,
                         joined(particles.position(report.worst)));
   }
   if (report.enlarged > 0) {
-    text += fmt::format("; {} needed more than their nearest neighbours", report.enlarged);
+    text += fmt::format("; {} needed a larger neighbourhood", report.enlarged);
   }
   const Index ill_posed = report.many + report.indefinite + report.singular;
   if (ill_posed == 0) return text;
   return text + fmt::format(
                     "; ILL-POSED for {}: {} with several solutions, {} of negative energy, "
-                    "{} whose neighbours leave a strain free; the latter two have bonds "
-                    "without states",
+                    "{} with neighbours that leave a strain undetermined; the latter two "
+                    "have bonds without states",
                     ill_posed, report.many, report.indefinite, report.singular);
 }
 

@@ -11,7 +11,8 @@
 namespace perilink {
 namespace {
 
-/// Without bending stiffness nothing keeps particles of a shell from turning within the sheet.
+/// Refuses shells of bonds without bending stiffness, in which particles rotate freely about the
+/// normal of the mid-surface.
 void refuse_turning_particles(const CaseFile& input, const Body& body, const NetworkInput& network,
                               std::size_t material) {
   SolidMaterial without = network.materials[material];
@@ -19,8 +20,8 @@ void refuse_turning_particles(const CaseFile& input, const Body& body, const Net
   without.poissons_ratio = 0.0;
   if (left > 1e-3 * moduli_of(body, network, without).bending_modulus) return;
   throw InputError(input.where(item_key("materials", material, "poissons_ratio")),
-                   fmt::format("is {}, that of bonds which resist no shear: the particles of a "
-                               "shell would turn freely within the sheet",
+                   fmt::format("is {}, the ratio of bonds without shear stiffness: particles of a "
+                               "shell would rotate freely about the normal of the mid-surface",
                                network.materials[material].poissons_ratio),
                    "give a smaller one; shells have ratios above -1 and below 1/3");
 }
@@ -34,22 +35,24 @@ void refuse_overlapping_mid_surface(const CaseFile& input, const Body& body) {
   }
   const double around = 2.0 * std::numbers::pi * *input.body.radius;
   if (upper - lower < around) return;
-  throw InputError(input.where("body.radius"),
-                   fmt::format("is {}, so that the cylinder is {:.6g} around, but the sheet is "
-                               "{:.6g} long in x",
-                               *input.body.radius, around, upper - lower),
-                   "enlarge the radius or shorten the sheet");
+  throw InputError(
+      input.where("body.radius"),
+      fmt::format("is {}, so that the circumference of the cylinder is {:.6g}, but the "
+                  "mid-surface is {:.6g} long in x",
+                  *input.body.radius, around, upper - lower),
+      "enlarge the radius or shorten the mid-surface");
 }
 
-/// Off its top the axis x is not along the sheet of a cylinder.
+/// Refuses planes of symmetry off the top of a cylinder, where the x axis is not tangential to the
+/// mid-surface.
 void refuse_slanting_symmetry(const CaseFile& input) {
   if (!input.body.radius) return;
   for (std::size_t k = 0; k < input.symmetry.size(); ++k) {
     const SymmetrySection& section = input.symmetry[k];
     if (section.axis != 0 || (section.at && *section.at == 0.0)) continue;
     throw InputError(input.where(item_key("symmetry", k)),
-                     "is a plane across the sheet of a cylinder elsewhere than at its top, x = 0",
-                     "let the sheet begin at x = 0, or give [[supports]]");
+                     "is a plane of symmetry of a cylinder away from its top, x = 0",
+                     "let the mid-surface begin at x = 0, or give [[supports]]");
   }
 }
 

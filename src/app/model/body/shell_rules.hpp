@@ -5,8 +5,8 @@
 
 namespace perilink {
 
-/// Refuses shells whose particles would turn freely within the sheet, and sheets that are longer
-/// than their cylinder is around, planes of symmetry that are none.
+/// Refuses shells with particles that rotate freely about the normal, mid-surfaces longer than the
+/// circumference of their cylinder, and invalid planes of symmetry.
 /// \throws InputError
 void refuse_impossible_shell(const CaseFile& input, const Body& body, const NetworkInput& network);
 

@@ -13,7 +13,7 @@ const Region& region_named(const CaseFile& input, const std::string& name) {
                        [&](const Region& region) { return region.name == name; });
 }
 
-/// What a hole leaves of a box, in boxes that share their sides with it.
+/// Splits a box around a hole into boxes that share faces with it.
 void cut_hole(const Box& box, const Box& hole, int dim, std::vector<Box>& remaining) {
   for (int a = 0; a < dim; ++a) {
     if (hole.lower[a] >= box.upper[a] || hole.upper[a] <= box.lower[a]) {
@@ -50,7 +50,7 @@ std::vector<Box> boxes_of(const CaseFile& input, std::size_t material) {
   }
   if (!boxes.empty()) return boxes;
   throw InputError(input.where(item_key("materials", material, "holes")),
-                   "take all of the material away", "make the holes smaller");
+                   "remove all of the material", "make the holes smaller");
 }
 
 Box bounding_box(const std::vector<Box>& boxes) {

@@ -7,12 +7,12 @@
 
 namespace perilink {
 
-/// Boxes that a material of a body without a mesh fills: its regions without its holes, whose sides
-/// belong to the body.
-/// \throws InputError  where the holes leave nothing
+/// Returns boxes that fill the regions of a material without its holes, in a body without a mesh.
+/// Hole boundaries belong to the body.
+/// \throws InputError  where the holes remove all of the material
 std::vector<Box> boxes_of(const CaseFile& input, std::size_t material);
 
-/// Around all of some boxes, at least one.
+/// Returns the box around at least one box.
 Box bounding_box(const std::vector<Box>& boxes);
 
 }  // namespace perilink

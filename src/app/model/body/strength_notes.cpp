@@ -11,24 +11,24 @@
 namespace perilink {
 namespace {
 
-/// Strengths of solids over their moduli: concrete, rock and ice have about 1e-4, glass 1e-3, steel
-/// 2e-3, and 1e-2 is that of the strongest fibres. Brittle bonds stand for the former.
+/// Limits of tensile strength over modulus: concrete, rock and ice have about 1e-4, glass 1e-3,
+/// steel 2e-3, the strongest fibres 1e-2. Brittle bonds represent the first group.
 constexpr double largest_strength = 1e-2, largest_brittle_strength = 2e-3, least_strength = 1e-6;
 
-/// Longest sides of the body in a process zone, E G_F / f_t^2, beyond which no crack has room. What
-/// one tests of concrete in a laboratory has up to five.
+/// Process zone E G_F / f_t^2 over the longest side of the body beyond which no crack fits.
+/// Laboratory specimens of concrete reach five.
 constexpr double longest_zone = 10.0;
 
-/// Process zones in a horizon below which bonds soften all over a stressed body; round-off counts
-/// as a thirtieth.
+/// Horizon over process zone below which stressed bodies soften everywhere. A horizon equal to a
+/// thirtieth up to round-off is accepted.
 constexpr double least_horizon = (1.0 - 1e-6) / 30.0;
 
-/// Brittle bonds have a process zone of about half a horizon. Where that is more of the body than
-/// this, a crack has no room beside it.
+/// Largest process zone of brittle bonds, about half a horizon, over the longest side of the body.
+/// Beyond it no crack fits next to the zone.
 constexpr double longest_brittle_zone = 0.25;
 
-/// Moduli of bars over that of the solid: bars of glass fibres in concrete
-/// have 1.3, steel in concrete 7, in wood 20, in soil 2000.
+/// Limits of the modulus of bars over that of the solid: glass-fibre bars in concrete have 1.3,
+/// steel in concrete 7, in wood 20, in soil 2000.
 constexpr double least_bar_modulus = 0.3, largest_bar_modulus = 5e3;
 
 /// Strains at which bars yield: mild steel 1e-3, tendons 1e-2.
@@ -45,47 +45,49 @@ std::optional<std::string> note_of_strength(const MaterialStrength& strength, do
       "material in units of one system?",
       strength.tensile_strength, part, high ? "above" : "below", high ? most : least_strength,
       !brittle ? ""
-      : high   ? "brittle bonds have it by fracture_energy and horizon, the more the shorter that "
-                 "is; with a tensile_strength bonds soften at that of the material; "
-               : "brittle bonds have it by fracture_energy and horizon; ");
+      : high   ? "the strength of brittle bonds follows from fracture_energy and "
+                 "horizon and grows as the horizon shrinks; with tensile_strength bonds "
+                 "soften at the strength of the material; "
+               : "the strength of brittle bonds follows from fracture_energy and "
+                 "horizon; ");
 }
 
-/// A brittle bond's zone and strength follow from the horizon alone.
+/// Returns a note on the process zone of brittle bonds, which follows from the horizon.
 std::optional<std::string> note_of_brittle_zone(double zone, double horizon, double body) {
   if (zone <= longest_brittle_zone * body) return std::nullopt;
   return fmt::format(
-      "the process zone of brittle bonds, {:.4g}, is more than a quarter of the body's longest "
-      "side "
-      "{:.4g}: the strength, which is that of the horizon, decides when it breaks, and not "
-      "fracture_energy; take a horizon below {:.3g}",
+      "the process zone of brittle bonds, {:.4g}, is more than a quarter of "
+      "the body's longest side {:.4g}: failure then depends on the bond "
+      "strength, which follows from the horizon, and not on fracture_energy; "
+      "take a horizon below {:.3g}",
       zone, body, horizon * longest_brittle_zone * body / zone);
 }
 
 std::optional<std::string> note_of_zone(double zone, double horizon, double body) {
   if (zone < horizon) {
     return fmt::format(
-        "the process zone {:.4g} is shorter than the horizon {:.4g}: bonds hardly soften, and the "
-        "crack's tip is coarser than that of the material; {}",
+        "the process zone {:.4g} is shorter than the horizon {:.4g}: bonds "
+        "hardly soften, and the horizon does not resolve the crack tip; {}",
         zone, horizon, horizon_advice);
   }
   if (zone <= longest_zone * body) {
     if (horizon >= least_horizon * zone) return std::nullopt;
     return fmt::format(
-        "the horizon {:.4g} is below a thirtieth of E G_F / f_t^2, {:.4g}: stressed parts of the "
-        "body soften before a crack forms, which takes more energy than fracture_energy times the "
-        "area of the crack and raises the load of bodies without a notch; {}",
+        "the horizon {:.4g} is below a thirtieth of E G_F / f_t^2, {:.4g}: "
+        "stressed parts of the body soften before a crack forms; the body "
+        "dissipates more than fracture_energy times the crack area, and the "
+        "peak load of bodies without a notch is too high; {}",
         horizon, zone, horizon_advice);
   }
   return fmt::format(
-      "the process zone {:.4g} is more than {:.0f} times the body's longest side {:.4g}: the body "
-      "breaks by its tensile_strength, and fracture_energy hardly matters before it is in two; are "
-      "the numbers in units of one system?",
+      "the process zone {:.4g} is more than {:.0f} times the body's longest "
+      "side {:.4g}: the peak load depends on tensile_strength, and hardly on "
+      "fracture_energy; are the numbers in units of one system?",
       zone, longest_zone, body);
 }
 
-/// Bars whose numbers are far from all that is laid into solids.
-/// \param softest,stiffest  moduli of the solid: which of its materials are around the bar is not
-///                          asked
+/// Returns a note on a bar with an unusual modulus or yield strain.
+/// \param softest,stiffest  smallest and largest modulus of all solid materials
 std::optional<std::string> note_of_bar(const RebarSection& bar, double softest, double stiffest) {
   const bool is_soft = bar.youngs_modulus < least_bar_modulus * softest;
   if (is_soft || bar.youngs_modulus > largest_bar_modulus * stiffest) {

@@ -20,10 +20,11 @@
 namespace perilink {
 namespace {
 
-/// Particles this close to a region's side, in spacings, are inside.
+/// Distance within which a particle lies inside a region, in spacings.
 constexpr double on_side = 1e-6;
 
-/// Bonds that may dissipate a smaller part of what they would hold tell of units that do not fit.
+/// Fraction of the strain energy that may be dissipated; below it the units are probably
+/// inconsistent.
 constexpr double far = 1e-3;
 
 /// Marks the particles of a region that the case names.
@@ -55,7 +56,7 @@ std::string key_of(const CaseFile& input, std::size_t k, int dim) {
   return item_key("interfaces", k, place);
 }
 
-/// The physical curves or surfaces that an interface names.
+/// Returns the physical curves or surfaces of an interface.
 const Group& group_of_face(const CaseFile& input, std::size_t k, const Body& body) {
   const std::string& name = input.interfaces[k].group;
   std::vector<std::string_view> names;
@@ -89,7 +90,8 @@ std::map<Corners, Index> facets_by_corners(const Body& body) {
   return facets;
 }
 
-/// Area vector of a side towards what is on its left, or from where it runs counter-clockwise.
+/// Returns the area vector of a facet. It points to the left of a line, or to the side from which a
+/// triangle runs counter-clockwise.
 Vector3 normal_of(const Body& body, const Corners& corners) {
   const auto at = [&](std::size_t k) {
     return point_of(body.particles.positions, body.particles.dim, corners[k]);
@@ -99,8 +101,8 @@ Vector3 normal_of(const Body& body, const Corners& corners) {
   return cross(along, minus(at(2), at(0)));
 }
 
-/// The sides of a group, all with the same positive side. Particles between two materials, which
-/// are of the later one, are on the side of that, and those on the surface inside.
+/// Returns the facets of a group with a common positive side. A particle between two materials
+/// belongs to the later one, and lies on its side; a particle on the surface lies inside.
 std::vector<Crack> faces_of_group(const Body& body, const Group& group) {
   const auto dim = static_cast<std::size_t>(body.particles.dim);
   const std::map<Corners, Index> facets = facets_by_corners(body);
@@ -136,7 +138,7 @@ std::vector<WeakInterface> weak_interfaces(const CaseFile& input, const Body& bo
   if (input.analysis.type == AnalysisType::elastic) return faces;
   for (std::size_t k = 0; k < input.interfaces.size(); ++k) {
     const InterfaceSection& section = input.interfaces[k];
-    // Stretches need no energy: any will do.
+    // Laws given by stretches ignore the energy.
     const double energy = has_stretches(section.softening) ? 1.0 : section.fracture_energy;
     WeakInterface face{{}, {{section.points}}, energy, section.softening};
     if (!section.group.empty()) {
@@ -163,8 +165,8 @@ void refuse_interfaces_without_bonds(const CaseFile& input, const Network& netwo
     const bool regions = !input.interfaces[k].between.empty();
     throw InputError(
         input.where(key_of(input, k, network.dim())),
-        regions ? "names two regions that no bond joins" : "crosses no bond of the body",
-        regions ? "name regions that touch; what lies in both belongs to the second"
+        regions ? "names two regions without a bond between them" : "crosses no bond of the body",
+        regions ? "name regions that touch; particles in both belong to the second"
         : input.interfaces[k].group.empty() ? "move the line or plane into the body, or delete it"
                                             : "name a group that lies inside the body");
   }
@@ -183,18 +185,21 @@ void refuse_unfit_strength(const CaseFile& input, const NetworkInput& network,
         is_face ? network.interfaces[k].fracture_energy : network.materials[k].fracture_energy;
     throw InputError(
         input.where(item_key(table, k, "fracture_energy")),
-        fmt::format("is {:.6g}, {:.3g} times what a bond with a horizon of {:.6g} holds at "
-                    "tensile_strength = {:.6g}; at most {:g} times are possible",
+        fmt::format("is {:.6g}, {:.3g} times the energy that a bond with a horizon of "
+                    "{:.6g} stores at tensile_strength = {:.6g}; at most {:g} times are "
+                    "possible",
                     energy, error.share, network.horizon, strength, most_softening),
         "give less, or a larger tensile_strength; are the numbers in units of one system?");
   }
   throw InputError(
       input.where(item_key(table, k, "tensile_strength")),
-      fmt::format("is {:.6g}, but with a horizon of {:.6g} a bond would hold {:.3g} times the "
-                  "energy at this stress that fracture_energy lets it dissipate",
+      fmt::format("is {:.6g}, but with a horizon of {:.6g} a bond would store {:.3g} "
+                  "times the energy at this stress that it may dissipate by "
+                  "fracture_energy",
                   strength, network.horizon, 1.0 / error.share),
       fmt::format("take a horizon below {:.4g}, a strength below {:.4g} or a larger "
-                  "fracture_energy; brittle bonds have no strength of their own{}",
+                  "fracture_energy; the strength of brittle bonds follows from the "
+                  "horizon{}",
                   network.horizon * error.share, strength * std::sqrt(error.share),
                   error.share < far ? "; are the numbers in units of one system?" : ""));
 }

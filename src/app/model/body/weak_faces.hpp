@@ -9,9 +9,8 @@
 
 namespace perilink {
 
-/// [[interfaces]] of a case on the particles of its body; none of elastic analyses, in which
-/// nothing breaks.
-/// \throws InputError  for lines, planes and groups that are none
+/// Returns the interfaces of a case on the particles of its body; none for elastic analyses.
+/// \throws InputError  for invalid lines, planes and groups
 std::vector<WeakInterface> weak_interfaces(const CaseFile& input, const Body& body);
 
 /// \throws InputError

@@ -19,11 +19,11 @@
 namespace perilink {
 namespace {
 
-/// Forces on a free body that differ by more than this fraction of their sum are not in balance.
+/// Largest net force of a free body in balance, over the sum of force magnitudes.
 constexpr double force_balance_tolerance = 1e-6;
-/// A net couple above this fraction of force times size is told to the user ...
+/// Net couple over force times size above which the user gets a note ...
 constexpr double couple_note = 1e-9;
-/// ... and above this one is no matter of unsymmetric rows: it would turn the body.
+/// ... and above which it is refused: unsymmetric lattice rows do not explain it.
 constexpr double couple_limit = 0.1;
 
 double size_of_body(const Particles& particles) {
@@ -51,54 +51,56 @@ Loads loads_on(const Model& model, const Fragment& fragment) {
   return own;
 }
 
-/// The loads of a part that is pinned must balance by themselves; a small net couple is unavoidable
-/// where the rows of a lattice are not symmetric: pins bear it, or it is taken out of the loads.
+/// Refuses unbalanced loads on a pinned part. A small net couple is unavoidable where the rows of a
+/// lattice are not symmetric. The pins carry it, or it is subtracted from the loads.
 void require_balance(const CaseFile& input, Model& model, const Fragment& fragment) {
   const LoadResultant sum = load_resultant(model.network, loads_on(model, fragment));
   double force = 0.0, moment = 0.0;
   for (const double f : sum.force) force = std::max(force, std::abs(f));
   for (const double m : sum.moment) moment = std::max(moment, std::abs(m));
   if (force > force_balance_tolerance * sum.scale) {
-    throw InputError(input.where("analysis.rigid_body_modes"),
-                     fmt::format("is \"pin\", but the loads of the free body are not in balance: "
-                                 "their sum is ({})",
-                                 joined(sum.force)),
-                     "balance the loads or hold the body with [[supports]]");
+    throw InputError(
+        input.where("analysis.rigid_body_modes"),
+        fmt::format("is \"pin\", but the loads of the free body are not in balance: the "
+                    "net force is ({})",
+                    joined(sum.force)),
+        "balance the loads or support the body with [[supports]]");
   }
   const double couple = moment / (sum.scale * size_of_body(model.network.particles));
   if (couple > couple_limit) {
-    throw InputError(input.where("analysis.rigid_body_modes"),
-                     fmt::format("is \"pin\", but the loads of the free body turn it: their couple "
-                                 "is {:.3g}",
-                                 moment),
-                     "balance the loads or hold the body with [[supports]]");
+    throw InputError(
+        input.where("analysis.rigid_body_modes"),
+        fmt::format("is \"pin\", but the loads rotate the free body: their couple is {:.3g}",
+                    moment),
+        "balance the loads or support the body with [[supports]]");
   }
   if (couple > couple_note) {
     model.notes.push_back(fmt::format(
         "the loads leave a net couple of {:.3g}, which {}: {:.2g} of the sum of forces times the "
         "body's size",
         moment,
-        is_quasistatic(input.analysis.type) ? "the pinned displacements take"
-                                            : "is taken out of them",
+        is_quasistatic(input.analysis.type) ? "the pinned displacements carry"
+                                            : "is subtracted from them",
         couple));
   }
 }
 
-/// Refuses what a pre-crack cuts off, or leaves too few bonds, while loads act on it.
+/// Refuses loads on a part that a pre-crack cuts off, or leaves with too few bonds.
 void refuse_cut_off(const CaseFile& input, const Model& model, std::span<const Index> particles) {
   const std::string crack = crack_beside(input, model, particles);
   if (crack.empty()) return;
   const auto x = model.network.places().position(particles.front());
-  throw InputError(input.where(crack),
-                   fmt::format("leaves the part of {} particle{} at ({}) too few bonds to hold it, "
-                               "and loads act on it",
-                               particles.size(), particles.size() == 1 ? "" : "s", joined(x)),
-                   "end or move the crack, take the loads off that part, or hold it with "
-                   "[[supports]] or [[springs]]");
+  throw InputError(
+      input.where(crack),
+      fmt::format("leaves the part of {} particle{} at ({}) with too few bonds to hold "
+                  "it, and loads act on it",
+                  particles.size(), particles.size() == 1 ? "" : "s", joined(x)),
+      "end or move the crack, remove the loads on that part, or hold it with "
+      "[[supports]] or [[springs]]");
 }
 
-/// A body that is pinned is held at some components where it stands still. In motion that would
-/// hold single particles, so its loads are balanced instead.
+/// Pins the free rigid-body modes of a body in static equilibrium. In dynamic analyses pins would
+/// disturb single particles, so the loads are balanced instead.
 /// \param off  CutOffParts::particles
 void pin(const CaseFile& input, Model& model, Fragment fragment, Prescription& prescription,
          const std::vector<std::uint8_t>& off) {
@@ -118,8 +120,9 @@ void pin(const CaseFile& input, Model& model, Fragment fragment, Prescription& p
   const Inertia inertia = lumped_inertia(model.network, density, input.analysis.masses);
   balance_loads(model.network, fragment, inertia.mass, model.loads);
   model.notes.push_back(
-      "what is left of the net force and couple of the loads is taken out of them, so that the "
-      "free body neither moves nor turns as a whole; no particle is held");
+      "the remaining net force and couple of the loads are subtracted from "
+      "them, so that the free body neither translates nor rotates; no "
+      "particle is held");
 }
 
 /// \param off  CutOffParts::particles
@@ -159,14 +162,13 @@ void hold_rigid_modes(const CaseFile& input, Model& model, Prescription& prescri
           fmt::format("is \"pin\", but {} is partly supported: {} of {} rigid-body "
                       "modes are free",
                       where, fragment.free_modes, all),
-          moves ? "leave it out: inertia resists what is free" : "support all of them, or none");
+          moves ? "delete the key: inertia resists free modes" : "support all of them, or none");
     }
     pin(input, model, fragment, prescription, off);
   }
   if (free > 0 && !pins) {
-    model.notes.push_back(
-        fmt::format("nothing but inertia resists {} rigid-body mode{} of the body", free,
-                    free == 1 ? "" : "s"));
+    model.notes.push_back(fmt::format("only inertia resists {} rigid-body mode{} of the body", free,
+                                      free == 1 ? "" : "s"));
   }
 }
 
@@ -186,12 +188,12 @@ void refuse_loose_particles(const CaseFile& input, const Model& model,
                     joined(model.network.particles.position(i)), dim),
         is_particles(input.body)
             ? "its neighbours lie in one line: grade the mesh less, or refine it"
-            : "enlarge the horizon or refine the spacing so that every particle has enough "
-              "neighbours");
+            : "enlarge the horizon or refine the spacing so that every particle has "
+              "enough neighbours");
   }
 }
 
-/// The first table that loads the body in a stage; empty: in all.
+/// Returns the first table with loads of a stage; of any stage where `stage` is empty.
 std::string key_of_loads(const CaseFile& input, const std::string& stage) {
   std::string key;
   const auto look = [&](const char* table, const auto& sections) {
@@ -208,7 +210,7 @@ std::string key_of_loads(const CaseFile& input, const std::string& stage) {
   return key;
 }
 
-/// The load and displacement that stand for all places, and the places.
+/// Chooses the load and displacement of the history, and collects the load and boundary regions.
 void choose_axes(const CaseFile& input, Model& model, AppliedLoads& applied,
                  Prescription& prescription, const std::string& stage) {
   std::array<bool, 6> held = prescription.kept;
@@ -223,8 +225,8 @@ void choose_axes(const CaseFile& input, Model& model, AppliedLoads& applied,
   if (!(model.reference.value >= smallest_load)) {
     throw InputError(
         input.where(key_of_loads(input, stage)),
-        "the case has no load: all formulas are zero on their particles, or too "
-        "small to compute with",
+        "the case has no load: all formulas are zero on their particles, or "
+        "too small for double precision",
         fmt::format("write a formula that is {:.0e} or more somewhere", smallest_load));
   }
   if (model.reference.driven) {
@@ -236,25 +238,24 @@ void choose_axes(const CaseFile& input, Model& model, AppliedLoads& applied,
 
 void refuse_nothing_to_solve(const CaseFile& input, const Model& model) {
   if (model.unknowns.count > 0) return;
-  throw InputError(
-      input.where(input.displacements.empty() ? "supports" : "displacements"),
-      "every displacement of every particle is prescribed, which leaves nothing to solve",
-      "prescribe those of fewer particles; the surface of the body is region = \"surface\"");
+  throw InputError(input.where(input.displacements.empty() ? "supports" : "displacements"),
+                   "every displacement of every particle is prescribed; no unknown is left",
+                   "prescribe displacements of fewer particles; the surface of the body "
+                   "is region = \"surface\"");
 }
 
-/// Forces on supports do no work.
+/// Refuses loads that do no work, because they act on supported particles only.
 void refuse_idle_loads(const CaseFile& input, const Model& model, const std::string& stage) {
   if (model.reference.driven) return;
   for (std::size_t slot = 0; slot < model.loads.forces.size(); ++slot) {
     if (model.loads.forces[slot] != 0.0 && model.unknowns.number[slot] != no_index) return;
   }
   throw InputError(input.where(key_of_loads(input, stage)),
-                   "loads nothing that can move: supports hold all particles along all forces on "
-                   "them",
-                   "load other particles, or hold fewer");
+                   "loads supported particles only, in the directions of their supports",
+                   "load other particles, or support fewer");
 }
 
-/// Forces along what is driven move nothing: whatever drives it bears them.
+/// Notes forces along prescribed displacements, which have no effect.
 void note_residual_strength(const Network& network, const Loads& loads,
                             const Prescription& prescription, std::vector<std::string>& notes) {
   const auto width = static_cast<std::size_t>(network.width());
@@ -265,14 +266,15 @@ void note_residual_strength(const Network& network, const Loads& loads,
     all += std::abs(loads.forces[slot]);
     if (prescription.value[slot] != 0.0) borne += std::abs(loads.forces[slot]);
   }
-  if (borne <= 0.5 * all) return;  // the weight of what is driven is no mistake
-  notes.push_back(fmt::format(
-      "forces of {:.4g} in all act on particles that are driven along them: what drives "
-      "these bears them, and they do nothing else",
-      borne));
+  if (borne <= 0.5 * all) return;  // a body force may include clamped particles
+  notes.push_back(
+      fmt::format("forces of {:.4g} in total act on particles with prescribed "
+                  "displacements in their direction: the reactions balance these forces, "
+                  "which have no other effect",
+                  borne));
 }
 
-/// Values that a shift of the whole body meets strain nothing.
+/// Refuses prescribed displacements that equal a translation of the whole body.
 void refuse_mere_shift(const CaseFile& input, const Model& model, const Prescription& prescription,
                        const std::string& stage) {
   const auto not_zero = [](double value) { return value != 0.0; };
@@ -294,11 +296,12 @@ void refuse_mere_shift(const CaseFile& input, const Model& model, const Prescrip
     if (*known != value) return;
   }
   throw InputError(input.where(key_of_loads(input, stage)),
-                   "only moves the body as a whole, which strains nothing",
-                   "hold another part of the body along the axis that is driven");
+                   "only translates the body, which causes no strain",
+                   "hold another part of the body along the axis of the prescribed "
+                   "displacement");
 }
 
-/// Explicit runs carry nothing: they find the forces of anchors by themselves.
+/// Numbers the unknowns. Explicit runs constrain no embedded points; they compute their forces.
 Unknowns unknowns_of(const CaseFile& input, const Network& network, Prescription& prescription) {
   hold_idle_rotations(network, prescription.held);
   hold_embedded_points(network, prescription.held);
@@ -307,7 +310,7 @@ Unknowns unknowns_of(const CaseFile& input, const Network& network, Prescription
   return unknowns;
 }
 
-/// The loads of all stages that have their own, in their order.
+/// Collects the load cases of all stages with own loads, in their order.
 void collect_sets(const CaseFile& input, Model& model) {
   model.sets = {{model.loads, model.unknowns, model.reference}};
   for (std::size_t k = 1; k < input.stages.size(); ++k) {

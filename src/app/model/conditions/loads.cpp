@@ -15,14 +15,14 @@
 namespace perilink {
 namespace {
 
-/// A point load this close to its particle, in spacings, has not moved.
+/// Distance in spacings within which a point load counts as placed on its particle.
 constexpr double moved = 1e-6;
 
 std::span<const Expression> components_of(const ExpressionVector& vector, int dim) {
   return {vector.data(), static_cast<std::size_t>(dim)};
 }
 
-/// Solid particles of a region; where it holds bars alone, their nodes.
+/// Returns the solid particles of a region; of a region with bars only, their nodes.
 std::vector<Index> solid_particles_of(const CaseFile& input, const Model& model,
                                       const std::string& region, const std::string& key) {
   std::vector<Index> members = particles_of_region(input, model, region, key);
@@ -33,7 +33,8 @@ std::vector<Index> solid_particles_of(const CaseFile& input, const Model& model,
   return members;
 }
 
-/// Shares a total force over the solid particles of a region, or integrates a uniform body force.
+/// Distributes a total force over the solid particles of a region, or integrates a uniform body
+/// force.
 void add_uniform_load(const LoadSection& section, const Model& model, std::span<const Index> region,
                       Loads& loads, LoadRegion& place) {
   const Particles& particles = model.network.places();
@@ -52,7 +53,8 @@ void add_uniform_load(const LoadSection& section, const Model& model, std::span<
   place.sizes += std::hypot(sum[0], sum[1], sum[2]);
 }
 
-/// Adds the forces of an entry to all loads and to its place. \return the sum of their sizes
+/// Adds the forces of an entry to all loads and to its load region. \return the sum of force
+/// magnitudes
 double add_entry(const Particles& particles, const Loads& entry, Loads& loads, LoadRegion& place) {
   const std::size_t width = entry.forces.size() / static_cast<std::size_t>(particles.size());
   double sizes = 0.0;
@@ -84,8 +86,8 @@ void add_body_force(const CaseFile& input, const Model& model, std::size_t k,
   add_cell_body_load(particles, model.cells, thickness, is_member, load, loads);
 }
 
-/// \return the sum of the sizes of the forces on all facets: a particle at an edge of the body
-/// bears those of two faces
+/// Adds a traction. \return the sum of force magnitudes over facets, because a particle at an edge
+/// of the body carries forces of two faces
 double add_traction(const CaseFile& input, const Model& model, std::size_t k, Loads& loads) {
   const TractionSection& section = input.tractions[k];
   const Particles& particles = model.network.places();
@@ -113,7 +115,7 @@ bool resists_rotation(const Network& network, Index particle) {
   return !rotating.empty() && rotating[particle];
 }
 
-/// Force and moment of a point load.
+/// Adds the force and moment of a point load.
 void add_point_load(const CaseFile& input, const Model& model, std::size_t k, AppliedLoads& all) {
   const PointLoadSection& section = input.point_loads[k];
   const Particles& particles = model.network.places();
@@ -126,7 +128,9 @@ void add_point_load(const CaseFile& input, const Model& model, std::size_t k, Ap
     throw InputError(
         input.where(item_key("point_loads", k, "at")),
         fmt::format("is ({}), {:.6g} from the nearest particle", joined(at), nearest.distance),
-        fmt::format("particles are {:.6g} apart; the load must lie within that of one", spacing));
+        fmt::format("the spacing is {:.6g}; place the load within this distance of a "
+                    "particle",
+                    spacing));
   }
   if (nearest.distance > moved * spacing) {
     all.notes.push_back(fmt::format("the point load at ({}) acts on the particle at ({})",
@@ -135,13 +139,14 @@ void add_point_load(const CaseFile& input, const Model& model, std::size_t k, Ap
   if (section.moment != Vector3{} && !resists_rotation(model.network, nearest.particle)) {
     if (!model.network.hinged.empty()) {
       throw InputError(input.where(item_key("point_loads", k, "moment")),
-                       "acts on a particle that does not turn: it lies in the joint of two layers",
+                       "acts on a particle without rotation: it lies in the interface of two "
+                       "layers",
                        "move the moment to the next row of particles");
     }
     throw InputError(input.where(item_key("point_loads", k, "moment")),
-                     "acts on a particle whose bonds resist no rotation",
-                     "a Poisson's ratio below that of bond-based solids gives the bonds bending "
-                     "stiffness; or apply a couple of forces");
+                     "acts on a particle whose bonds have no rotational stiffness",
+                     "give a Poisson's ratio below the bond-based one, so that bonds have "
+                     "bending stiffness, or apply a couple of forces");
   }
   double* force = all.loads.forces.data() + nearest.particle * width;
   for (int a = 0; a < dim; ++a) force[a] += section.force[a];

@@ -21,10 +21,10 @@
 namespace perilink {
 namespace {
 
-/// Formulas for the same displacement, typed in two entries, may differ by round-off.
+/// Relative difference allowed between two entries that prescribe the same displacement.
 constexpr double same_value = 1e-9;
 
-/// Particles this close to a plane of symmetry, in spacings, are in it.
+/// Distance within which a particle lies in a plane of symmetry, in spacings.
 constexpr double in_plane = 1e-6;
 
 std::string name_of_component(const Network& network, int component) {
@@ -33,7 +33,7 @@ std::string name_of_component(const Network& network, int component) {
   return dim == 2 ? "rotation" : fmt::format("rotation about {}", "xyz"[component - dim]);
 }
 
-/// Component of the motion of a particle that an entry of SupportSection::fix means.
+/// Returns the motion component of a particle for an entry of SupportSection::fix.
 int component_of(const Network& network, int entry) {
   return entry < 3 || network.dim() == 3 ? entry : network.dim();
 }
@@ -54,15 +54,15 @@ void prescribe(const CaseFile& input, const Model& model, Prescription& prescrip
           fmt::format(
               "sets the {} of the particle at ({}) to {}, where another entry sets it to {}",
               name_of_component(model.network, component), joined(x), value, before),
-          "let the regions of [[supports]], [[symmetry]], [[displacements]] and [[velocities]] not "
-          "overlap");
+          "separate the regions of [[supports]], [[symmetry]], [[displacements]] "
+          "and [[velocities]], or give equal values where they overlap");
     }
     prescription.held[slot] = 1;
     prescription.value[slot] = value;
   }
 }
 
-/// A rotation that is driven must turn something.
+/// Refuses prescribed rotations of particles without rotational stiffness.
 void refuse_idle_rotation(const CaseFile& input, const Model& model,
                           std::span<const Index> particles, const std::string& key, int component) {
   if (component < model.network.dim()) return;
@@ -71,11 +71,14 @@ void refuse_idle_rotation(const CaseFile& input, const Model& model,
   if (particles.empty() || std::any_of(particles.begin(), particles.end(), turns)) return;
   if (!model.network.hinged.empty()) {
     throw InputError(input.where(key),
-                     "drives particles that do not turn: they lie in the joint of two layers",
-                     "drive the next row of particles");
+                     "prescribes rotations of particles without rotation: they lie in the "
+                     "interface of two layers",
+                     "prescribe those of the next row of particles");
   }
-  throw InputError(input.where(key), "drives the rotation of particles whose bonds resist none",
-                   "drive their displacements by formulas that turn the region");
+  throw InputError(input.where(key),
+                   "prescribes rotations of particles whose bonds have no rotational "
+                   "stiffness",
+                   "prescribe displacements by formulas that rotate the region");
 }
 
 void clamped(const Network& network, Prescription& prescription, std::span<const Index> particles,
@@ -84,7 +87,7 @@ void clamped(const Network& network, Prescription& prescription, std::span<const
   for (const Index i : particles) prescription.gripped[i] = 1;
 }
 
-/// Particles in a plane of symmetry.
+/// Returns the particles in a plane of symmetry.
 std::vector<Index> particles_in_plane(const CaseFile& input, const Model& model, std::size_t k) {
   const SymmetrySection& section = input.symmetry[k];
   if (!section.at) {
@@ -108,7 +111,8 @@ std::vector<Index> particles_in_plane(const CaseFile& input, const Model& model,
   return inside;
 }
 
-/// Reflection leaves displacements in the plane and the rotation about its normal.
+/// Applies a plane of symmetry. Displacements in the plane and the rotation about its normal are
+/// free.
 void hold_in_plane(const CaseFile& input, const Model& model, std::size_t k,
                    Prescription& prescription) {
   const std::vector<Index> particles = particles_in_plane(input, model, k);
@@ -125,7 +129,7 @@ void hold_in_plane(const CaseFile& input, const Model& model, std::size_t k,
   }
 }
 
-/// Notes that a place drives a component of particles, whose values are prescribed already.
+/// Records that a boundary region prescribes a component of particles with known values.
 void note_driven(const Network& network, Prescription& prescription,
                  std::span<const Index> particles, int component, const std::string& region) {
   PrescribedRegion& place = place_named(prescription.driven, region);
@@ -140,7 +144,7 @@ void note_driven(const Network& network, Prescription& prescription,
   }
 }
 
-/// Whether a stage comes after another one.
+/// Whether a stage follows another one.
 bool comes_after(const CaseFile& input, const std::string& stage, const std::string& other) {
   for (const StageSection& section : input.stages) {
     if (section.name == stage) return false;
@@ -180,7 +184,7 @@ void drive(const CaseFile& input, const Model& model, Prescription& prescription
   }
 }
 
-/// Moves the anchors at the ends of the segments of bars with a prestrain.
+/// Prescribes displacements of the embedded points of bars with a prestrain.
 void stretch_bars(const CaseFile& input, const Model& model, const std::string& stage,
                   Prescription& prescription) {
   const Network& network = model.network;
@@ -272,10 +276,10 @@ std::vector<double> collect_springs(const CaseFile& input, const Model& model) {
 namespace {
 
 /// Stiffness of the springs over that of the stiffest bond: far above the round-off of a factor,
-/// and no force beside that of a strained bond.
+/// with negligible forces.
 constexpr double softness = 1e-7;
 
-/// Which particles loads act on, in any stage.
+/// Marks the particles with loads in any stage.
 std::vector<std::uint8_t> loaded_particles(const CaseFile& input, const Model& model) {
   const std::size_t width = model.network.width();
   std::vector<std::uint8_t> loaded(static_cast<std::size_t>(model.network.particles.size()), 0);
@@ -291,7 +295,8 @@ std::vector<std::uint8_t> loaded_particles(const CaseFile& input, const Model& m
   return loaded;
 }
 
-/// The first pre-crack that cuts a bond of each particle, else how many pre-cracks there are.
+/// Returns, per particle, the first pre-crack that cuts one of its bonds, else the number of
+/// pre-cracks.
 std::vector<std::size_t> cracks_beside(const CaseFile& input, const Model& model,
                                        std::span<const Index> particles) {
   const Particles& all = model.network.places();
@@ -319,7 +324,7 @@ std::vector<std::size_t> cracks_beside(const CaseFile& input, const Model& model
   return first;
 }
 
-/// Puts springs on as few components as hold the part.
+/// Adds springs to the fewest components that hold the part.
 void add_springs(const Model& model, const Fragment& part, const std::vector<std::uint8_t>& held,
                  std::vector<double>& springs) {
   const Network& network = model.network;
@@ -370,8 +375,9 @@ CutOffParts find_cut_off_parts(const CaseFile& input, const Model& model,
     if (places.size() < most_places) places.push_back(fmt::format("({})", joined(at)));
   }
   off.note = fmt::format(
-      "cracks leave {} particle{} without a hold, in {} part{} at {}{}: no load acts on them, and "
-      "springs of {:.0e} times the stiffest bond hold them in place",
+      "cracks leave {} particle{} unsupported, in {} part{} at {}{}: no load "
+      "acts on them, and springs of {:.0e} times the stiffest bond hold them "
+      "in place",
       count, count == 1 ? "" : "s", parts.size(), parts.size() == 1 ? "" : "s", joined(places),
       parts.size() > most_places ? ", ..." : "", softness);
   return off;

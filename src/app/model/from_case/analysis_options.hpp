@@ -6,10 +6,10 @@
 
 namespace perilink {
 
-/// Options of the damage analysis that a case asks for.
+/// Returns the options of a damage analysis from its case.
 DamageOptions damage_options(const CaseFile& input, int threads);
 
-/// Options of the elastic analysis.
+/// Returns the options of an elastic analysis from its case.
 ElasticOptions elastic_options(const CaseFile& input, int threads);
 
 }  // namespace perilink

@@ -30,7 +30,8 @@
 namespace perilink {
 namespace {
 
-/// A lattice of few neighbours reaches smaller Poisson's ratios than the infinite body.
+/// Refuses unattainable Poisson's ratios. A lattice with few neighbours attains smaller ratios than
+/// the infinite body.
 void refuse_poissons_ratios(const CaseFile& input, const Body& body, const NetworkInput& network) {
   if (network.model != BondModel::micropolar) return;
   for (std::size_t m = 0; m < input.materials.size(); ++m) {
@@ -39,8 +40,8 @@ void refuse_poissons_ratios(const CaseFile& input, const Body& body, const Netwo
     } catch (const std::invalid_argument& error) {
       throw InputError(input.where(item_key("materials", m, "poissons_ratio")),
                        fmt::format("is {}: {}", network.materials[m].poissons_ratio, error.what()),
-                       "the bonds of this lattice alone have that ratio: enlarge the horizon, use "
-                       "another pattern, or set body.micromodulus = \"continuum\"");
+                       "bonds of this lattice without bending have that ratio: enlarge the "
+                       "horizon, use another pattern, or set body.micromodulus = \"continuum\"");
     }
   }
 }
@@ -89,7 +90,7 @@ NetworkInput network_input(const CaseFile& input, Problem problem, double horizo
     network.solid.insert(network.solid.end(), boxes.begin(), boxes.end());
   }
   for (const MaterialSection& material : input.materials) {
-    // Stretches need no energy: any will do, and the network says what they take.
+    // Laws given by stretches ignore the energy; the network computes it.
     const double energy = has_stretches(material.softening) ? 1.0 : material.fracture_energy;
     network.materials.push_back({material.youngs_modulus, energy,
                                  material.poissons_ratio.value_or(0.0),
@@ -107,11 +108,13 @@ void refuse_unbreakable_bodies(const CaseFile& input, const Network& network) {
   auto finite = [](double value) { return std::isfinite(value); };
   if (std::any_of(network.critical_stretch.begin(), network.critical_stretch.end(), finite)) return;
   throw InputError(input.where("materials[1].fracture_energy"),
-                   "is infinite in every material: nothing can break in a damage analysis",
+                   "is infinite in every material: a damage analysis needs a material "
+                   "that can break",
                    "give a material a finite fracture energy, or set analysis.type = \"elastic\"");
 }
 
-/// Next to the ratio of bonds that do not bend, nothing is left for bending.
+/// Refuses Poisson's ratios next to that of bonds without bending, which leave no bending
+/// stiffness.
 void refuse_unbending_materials(const CaseFile& input, const NetworkInput& network) {
   if (network.model != BondModel::micropolar) return;
   const double largest = bond_poissons_ratio(network.problem);
@@ -120,8 +123,8 @@ void refuse_unbending_materials(const CaseFile& input, const NetworkInput& netwo
     if (ratio <= 0.999 * largest) continue;
     throw InputError(
         input.where(item_key("materials", m, "poissons_ratio")),
-        fmt::format("is {}, next to {:.6g}, which bonds have that do not bend: no stiffnesses of "
-                    "bonds that bend are found for it",
+        fmt::format("is {}, too close to {:.6g}, the ratio of bonds without bending: "
+                    "bending bonds have no solution for it",
                     ratio, largest),
         fmt::format(
             "set model = \"bond_based\" in [body] and delete the key, or give at most {:.4f}",
@@ -141,10 +144,10 @@ Network build_case_network(const CaseFile& input, const Body& body, const Networ
   }
 }
 
-/// The calibration of clouds, of bodies in space and of micropolar bonds can take minutes. What it
-/// does not change (regions, loads, whether the body is held, gauges) is looked at before. Trusses
-/// on lattices in the plane are calibrated in less time than their matrix is factorised, and large
-/// boxes in space as a small one.
+/// Builds a draft first, to refuse invalid regions, loads, supports and gauges before the
+/// calibration. Calibrating unstructured particle sets, bodies in space and micropolar bonds can
+/// take minutes. Plane lattices of trusses calibrate faster than their matrix is factorised; large
+/// boxes in space as fast as small ones.
 void refuse_before_calibration(const CaseFile& input, const Body& body, NetworkInput network,
                                const Model& model) {
   if (body.lattice.surface != Surface::calibrated || !body.spans.empty()) return;
@@ -179,7 +182,7 @@ bool have_unlike_constants(const CaseFile& input) {
 
 namespace {
 
-/// Slits of the mesh are pre-cracks, too.
+/// Adds the slits of the mesh as pre-cracks.
 void add_slits(const Body& body, NetworkInput& network) {
   const auto dim = static_cast<std::size_t>(body.particles.dim);
   for (const Group& group : body.groups) {
@@ -217,7 +220,8 @@ void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, 
   }
   for (const std::string& text : strength_notes(input, model)) model.notes.push_back(text);
   for (const std::string& text : bar_notes(input)) model.notes.push_back(text);
-  body.facets = std::move(model.network.facets);  // with the shares that the bonds balance
+  body.facets =
+      std::move(model.network.facets);  // with the nodal area fractions that balance the bonds
 }
 
 }  // namespace perilink

@@ -9,18 +9,18 @@
 
 namespace perilink {
 
-/// How the bonds of a model are made.
+/// Options for building bonds.
 struct BondOptions {
-  bool draft = false;  ///< not calibrated at all
+  bool draft = false;  ///< skips the calibration
   CalibrationObserver on_search;
 };
 
-/// Whether materials differ in an elastic constant. That of trusses is the Poisson's ratio of
-/// bonds, given with some digits or left out.
+/// Whether materials differ in an elastic constant. The Poisson's ratio of trusses counts as equal
+/// whether it is left out or given with few digits.
 bool have_unlike_constants(const CaseFile& input);
 
-/// Puts the bonds and bars of a case between the particles of its body.
-/// \throws InputError where the case makes no sense for its body
+/// Builds the bonds and bars of a case between the particles of its body.
+/// \throws InputError where the case does not fit its body
 void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, Model& model);
 
 }  // namespace perilink

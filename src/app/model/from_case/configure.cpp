@@ -25,12 +25,12 @@
 namespace perilink {
 namespace {
 
-/// More particles than this would overflow the 32-bit numbers of bonds at the usual horizons.
+/// Most particles; more would overflow the 32-bit bond numbers at usual horizons.
 constexpr double most_particles = 3e7;
 
-/// Spacing that the case asks for: given, or from the number of particles across the body, which
-/// stand in cells (ghost surface) or on both ends (conforming lattice). The particles of a row of
-/// the face-centred pattern are one edge of its cubes apart.
+/// Returns the spacing of the case, given or from the number of particles across the body. These
+/// lie in cells (ghost surface) or on both ends (conforming lattice). In the face-centred pattern
+/// the particles of a row are one cube edge apart.
 double wanted_spacing(const BodySection& body, double width) {
   if (body.spacing) return *body.spacing;
   if (body.surface == Surface::ghost) return width / *body.columns;
@@ -44,9 +44,9 @@ double horizon_of(const BodySection& body, double spacing) {
   return horizon_of_level(body.pattern, *body.horizon_level) * spacing;
 }
 
-/// A lattice that ends on the boundary is stretched a little along its rows or across them. A
-/// horizon given in spacings means the neighbours of the unstretched lattice, so it grows with the
-/// longest stretch; otherwise a whole shell of neighbours would drop out.
+/// Returns the horizon on a lattice that is stretched to end on the boundary. A horizon given in
+/// spacings grows with the largest stretch of the rows, so that it includes the neighbours of the
+/// unstretched lattice.
 double horizon_on_lattice(const BodySection& body, const Lattice& lattice) {
   if (body.horizon) return *body.horizon;
   Vector3 ideal{lattice.spacing, lattice.spacing, lattice.spacing};
@@ -70,7 +70,8 @@ void refuse_impossible_spacing(const CaseFile& input, const Box& box, double spa
   if (spacing > 2.0 * longest) {
     throw InputError(where,
                      fmt::format("is {:g}, but the body is only {:g} long", spacing, longest),
-                     "give lengths in one unit: particles lie several to each side of the body");
+                     "give all lengths in one unit; every side of the body needs several "
+                     "particles");
   }
   if (count <= most_particles) return;
   throw InputError(
@@ -114,7 +115,7 @@ Body build_lattice_body(const CaseFile& input, int dim, double& horizon) {
     lattice.horizon = horizon_of(input.body, lattice.spacing);
     refuse_impossible_horizon(input, reach_of(box, dim, lattice.horizon, lattice.spacing));
   } else {
-    lattice.surface = Surface::calibrated;  // the same particles
+    lattice.surface = Surface::calibrated;  // places the same particles
   }
   try {
     Body body = make_body(lattice);
@@ -156,7 +157,7 @@ void refuse_materials_without_particles(const CaseFile& input, const Body& body)
   }
 }
 
-/// Particles, and bonds or elements, of every body but lattices of state-based particles.
+/// Builds particles and bonds or elements of every body except lattices of state-based particles.
 Model build_bodies_model(const CaseFile& input, const BondOptions& options) {
   Model model;
   model.problem =

@@ -8,13 +8,13 @@
 namespace perilink {
 
 /// Builds the model of a case.
-/// \param on_search  told how the calibration of the bonds comes along; may be empty
-/// \throws InputError where the case makes no sense for its body: empty regions, particles that
-/// nothing holds, free rigid-body modes, contradictory supports
+/// \param on_search  receives the progress of the bond calibration; may be empty
+/// \throws InputError where the case does not fit its body: empty regions, unsupported particles,
+/// free rigid-body modes, contradictory supports
 Model build_model(const CaseFile& input, const CalibrationObserver& on_search = {});
 
-/// The same with bonds as they are before calibration, in a small part of its time: sizes, notes,
-/// supports, loads and gauges are those of the model, refusals too.
+/// Builds the model of a case with uncalibrated bonds, in a small part of the time. Sizes, notes,
+/// supports, loads, gauges and refusals equal those of build_model().
 Model draft_model(const CaseFile& input);
 
 }  // namespace perilink

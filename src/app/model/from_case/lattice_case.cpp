@@ -20,9 +20,9 @@
 namespace perilink {
 namespace {
 
-constexpr double most_steps = 2e9;  ///< steps have 32-bit numbers
+constexpr double most_steps = 2e9;  ///< most time steps; step numbers have 32 bits
 
-/// Supports and driven displacements. \return what stands for all that are driven [length]
+/// Applies supports and prescribed displacements. \return the reference displacement [length]
 double prescribe_motions(const CaseFile& input, Model& places, ExplicitModel& model) {
   const Prescription prescription = collect_prescriptions(input, places);
   places.unknowns = number_unknowns(model.lattice.dim, prescription.held, prescription.value);
@@ -38,7 +38,7 @@ double prescribe_motions(const CaseFile& input, Model& places, ExplicitModel& mo
   return relative_motion(prescription.driven, prescription.kept, model.lattice.dim);
 }
 
-/// Forces on the particles. \return the reference load [force]; zero: none
+/// Applies forces to the particles. \return the reference load [force]; zero: none
 double load_particles(const CaseFile& input, ExplicitCase& built) {
   const LatticeRows& lattice = built.model.lattice;
   const AppliedLoads applied = collect_loads(input, built.places, lattice.dim);
@@ -55,7 +55,7 @@ double load_particles(const CaseFile& input, ExplicitCase& built) {
   return total_load(applied.places);
 }
 
-/// What moves the body, and what is measured.
+/// Applies prescribed motions and loads, and builds the gauges.
 void load_body(const CaseFile& input, const LatticeShape& shape, ExplicitCase& built) {
   built.places = lattice_places(input, shape, built.model, built.model.lattice.particle_slot);
   const double driven = prescribe_motions(input, built.places, built.model);
@@ -64,14 +64,14 @@ void load_body(const CaseFile& input, const LatticeShape& shape, ExplicitCase& b
   built.options.reference = built.options.driven ? driven : loaded;
   if (!(built.options.reference >= smallest_load)) {
     throw InputError(input.where(input.displacements.empty() ? "loads[1]" : "displacements[1]"),
-                     "nothing moves the body: all formulas are zero on their particles, or too "
-                     "small to compute with",
-                     "change a formula, or the region that it is for");
+                     "the body has no load: all formulas are zero on their particles, or "
+                     "too small for double precision",
+                     "change a formula or its region");
   }
   built.gauges = build_gauges(input, built.places, built.notes);
 }
 
-/// External damping of a material that does not say what the fundamental period is.
+/// Sets the external damping of a material without `fundamental_period`, which is computed here.
 void damp_externally(const CaseFile& input, ExplicitCase& built) {
   const LatticeMaterialSection& material = *input.materials.front().lattice;
   if (material.external_damping > 0.0) {
@@ -83,7 +83,7 @@ void damp_externally(const CaseFile& input, ExplicitCase& built) {
   } catch (const SolverError& error) {
     throw InputError(
         input.where("materials[1].external_damping"),
-        fmt::format("refers to the fundamental period, which is not found: {}", error.what()),
+        fmt::format("needs the fundamental period, which was not found: {}", error.what()),
         "give `fundamental_period`");
   }
   built.model.material.external_damping = material.external_damping;
@@ -104,12 +104,13 @@ void choose_steps(const CaseFile& input, double critical_time_step, ExplicitOpti
     throw InputError(input.where("analysis.time_step"),
                      fmt::format("is {:.6g}, larger than the critical time step {:.6g}",
                                  options.time_step, critical_time_step),
-                     "take less, or leave it out: `safety` takes a part of the critical one");
+                     "give a smaller one, or delete the key: `safety` then sets the "
+                     "fraction of the critical time step");
   }
   const double steps = std::ceil(analysis.duration / options.time_step);
   if (steps <= most_steps) return;
   throw InputError(input.where("analysis.duration"),
-                   fmt::format("takes {:.1e} steps of {:.4g}", steps, options.time_step),
+                   fmt::format("needs {:.1e} steps of {:.4g}", steps, options.time_step),
                    fmt::format("at most {:.0e} are possible", most_steps));
 }
 

@@ -108,8 +108,9 @@ TEST_F(Plot, WithoutASummaryTheDirectoryIsTheTitle) {
   fs::remove(directory_ / "summary.json");
   testing::internal::CaptureStderr();
   EXPECT_EQ(plot_results({directory_.string() + "/", "", 0.0}), 0);
-  EXPECT_NE(testing::internal::GetCapturedStderr().find("note: the run goes on or was killed"),
-            std::string::npos);
+  EXPECT_NE(
+      testing::internal::GetCapturedStderr().find("note: the run is not finished or was killed"),
+      std::string::npos);
   EXPECT_NE(text("load_displacement.svg").find(">" + directory_.filename().string() + "<"),
             std::string::npos);
 }

@@ -127,13 +127,13 @@ TEST_F(RunResults, AnInterruptedRunIsReadWithItsReasonAndDoubts) {
 }
 
 TEST_F(RunResults, WhatIsNoResultIsRefused) {
-  EXPECT_THAT(refusal(), HasSubstr("there is no history.csv in it (perilink run"));
+  EXPECT_THAT(refusal(), HasSubstr("it has no history.csv (perilink run"));
   write("study.toml", "");
   EXPECT_THAT(refusal(), HasSubstr("perilink converge"));
   write("history.csv", "step,load\n1,2\n");
   EXPECT_THAT(refusal(), HasSubstr("no column 'displacement'"));
   write("history.csv", "step,load,displacement\n");
-  EXPECT_THAT(refusal(), HasSubstr("no row yet"));
+  EXPECT_THAT(refusal(), HasSubstr("has no row"));
   fs::remove_all(place());
   EXPECT_THAT(refusal(), HasSubstr("there is no such directory"));
   test::write_text(place(), "");

@@ -149,11 +149,11 @@ TEST(Gauges, KnowTheirPlaces) {
   expect_refused(input, "gauges[1].between", "the same nearest particle");
   input = strip_with_gauges();
   input.gauges[0].name = "load_factor";
-  expect_refused(input, "gauges[1].name", "a column that every history has");
+  expect_refused(input, "gauges[1].name", "a column of every history");
   input.gauges[0].name = "kinetic_energy";
   build_model(input);  // which only runs over time have
   input.analysis.type = AnalysisType::relaxation;
-  expect_refused(input, "gauges[1].name", "a column that every history has");
+  expect_refused(input, "gauges[1].name", "a column of every history");
 }
 
 /// Collects the gauges of all rows, as the history does.

@@ -64,9 +64,9 @@ TEST(Progress, OfACalibrationIsALineThatIsGoneAtTheEnd) {
     progress.update(2, 4e-7);
   };
   EXPECT_EQ(on_terminal([&] { calibrate(false); }),
-            "\rcalibrating bonds: search 1 begun after 0 s, forces out of balance 3.2e+00\033[K"
-            "\rcalibrating bonds: search 2 begun after 0 s, forces out of balance 4.0e-07\033[K"
-            "\r\033[K");
+            "\rcalibrating bonds: solve 1 started after 0 s, forces out of balance "
+            "3.2e+00\033[K\rcalibrating bonds: solve 2 started after 0 s, forces out of "
+            "balance 4.0e-07\033[K\r\033[K");
   EXPECT_EQ(on_terminal([&] { calibrate(true); }), "");
   EXPECT_EQ(on_terminal([] { const CalibrationProgress nothing_to_calibrate(false); }), "");
   testing::internal::CaptureStderr();  // no terminal

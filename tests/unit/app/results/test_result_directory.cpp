@@ -100,7 +100,7 @@ TEST(ResultDirectory, IsOneRunsAtATime) {
         ResultDirectory(work / name, true);
         ADD_FAILURE() << "a second run had the directory";
       } catch (const FileError& error) {
-        EXPECT_NE(std::string(error.what()).find("another run writes"), std::string::npos);
+        EXPECT_NE(std::string(error.what()).find("another run is writing"), std::string::npos);
       }
     }
     const ResultDirectory other(work / "b", false);

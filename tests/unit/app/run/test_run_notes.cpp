@@ -24,12 +24,14 @@ TEST(PeakWarning, SaysBothPeaksOfALoadThatClimbedAgain) {
   const PeakWatch peaks = result_of({{0.1, 3320}, {0.2, 900}, {5.0, 11314}}).peaks;
   const auto warning = text_of_peaks(peaks, false);
   ASSERT_TRUE(warning);
-  EXPECT_THAT(*warning, HasSubstr("residual strength: the load reached 3320 at displacement 0.1 "
-                                  "(peak_load), it fell or a crack went through the body, and the "
-                                  "load climbed again, to 11314 at 5 (largest_load)"));
+  EXPECT_THAT(
+      *warning,
+      HasSubstr("residual strength: the load reached 3320 at displacement 0.1 (peak_load), it "
+                "fell or a crack separated the body, and the load rose again to 11314 at 5 "
+                "(largest_load)"));
   EXPECT_THAT(text_of_peaks(peaks, true).value(),
               testing::AllOf(HasSubstr("reached 3320 at displacement 0.1 (first_peak_load)"),
-                             HasSubstr("climbed again, to 11314 at 5 (peak_load)")));
+                             HasSubstr("rose again to 11314 at 5 (peak_load)")));
 }
 
 TEST(PeakWarning, IsSilentWhereTheFirstPeakIsTheHighest) {

@@ -35,7 +35,7 @@ TEST(SeparatedBody, IsToldOfWhereTheyPressItTogether) {
   const CaseFile input = cracked_strip(-10.0, -12.0);
   const auto note = note_of_separated_body(input, draft_model(input), 1);
   ASSERT_TRUE(note);
-  EXPECT_THAT(*note, testing::HasSubstr("nothing but their closed faces holds it"));
+  EXPECT_THAT(*note, testing::HasSubstr("only their closed faces hold it"));
 }
 
 TEST(SeparatedBody, OneWithALigamentIsNone) {
@@ -61,7 +61,7 @@ TEST(SeparatedBody, IsRefusedWhereItSlidesAcrossABar) {
       refuse_pieces_on_bars(input, model, 1);
       FAIL() << "accepted";
     } catch (const InputError& error) {
-      EXPECT_THAT(error.what(), testing::HasSubstr("nothing but bars holds the piece of 20"));
+      EXPECT_THAT(error.what(), testing::HasSubstr("only bars hold the piece of 20"));
     }
     SupportSection roller;
     roller.region = "upper end";

@@ -90,7 +90,7 @@ TEST(Summary, TellsTheLargestCracks) {
                           model.network.particles.position(bonds.second[5])[0]);
   EXPECT_DOUBLE_EQ(summary.json["cracks"][0]["widest_at"][0], x);
   EXPECT_THAT(summary.text,
-              HasSubstr("the largest has 2 damaged bonds and is open by 0.3 at most"));
+              HasSubstr("the largest has 2 damaged bonds and a largest opening of 0.3"));
   Summary none;
   tell_cracks(none, {});
   EXPECT_TRUE(none.text.empty());

@@ -193,7 +193,7 @@ TEST_F(StudyRun, RefinementsThatTheBodyCannotHaveAreRefusedOnce) {
   expect(study_of("mesh = [\"a.msh\", \"b.msh\"]\n", energy + "1\n"), "the case is a lattice");
   input.body.mesh = "plate.msh";
   expect(study_of("columns = [2, 4]\n", energy + "1\n"), "refine with `mesh`, a list of meshes");
-  expect(sizes, "\"plate.msh\", is meshed already");
+  expect(sizes, "\"plate.msh\", is a mesh file, not a geometry");
   input.body.mesh = "plate.geo";
   expect(study_of("spacing = [2, 1]\n", energy + "1\n"), "refine with `mesh_size`");
   EXPECT_NO_THROW(check_study(sizes, input));

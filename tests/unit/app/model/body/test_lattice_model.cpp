@@ -97,7 +97,7 @@ TEST(LatticeModel, TakesTheMeanWhereTheRulesHaveNoEnergy) {
   const std::string mean = replaced(printed, "2018", "2017");
   const CaseFile input = parse_case(printed, "");
   ASSERT_EQ(build_model(input).notes.size(), 1U);
-  EXPECT_THAT(build_model(input).notes[0], HasSubstr("takes their mean"));
+  EXPECT_THAT(build_model(input).notes[0], HasSubstr("uses their mean"));
   EXPECT_EQ(elastic_answer(input).row.load, elastic_answer(parse_case(mean, "")).row.load);
 }
 

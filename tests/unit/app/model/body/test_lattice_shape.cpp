@@ -148,10 +148,10 @@ TEST_F(LatticeOfMesh, FillsTetrahedra) {
 TEST_F(LatticeOfMesh, RefusesWhatDoesNotSuitTheMesh) {
   EXPECT_THAT(refusal(replaced(text(), "x = [0, 0.1]\ny = [0, 1]", "group = \"lower\"")),
               testing::AllOf(HasSubstr("supports[1].region"),
-                             HasSubstr("is a group of lines, which hold no particles"),
+                             HasSubstr("is a group of lines, which contain no particles"),
                              HasSubstr("name a physical surface, or give a box")));
   EXPECT_THAT(refusal(replaced(text(), "group = \"plate\"", "group = \"lower\"")),
-              HasSubstr("is a group of lines, which hold no material"));
+              HasSubstr("is a group of lines, which contain no material"));
   EXPECT_THAT(refusal(replaced(text(), "group = \"plate\"", "group = \"Plate\"")),
               HasSubstr("has no such physical group"));
   const std::string all_hole = "\n[[regions]]\nname = \"all\"\ngroup = \"plate\"\n";

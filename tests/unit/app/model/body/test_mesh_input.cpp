@@ -111,7 +111,7 @@ TEST_F(MeshInput, RefusesWhatTheMeshLacks) {
                     HasSubstr("Allowed: corner, lower, lower and left, plate")));
   EXPECT_THAT(
       refusal("group = \"plate\"", "group = \"lower\""),
-      AllOf(HasSubstr("materials[1]"), HasSubstr("a group of lines, which hold no material")));
+      AllOf(HasSubstr("materials[1]"), HasSubstr("a group of lines, which contain no material")));
   EXPECT_THAT(refusal("horizon_ratio = 3", "horizon = 0.5"),
               HasSubstr("body.horizon: the horizon 0.5 is smaller than the spacing"));
   EXPECT_THAT(
@@ -291,8 +291,8 @@ TEST_F(MeshInput, LinesBesideTheMeshAreNoneOfAGroup) {
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(),
-                HasSubstr("interfaces[1].group: is \"joint\", a line of which, at (20, "
-                          "30), is no side of a cell"));
+                HasSubstr("interfaces[1].group: is \"joint\", a line of which, at (20, 30), is "
+                          "not an edge of a cell"));
   }
 }
 

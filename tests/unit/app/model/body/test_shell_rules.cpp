@@ -32,7 +32,7 @@ TEST(ShellRules, SheetsMayReachAlmostAroundTheirCylinder) {
 
 TEST(ShellRules, ParticlesMustBeHeldAgainstTurningWithinTheSheet) {
   EXPECT_NO_THROW(build_model(mid_surface("", 0.3)));
-  expect_refused(mid_surface("", 0.33332), "materials[1].poissons_ratio", "turn freely");
+  expect_refused(mid_surface("", 0.33332), "materials[1].poissons_ratio", "rotate freely");
 }
 
 TEST(ShellRules, PlanesOfSymmetryAcrossACylinderLieAtItsTop) {
@@ -40,7 +40,8 @@ TEST(ShellRules, PlanesOfSymmetryAcrossACylinderLieAtItsTop) {
     return fmt::format("[[symmetry]]\naxis = \"{}\"\nat = {}\n", axis, at);
   };
   EXPECT_NO_THROW(build_model(mid_surface("radius = 5.0\n", 0.1, plane("x", 0) + plane("y", 4))));
-  expect_refused(mid_surface("radius = 5.0\n", 0.1, plane("x", 8)), "symmetry[1]", "at its top");
+  expect_refused(mid_surface("radius = 5.0\n", 0.1, plane("x", 8)), "symmetry[1]",
+                 "away from its top");
   EXPECT_NO_THROW(build_model(mid_surface("", 0.1, plane("x", 8))));
 }
 

@@ -33,7 +33,7 @@ TEST(SolidBoxes, AreTheRegionsWithoutTheHoles) {
   input.regions[3].box = {{40, 30, 0}, {90, 50, 0}};  // beside the strip
   EXPECT_EQ(boxes_of(input, 0).size(), 1u);
   input.materials[0].holes = {"strip"};
-  test::expect_refused(input, "materials[1].holes", "take all of the material away");
+  test::expect_refused(input, "materials[1].holes", "remove all of the material");
 }
 
 /// A hole is what four boxes around it leave out.

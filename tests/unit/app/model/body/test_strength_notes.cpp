@@ -49,8 +49,9 @@ TEST(StrengthNotes, DoubtUnitsOfDifferentSystems) {
 
 TEST(StrengthNotes, TellWhereTheHorizonMakesBrittleBondsTooStrong) {
   EXPECT_THAT(strength_notes(brittle(61.0), modulus, 0.4, 100.0),
-              ElementsAre(HasSubstr("above 0.002: brittle bonds have it by fracture_energy and "
-                                    "horizon, the more the shorter that is")));
+              ElementsAre(HasSubstr(
+                  "above 0.002: the strength of brittle bonds follows from fracture_energy and "
+                  "horizon and grows as the horizon shrinks")));
   EXPECT_THAT(strength_notes(brittle(59.0), modulus, 0.4, 100.0), IsEmpty());
 }
 

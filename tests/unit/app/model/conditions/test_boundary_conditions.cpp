@@ -128,7 +128,8 @@ TEST(BoundaryConditions, ForcesOnWhatIsDrivenAreNoted) {
   driven.region = "upper end";
   driven.value[1] = -0.2;
   input.displacements.push_back(driven);
-  const auto is_note = testing::Contains(testing::HasSubstr("driven along them"));
+  const auto is_note =
+      testing::Contains(testing::HasSubstr("prescribed displacements in their direction"));
   EXPECT_THAT(build_model(input).notes, is_note);
   input.displacements[0].value = {};
   input.displacements[0].value[0] = 0.2;
@@ -213,7 +214,7 @@ TEST(BoundaryConditions, BodiesInMotionAreHeldByTheirInertia) {
   const Model pinned = build_model(input);
   EXPECT_EQ(pinned.unknowns.count, 2 * 45);
   EXPECT_THAT(pinned.notes, testing::Contains(testing::HasSubstr("no particle is held")));
-  EXPECT_THAT(pinned.notes, testing::Contains(testing::HasSubstr("is taken out of them")));
+  EXPECT_THAT(pinned.notes, testing::Contains(testing::HasSubstr("is subtracted from them")));
   const LoadResultant sum = load_resultant(pinned.network, pinned.loads);
   EXPECT_NEAR(sum.force[0], 0.0, 1e-13);
   EXPECT_NEAR(sum.force[1], 0.0, 1e-13);
@@ -229,7 +230,7 @@ TEST(BoundaryConditions, BodiesInMotionAreHeldByTheirInertia) {
   EXPECT_THAT(build_model(input).notes,
               testing::Contains(testing::HasSubstr("resists 1 rigid-body mode of the body")));
   input.analysis.rigid_body_modes = RigidBodyModes::pin;
-  expect_refused(input, "analysis.rigid_body_modes", "leave it out");
+  expect_refused(input, "analysis.rigid_body_modes", "delete the key");
 }
 
 TEST(BoundaryConditions, PinnedBodiesNeedBalancedLoads) {

@@ -288,7 +288,7 @@ TEST(Loads, PointMomentsTurnMicropolarParticles) {
   EXPECT_EQ(model.reference.value, 6.0);
   input.body.micromodulus = Constants::continuum;
   input.materials[0].poissons_ratio = 1.0 / 3.0;
-  expect_refused(input, "point_loads[1].moment", "resist no rotation");
+  expect_refused(input, "point_loads[1].moment", "have no rotational stiffness");
 }
 
 }  // namespace

@@ -264,7 +264,7 @@ TEST(Configure, OutlinesThatMissTheLatticeAreRefused) {
 TEST(Configure, BodiesThatCannotBreakAreRefusedInADamageAnalysis) {
   CaseFile input = strip_case();
   input.materials[0].fracture_energy = INFINITY;
-  expect_refused(input, "materials[1].fracture_energy", "nothing can break");
+  expect_refused(input, "materials[1].fracture_energy", "needs a material that can break");
   input.analysis.type = AnalysisType::elastic;
   EXPECT_NO_THROW(build_model(input));
   CaseFile barred = barred_case();  // its bar can yield
@@ -288,7 +288,7 @@ TEST(Configure, WhatCalibrationDoesNotChangeIsRefusedBeforeIt) {
   refuses(free, "analysis", "6 of the 6 rigid-body modes of the body are free");
   CaseFile unbreakable = prism_case();
   unbreakable.materials[0].fracture_energy = std::numeric_limits<double>::infinity();
-  refuses(unbreakable, "materials[1].fracture_energy", "nothing can break");
+  refuses(unbreakable, "materials[1].fracture_energy", "needs a material that can break");
   CaseFile measured = prism_case();
   GaugeSection far;
   far.name = "far";
