@@ -289,9 +289,8 @@ class Relaxation {
   const RelaxationOptions& options_;
   BondRunObserver& observer_;
   MovingBonds body_;
-  std::vector<double> before_;  ///< internal forces of the last iteration
-  std::vector<double> first_,
-      first_force_;             ///< displacement and force where measuring the damping began
+  std::vector<double> before_;               ///< internal forces of the last iteration
+  std::vector<double> first_, first_force_;  ///< motion and force where damping was restarted
   std::vector<double> weight_;  ///< factors of squared forces and moments, per component
   std::vector<RestSums> rest_;  ///< per block
   Separation separation_;
