@@ -126,7 +126,7 @@ class Relaxation {
     ++result_.iterations;
   }
 
-  /// Decides whether the body is at rest and how it is damped.
+  /// Decides whether the body is in equilibrium and how it is damped.
   void judge(const RestSums& all) {
     const double rest = std::sqrt(all.residual);
     most_held_ = std::max(most_held_, all.held);
@@ -247,7 +247,7 @@ class Relaxation {
         return collapse("the body is in pieces and no longer resists the displacements");
       }
       if (step_ + 1 == options_.load_factors.size()) return note_end();
-      // Load steps may be at rest from the beginning.
+      // Load steps may be in equilibrium from the beginning.
       if (observer_.stop_requested()) end(Termination::interrupted, "interrupted");
     });
   }

@@ -24,8 +24,8 @@ struct RowSums {
   double external_work = 0.0;      ///< work of the prescribed motions
   double internal_damping = 0.0;
   double external_damping = 0.0;
-  double fractured = 0.0;  ///< stored energy lost while damage grew at rest
-  double plastic = 0.0;    ///< stored energy lost while particles flowed at rest
+  double fractured = 0.0;  ///< stored energy lost by damage at fixed displacements
+  double plastic = 0.0;    ///< stored energy lost by flow at fixed displacements
 };
 
 /// Force on the prescribed particles of a row in one step.
