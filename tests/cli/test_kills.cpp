@@ -22,7 +22,7 @@ struct Campaign {
 
 void PrintTo(const Campaign& campaign, std::ostream* stream) { *stream << campaign.name; }
 
-/// A notched strip in elements that let go of their particles too late: the run begins again and
+/// A notched strip in elements that release their particles too late: the run begins again and
 /// takes back the files that it has written.
 constexpr const char* late_elements_case = R"(regions = [
   {name = "strip", x = [0, 80], y = [0, 80]},

@@ -336,7 +336,7 @@ TEST_F(Program, ExplicitRunsWriteTheFilesOfTheContract) {
                            "fields_000000.vtu", "log.txt"}) {
     EXPECT_TRUE(names().contains(place + name)) << name;
   }
-  // Strain 0.04 over 1.8 between the grips, E = 100, height 1: the body is one half row stiffer.
+  // Strain 0.04 over 1.8 between the clamps, E = 100, height 1: the body is one half row stiffer.
   EXPECT_NEAR(-summary["peak_reaction"].get<double>(), 100.0 * 0.04 / 1.8, 0.15 * 2.22);
   EXPECT_LT(summary["energy_error"].get<double>(), 1e-3);
   ASSERT_EQ(run({"run", place + "case.toml", "--out", "again"}).exit_status, 0);

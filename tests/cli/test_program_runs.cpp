@@ -249,9 +249,9 @@ void PrintTo(const BarCase& bar, std::ostream* stream) { *stream << bar.pattern;
 
 class ElasticBars : public ProgramRuns, public testing::WithParamInterface<BarCase> {};
 
-/// A bond lattice is a cubic crystal: along the cubes' edges its Young's modulus is
-/// (C11 - C12) (C11 + 2 C12) / (C11 + C12) with C11 ~ sum x^4 / xi^3 and C12 ~ sum x^2 y^2 / xi^3
-/// over the family, scaled so that C11 + 2 C12 = 2 E. Particles at the surface lack bonds, which
+/// A bond lattice is a cubic crystal: along the cubes' edges its Young's modulus is (C11 - C12)
+/// (C11 + 2 C12) / (C11 + C12) with C11 ~ sum x^4 / xi^3 and C12 ~ sum x^2 y^2 / xi^3 over the
+/// neighbourhood, scaled so that C11 + 2 C12 = 2 E. Particles at the surface lack bonds, which
 /// softens the bar in proportion to horizon / width; two spacings extrapolate to none of that. What
 /// is left is quadratic in the spacing.
 TEST_P(ElasticBars, StretchByForceTimesLengthOverStiffness) {

@@ -169,14 +169,15 @@ TEST(ReinforcedBars, AShortBarFollowsTheModelCode) {
   const double surface = perimeter * 10.0;
   double work = 0.0, slip = 0.0;
   for (const StepRecord& row : rows.rows) {
-    // Both nodes fall from tooth to tooth: the stress moves about the curve.
+    // Both nodes fall from segment to segment: the stress moves about the curve.
     EXPECT_NEAR(row.load / surface, curve.force(row.displacement), 0.055 * 15.0)
         << row.displacement;
     work = row.external_work;
     slip = row.displacement;
   }
   EXPECT_NEAR(result.peak_load / surface, 15.0, 0.05 * 15.0);
-  // The path through the events runs along the tops of the teeth, half a ripple above the curve.
+  // The path through the events runs along the tops of the segments, half a overshoot above the
+  // curve.
   EXPECT_GT(work / surface, curve.area(slip));
   EXPECT_LT(work / surface, 1.025 * curve.area(slip));
   EXPECT_LT(result.energy_error, 1e-9);

@@ -84,7 +84,7 @@ TEST(Splm2018, ConsistentRulesReachTheTensileStrengthAndKeepTheirEnergy) {
   EXPECT_LT(run.result.largest_surplus, 1e-4);
 }
 
-/// At 0 degrees 16 columns of 0.01 m and one less in turn, but for half a column at each side.
+/// At 0 degrees 16 columns of 0.01 m and one less in turn, except for half a column at each side.
 TEST(Splm2018, TheSectionOfTheBlockIsThatOfItsColumns) {
   EXPECT_NEAR(mean_section(spaced_tension_test(0.0, 0.01)), 0.15 * 0.145, 1e-9);
   EXPECT_NEAR(mean_section(spaced_tension_test(0.0, 0.005)), 0.15 * 0.1525, 1e-9);
@@ -125,7 +125,7 @@ TEST(Splm2018, TheDiscOfThePaperSplits) {
   EXPECT_NEAR(run.peak_force, 98e3, 5e3);
 }
 
-/// However the rows lie, by the consistent rules the disc bears what the same law bears in a
+/// However the rows lie, by the consistent rules the disc carries what the same law carries in a
 /// continuum between platens of that width, less what flow under them takes, 1 to 2 %, and what
 /// columns of 0.005 m do not resolve.
 TEST(Splm2018, TheDiscBearsWhatItsLawDoes) {

@@ -171,7 +171,7 @@ TEST(Segments, AllButTheLastRiseByTheRipple) {
       const std::vector<Segment> segments = segments_of(saw_tooth_of(curve, overshoot));
       for (std::size_t k = 0; k < segments.size(); ++k) {
         const double rise = segments[k].secant * segments[k].limit - curve.force(segments[k].limit);
-        // The ends of teeth are halved down to 1e-12 of themselves.
+        // The ends of segments are halved down to 1e-12 of themselves.
         EXPECT_LT(rise, overshoot * (1.0 + 1e-8)) << each << ", tooth " << k;
         if (k + 1 < segments.size()) {
           EXPECT_NEAR(rise, overshoot, 1e-8 * overshoot) << each << ", tooth " << k;
@@ -211,7 +211,7 @@ TEST(Segments, AreMoreWhereTheyMayRiseLess) {
   }
 }
 
-/// The force is constant up to the end; every tooth but the last takes what lies between its
+/// The force is constant up to the end; every segment but the last takes what lies between its
 /// unloading lines, sqrt(S_k S_(k+1)) its limit, and all together take the area.
 /// Up to 1e10 times the elastic energy all curves have secants; where round-off hides their fall
 /// the search for these ends by a refusal.

@@ -94,7 +94,7 @@ TEST(FundamentalPeriod, FreeBodiesHaveNone) {
   number(body, [](Index, int) { return false; });
   const Inertia inertia = lumped_inertia(body.network, std::vector{1.0});
   EXPECT_THROW(period_of(body, inertia), SolverError);
-  // But for their rigid motions, of which there are three.
+  // Except for their rigid motions, of which there are three.
   const std::vector<std::uint8_t> held(body.unknowns.number.size(), 0);
   const std::vector<Fragment> parts = find_fragments(body.network, held);
   ASSERT_EQ(parts.size(), 1U);

@@ -67,7 +67,7 @@ TEST(DamageAnalysis, CollapsesExactlyWhenTheLastLoadPathGoes) {
   EXPECT_EQ(recorder.broken_at_end, 1) << "the body before it separated";
 }
 
-/// Four chains break at a displacement of 0.01 under half of that each; the fifth bears 0.2.
+/// Four chains break at a displacement of 0.01 under half of that each; the fifth carries 0.2.
 TEST(DamageAnalysis, TellsTheFirstPeakFromWhatIsBorneAfterwards) {
   AnalysisBody body = make_chains(2, 5, true, 1.0, infinity);
   for (int row = 0; row < 5; ++row) {
@@ -159,7 +159,7 @@ TEST(DamageAnalysis, StopsWhenTheObserverAsks) {
 }
 
 /// Asked before the second event of a step, the run ends with a row at the load that the body as it
-/// stands bears.
+/// stands carries.
 TEST(DamageAnalysis, AnObserverThatFailsLeavesWhatWasFound) {
   class FullDisk final : public StepObserver {
    public:
@@ -248,8 +248,8 @@ TEST(DamageAnalysis, StepsBreakWhatEventsBreak) {
   EXPECT_EQ(back.rows[1].broken_bonds, 2);
 }
 
-/// Under a constant force of 0.016 the square loses a horizontal bond and cannot bear that force
-/// any more: the last row is that of the body before it separated, at the 0.01 that it can bear.
+/// Under a constant force of 0.016 the square loses a horizontal bond and cannot carry that force
+/// any more: the last row is that of the body before it separated, at the 0.01 that it can carry.
 TEST(DamageAnalysis, StepsCollapseWithinAStep) {
   Recorder recorder;
   const DamageResult result = run(make_square(), by_steps({0.012, 0.016, 0.02}), recorder);
@@ -271,10 +271,11 @@ TEST(DamageAnalysis, StepsCollapseWithinAStep) {
   EXPECT_NEAR(fallen.released_energy, followed.released_energy, 1e-15);
 }
 
-/// A saw-tooth that stands for a plateau (see test_single_event_engine.cpp): after n teeth the bar
-/// has lost exactly what the plateau dissipates up to the strain s_y r^n, k_b s_y^2 (r^n - 1) / 2.
-/// The path drawn through the peaks of the teeth lies above by the ripple: here, with one unknown,
-/// lambda_k grows with the pivot so that each event dissipates r times the energy released.
+/// A saw-tooth that stands for a plateau (see test_single_event_engine.cpp): after n segments the
+/// bar has lost exactly what the plateau dissipates up to the strain s_y r^n, k_b s_y^2 (r^n - 1) /
+/// 2. The path drawn through the peaks of the segments lies above by the overshoot: here, with one
+/// unknown, lambda_k grows with the pivot so that each event dissipates r times the energy
+/// released.
 TEST(DamageAnalysis, YieldingBarDissipatesThePlateau) {
   constexpr double strain = 0.01, r = 1.05, stiffness = 2.0;
   const BarMaterial bar{stiffness, 1.0, stiffness * strain, false};

@@ -68,7 +68,8 @@ TEST(EventPath, IsEmptyWhereRowsAreNoSingleEvents) {
   EXPECT_TRUE(event_path({}).empty());
 }
 
-/// Forces work beside the reactions of driven displacements: load times displacement lacks that.
+/// Forces work beside the reactions of prescribed displacements: load times displacement lacks
+/// that.
 TEST(EventPath, IsEmptyWhereTheAxesMissWork) {
   std::vector<StepRecord> records = make_path(50, true);
   for (StepRecord& record : records) record.strain_energy *= 1.01;
@@ -94,7 +95,7 @@ TEST(Envelope, DissipatesWhatTheEventsDissipateInEveryWindow) {
   }
 }
 
-/// Under driven displacements as under forces: nothing is drawn that no row has reached.
+/// Under prescribed displacements as under forces: nothing is drawn that no row has reached.
 TEST(Envelope, LiesNowhereBeyondTheRowsOfItsWindow) {
   for (const bool driven : {false, true}) {
     const std::vector<CurvePoint> path = event_path(make_path(1001, driven));
@@ -113,7 +114,8 @@ TEST(Envelope, LiesNowhereBeyondTheRowsOfItsWindow) {
   }
 }
 
-/// Displacement over load factor is the same in all rows of a driven body but for its last digit.
+/// Displacement over load factor is the same in all rows of a displacement-controlled body except
+/// for its last digit.
 TEST(Envelope, MakesNoPointOfRoundOff) {
   std::vector<CurvePoint> path;
   for (int k = 0; k < 400; ++k) {
@@ -186,7 +188,7 @@ TEST(Envelope, PassesOverSingleTeeth) {
     const double load = k % 10 == 5 ? 6.0 : 3.0;
     path.push_back({load * (1.0 + k), load});
   }
-  // Two of ten events have one end on the tooth: load^2 = (8 * 3 * 3 + 2 * 3 * 6) / 10.
+  // Two of ten events have one end on the segment: load^2 = (8 * 3 * 3 + 2 * 3 * 6) / 10.
   EXPECT_NEAR(smoothed_peak(path).value(), std::sqrt(10.8), 1e-12);
   EXPECT_FALSE(smoothed_peak(std::span(path).first(20))) << "one window is no curve";
 }
@@ -201,7 +203,7 @@ TEST(Envelope, HasNoPeakWhereWindowsWithoutAPointBearMore) {
   EXPECT_FALSE(smoothed_peak(path));
 }
 
-/// What is left of a body bears more, in as many events again.
+/// What is left of a body carries more, in as many events again.
 TEST(ResidualStrength, BeginsWhereTheBodyGaveWay) {
   std::vector<CurvePoint> path;
   for (int k = 0; k <= 4; ++k) path.push_back({1.0 + k, 3.0});
@@ -243,7 +245,7 @@ TEST(PeakWatch, ABodyThatGivesWayAndStaysWeakHasOnePeak) {
   EXPECT_EQ(peaks.highest().load, 5.0);
 }
 
-/// A test whose displacement only grows sees nothing of teeth that snap back and come again.
+/// A test whose displacement only grows sees nothing of segments that snap back and come again.
 TEST(PeakWatch, PassesOverTeethThatSnapBack) {
   const PeakWatch peaks =
       watch({{1.0, 5.0}, {0.3, 1.4}, {0.2, 0.9}, {1.2, 5.2}, {0.4, 1.6}, {1.4, 5.4}});

@@ -70,7 +70,7 @@ TEST(StagedRun, LoadsAPrestressedTruss) {
   EXPECT_NEAR(recorder.rows[1].load_factor, 0.02, 1e-15);
   EXPECT_NEAR(recorder.rows[1].load, 0.04, 1e-15);
   EXPECT_NEAR(recorder.rows[1].displacement, 0.01, 1e-15);
-  // Rows are independent: the other one breaks at the same force. What is left of the first bears
+  // Rows are independent: the other one breaks at the same force. What is left of the first carries
   // F = 0.02 by a right bond that is shortened by 0.01.
   EXPECT_NEAR(recorder.rows[2].load_factor, 0.02, 1e-15);
   EXPECT_NEAR(recorder.rows[2].strain_energy, 2.0 * 0.01 * 0.01, 1e-15);
@@ -79,7 +79,7 @@ TEST(StagedRun, LoadsAPrestressedTruss) {
   EXPECT_LT(result.energy_error, 1e-12);
 }
 
-/// Chains of two bonds of stiffness 2 and limit 0.01 whose ends bear 0.01 each, are gripped where
+/// Chains of two bonds of stiffness 2 and limit 0.01 whose ends carry 0.01 each, are gripped where
 /// that moves them, and driven: bonds are at their limits after another 0.01.
 TEST(StagedRun, GripsABodyWhereItIs) {
   AnalysisBody body = make_chains(2, 2, false, 2.0, 0.01);
@@ -102,7 +102,7 @@ TEST(StagedRun, GripsABodyWhereItIs) {
 }
 
 /// make_square() under a dead load of up to 0.03 each: a horizontal bond breaks at 0.015; then its
-/// end would move by 0.03, three halves of what the diagonal bears.
+/// end would move by 0.03, three halves of what the diagonal carries.
 TEST(StagedRun, AConstantLoadThatIsTooBigMakesAnAvalanche) {
   AnalysisBody body = make_square();
   body.sets = {set_of(body)};
@@ -119,9 +119,9 @@ TEST(StagedRun, AConstantLoadThatIsTooBigMakesAnAvalanche) {
   EXPECT_LT(result.energy_error, 1e-12);
 }
 
-/// The same under dead loads that the growing ones relieve: the lower end bears 0.014 - lambda, the
-/// upper one 0.012 + lambda / 10. At lambda = 0.03 the upper bond breaks; its diagonal would need
-/// lambda <= -0.02, the lower bond lambda >= -0.001.
+/// The same under dead loads that the growing ones relieve: the lower end carries 0.014 - lambda,
+/// the upper one 0.012 + lambda / 10. At lambda = 0.03 the upper bond breaks; its diagonal would
+/// need lambda <= -0.02, the lower bond lambda >= -0.001.
 TEST(StagedRun, WithoutAnAdmissibleLoadFactorElementsBreakAtTheLastOne) {
   AnalysisBody body = make_square();
   LoadCase dead = set_of(body), growing = set_of(body);

@@ -41,7 +41,7 @@ TEST_F(RelaxationRun, WritesARowAndFieldsForEachLoadStep) {
   EXPECT_DOUBLE_EQ(table.rows[1][load], 2.0 * table.rows[0][load]);
   EXPECT_EQ(table.rows[1][time], 2.0);
   EXPECT_EQ(run.series().size(), 2U);
-  // The reaction bears the load, to the tolerance.
+  // The reaction carries the load, to the tolerance.
   const double last = std::abs(table.rows[1][load]);
   EXPECT_NEAR(std::abs(run.summary.json["peak_reaction"].get<double>()), last, 1e-6 * last);
 }

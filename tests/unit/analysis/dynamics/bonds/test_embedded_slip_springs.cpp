@@ -41,7 +41,7 @@ BondMotion motion_of(const Network& network, double size, double speed) {
   return motion;
 }
 
-/// What the implicit analysis finds, anchors and all.
+/// What the implicit analysis finds, embedded points and all.
 InternalForce expected_of(const Network& network, const std::vector<double>& secants,
                           std::vector<double> motion) {
   follow_particles(network, motion);

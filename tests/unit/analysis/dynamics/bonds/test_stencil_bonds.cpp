@@ -79,7 +79,7 @@ TEST_P(StencilBodies, PartsMakeTheWhole) {
   EXPECT_EQ(parts->secants(), whole->secants());
 }
 
-/// Also where every bond is at its limit but for the last bits.
+/// Also where every bond is at its limit except for the last bits.
 TEST_P(StencilBodies, BothHalvesBreakInTheSameStep) {
   const double strain = network_.critical_stretch[0];
   const int dim = network_.dim();

@@ -41,7 +41,7 @@ TEST(LatticeYielding, ReturnsInteriorParticlesToTheYieldSurface) {
         EXPECT_GT(yield, 22.98e6);
         EXPECT_NEAR(state.flow.yield[slot], yield, 1e-15 * yield);
         // Bonds stretch by their true lengths, squares of 2e-3, which plastic strains do not have;
-        // a whole family's fit of them is the strain that the return saw.
+        // a whole neighbourhood's fit of them is the strain that the return saw.
         EXPECT_NEAR(mises_stress(particles.stress(state, neighbourhood)), yield, 1e-9 * yield);
       });
       EXPECT_GT(interior, 20);

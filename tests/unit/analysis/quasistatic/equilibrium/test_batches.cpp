@@ -59,8 +59,8 @@ class FollowedBody {
     equilibrium->move_to(stage_load_factor);
   }
 
-  /// Elements that may fail, are not broken and do not bear on closed cracks; some break, others go
-  /// on with less than they have.
+  /// Elements that may fail, are not broken and do not carry on closed cracks; some break, others
+  /// go on with less than they have.
   std::vector<Weakening> random_batch(std::size_t count, unsigned seed) const {
     const Secants secants = equilibrium->secants();
     std::vector<Weakening> all, batch;

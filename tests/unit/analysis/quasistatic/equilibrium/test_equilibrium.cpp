@@ -116,7 +116,8 @@ TEST(Equilibrium, UnknownsThatHoldNothingAreNotTaken) {
   }
 }
 
-/// The reactions of a driven body follow the events; they are those of the elements at any of them.
+/// The reactions of a displacement-controlled body follow the events; they are those of the
+/// elements at any of them.
 TEST(Equilibrium, WorkOfADrivenBodyFollowsItsEvents) {
   for (const bool micropolar : {false, true}) {
     BlockCase block{rectangular, true};

@@ -43,7 +43,7 @@ AnalysisBody make_pair(double rest, double bending = 0.0) {
   return body;
 }
 
-/// The pivot is rest / (1 + rest), however small: what remains bears the load at u = 1 / rest.
+/// The pivot is rest / (1 + rest), however small: what remains carries the load at u = 1 / rest.
 TEST(Separation, WhatIsWeakStillHolds) {
   for (const double bending : {0.0, 2.0}) {
     for (const double rest : {1e-3, 1e-8, 1e-13, 1e-20}) {
@@ -82,8 +82,8 @@ TEST(Separation, WhatIsNotThereHoldsNothing) {
 }
 
 /// Particle 0 at the origin, pulled or driven by 1 along x and held by a bond of stiffness 1; two
-/// across it, as those along a row of a mesh, are parallel but for `tilt` and hold it by twice the
-/// square of that. Driven, it moves nothing that is free.
+/// across it, as those along a row of a mesh, are parallel except for `tilt` and hold it by twice
+/// the square of that. Driven, it moves nothing that is free.
 AnalysisBody make_row(double tilt, bool driven) {
   Network network;
   network.particles.dim = network.bonds.dim = 2;
@@ -143,7 +143,8 @@ TEST(Separation, WeakSupportsHoldNothing) {
   }
 }
 
-/// Round-off leaves 1e-16 times stiffness times displacement of a driven body's reactions.
+/// Round-off leaves 1e-16 times stiffness times displacement of a displacement-controlled body's
+/// reactions.
 TEST(Separation, DrivenBodiesThatNothingHoldsDoNoWork) {
   AnalysisBody body = make_slender({150, 3, SlenderLoad::driven_across});
   SingleEventEngine engine = make_engine(body, FactorRoute::in_place);

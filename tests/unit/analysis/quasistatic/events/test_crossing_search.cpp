@@ -77,7 +77,7 @@ TEST_P(Crossings, AheadIsWhereTheFirstElementBeginsToFail) {
   }
 }
 
-/// A body that moves as a whole, but for the last digits, stretches no bond.
+/// A body that moves as a whole, except for the last digits, stretches no bond.
 TEST_P(Crossings, RoundOffOfARigidMotionNeverFails) {
   CrossingSearch search(network_);
   const std::vector<double> now(slots_, 0.0);

@@ -52,7 +52,7 @@ TEST_P(EveryDimension, FindsTheLargestRatioAgainAndAgain) {
 /// Also elements that have events in compression.
 TEST_P(EveryDimension, ListsAllThatReachARatio) {
   Network network = make_network(GetParam(), 4);
-  network.laws.push_back(BondLaw::plateau(1.44));  // the first tooth ends at 1.2
+  network.laws.push_back(BondLaw::plateau(1.44));  // the first segment ends at 1.2
   network.law_of.assign(static_cast<std::size_t>(network.num_elements()), 0);
   for (Index e = 0; e < network.num_elements(); e += 3) network.law_of[e] = 1;
   LimitSearch search(network);
@@ -80,7 +80,7 @@ TEST_P(EveryDimension, ListsAllThatReachARatio) {
 TEST(LimitSearch, TiesAcrossSensesGoToTheLowestNumber) {
   for (const Index yielding : {0, 1}) {
     Network network = make_network({"", Pattern::rectangular, Surface::none}, 2);
-    network.laws.push_back(BondLaw::plateau(1.21));  // the first tooth ends at 1.1
+    network.laws.push_back(BondLaw::plateau(1.21));  // the first segment ends at 1.1
     network.law_of.assign(static_cast<std::size_t>(network.num_elements()), 0);
     network.law_of[yielding] = 1;
     network.critical_stretch.assign(network.law_of.size(), INFINITY);

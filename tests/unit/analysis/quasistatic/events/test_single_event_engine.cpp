@@ -17,7 +17,7 @@ AnalysisBody make_yielding_bar(double yield_strain) {
   return make_chains(2, 2, true, 1.0, infinity, {{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}}}, bar);
 }
 
-/// With secant a the free particle moves by 1 / (2 + 2 a). Tooth k ends at s_k = s_y sqrt(r) r^k,
+/// With secant a the free particle moves by 1 / (2 + 2 a). Segment k ends at s_k = s_y sqrt(r) r^k,
 /// where the bar carries sqrt(r) times its yield force; there the secant falls to r^-(k+1).
 TEST(SingleEventEngine, BarYieldsAlongTheSawTooth) {
   constexpr double strain = 0.01, r = 1.05;
@@ -44,7 +44,7 @@ TEST(SingleEventEngine, BarYieldsAlongTheSawTooth) {
 
 /// Two bonds of unit stiffness and length in series, beside a row that stays elastic, whose end is
 /// moved by lambda, with secants a of the first and 1 of the second: the first stretches by lambda
-/// / (1 + a). Its teeth end at 0.01, 0.014 and 0.03 (lambda = 0.02, 0.0224, 0.036) before the
+/// / (1 + a). Its segments end at 0.01, 0.014 and 0.03 (lambda = 0.02, 0.0224, 0.036) before the
 /// second reaches 0.01.
 TEST(SingleEventEngine, BondsLoseTheirStiffnessToothByTooth) {
   AnalysisBody body = make_chains(2, 2, true, 1.0, 0.01);

@@ -73,7 +73,7 @@ AnalysisBody scaled(AnalysisBody body, double factor) {
   return body;
 }
 
-/// Loaded twice as much as the first bond bears in static equilibrium.
+/// Loaded twice as much as the first bond carries in static equilibrium.
 AnalysisBody overloaded(const AnalysisBody& body) {
   const Network& network = body.network;
   const Eigen::VectorXd motion = dense_displacement(body, intact(network));
@@ -96,7 +96,7 @@ const LatticeCase cube{"cube", Pattern::cubic, Surface::none};
 
 class BondRuns : public testing::TestWithParam<BlockCase> {};
 
-/// The balance is exact but for round-off, elastic or breaking, damped or not.
+/// The balance is exact except for round-off, elastic or breaking, damped or not.
 TEST_P(BondRuns, EnergyIsAccountedFor) {
   const AnalysisBody body = overloaded(make_block(GetParam()));
   for (const double rate : {0.0, 3.0}) {

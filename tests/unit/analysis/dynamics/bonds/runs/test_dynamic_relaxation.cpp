@@ -140,7 +140,7 @@ TEST(DynamicRelaxation, BondsBreakBetweenLoadSteps) {
   EXPECT_EQ(outcome.recorder.ends, 1);
   double peak = 0.0;
   for (const ExplicitRecord& row : outcome.recorder.rows) peak = std::max(peak, row.load);
-  // Load steps of a sixtieth of what the chain bears; the motion between them overshoots.
+  // Load steps of a sixtieth of what the chain carries; the motion between them overshoots.
   EXPECT_NEAR(peak, 2.0 * stiffness * limit, 0.05 * 2.0 * stiffness * limit);
   EXPECT_GE(outcome.result.last.broken_bonds, 2);
   EXPECT_NEAR(outcome.result.last.load, 0.0, 1e-6);
