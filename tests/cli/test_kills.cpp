@@ -118,7 +118,7 @@ TEST_P(Kills, LeaveEveryFileWhole) {
   EXPECT_GT(killed, GetParam().kills / 4) << "the moments lie within the run";
   EXPECT_GT(with_results, GetParam().kills / 10);
 
-  // Whatever is left: the next run takes its place, and temporaries go.
+  // The next run replaces the remains and removes temporary files.
   write_text(work() / "r/summary.json.0123abcd.part", "half a fi");
   std::vector<std::string> again = words;
   again.emplace_back("--force");

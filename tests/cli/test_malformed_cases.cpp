@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(Program, MalformedProcess, testing::ValuesIn(all_entrie
 
 class BaseCase : public testing::TestWithParam<std::filesystem::path> {};
 
-/// What is refused, is refused for the edit.
+/// The unedited case is accepted, so the edit is the cause of the refusal.
 TEST_P(BaseCase, IsAcceptedByReader) { EXPECT_NO_THROW(read_case_file(GetParam().string())); }
 
 INSTANTIATE_TEST_SUITE_P(Text, BaseCase,

@@ -123,7 +123,7 @@ TEST_F(ProgramRuns, KeepTheirResultsWhenTheirTerminalIsClosed) {
   EXPECT_EQ(summary("r")["status"], "interrupted");
 }
 
-/// What nobody reads is no reason to lose results.
+/// A closed pipe on standard output does not stop a run.
 TEST_F(ProgramRuns, EndWellWhenNobodyReadsTheirOutput) {
   write_text(work() / "small.toml", small_ghost_case);
   const std::string command = "cd " + work().string() + " && (" + PERILINK_PROGRAM +
@@ -289,7 +289,8 @@ INSTANTIATE_TEST_SUITE_P(Patterns, ElasticBars,
                                                  0.8364}),
                          [](const auto& bar) { return std::string(bar.param.pattern); });
 
-/// A cantilever of unit height, held at x <= 3 and loaded or driven across at its last two columns.
+/// A cantilever of unit height, fixed at x <= 3, with a load or a displacement across its last two
+/// columns.
 std::string cantilever_case(int length, const std::string& load, const std::string& analysis) {
   return fmt::format(R"([body]
 surface = "none"
@@ -365,7 +366,7 @@ TEST_F(ProgramRuns, AnEquilibriumThatRoundOffHasLostIsAFailure) {
   EXPECT_EQ(summary("r")["status"], "failed");
 }
 
-/// What is left of the load in the last row is zero, not round-off, and in the picture too.
+/// The load in the last row is zero, not round-off, also in the picture.
 TEST_F(ProgramRuns, ASeparatedBodyBearsNoLoad) {
   const std::string drive = "[[displacements]]\nregion = \"right\"\ny = -1";
   write_text(work() / "driven.toml", cantilever_case(60, drive, "damage"));

@@ -117,7 +117,7 @@ TEST_P(ExplicitRankRuns, WriteTheSameBytes) {
 
 TEST_F(RankFolder, SayWhatIsWrongOnce) {
   if (!fs::exists(mpi_program())) GTEST_SKIP() << "built without MPI";
-  // No case, a body that can turn, a support beside it.
+  // No case, a body that can turn, a support outside it.
   const std::string held = bar_case(true, "");
   write_text(work() / "free.toml", replaced(held, R"("x", "y", "z")", R"("x")"));
   write_text(work() / "beside.toml", replaced(held, "x = [0, 0]", "x = [-2, -1]"));
@@ -236,7 +236,7 @@ TEST_F(RankFolder, HaveOneCommandAlone) {
 }
 
 TEST_F(RankFolder, WithoutMpiTheFirstSaysSo) {
-  // A copy, beside which there is no perilink-mpi.
+  // A copy without perilink-mpi in its folder.
   fs::copy_file(PERILINK_PROGRAM, work() / "perilink");
   const std::string command = "cd '" + work().string() + "' && OMPI_COMM_WORLD_SIZE=2 " +
                               "OMPI_COMM_WORLD_RANK=0 ./perilink --version 2>err >out";

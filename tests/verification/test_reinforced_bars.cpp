@@ -81,7 +81,7 @@ double force_of_unit_motion(const AnalysisBody& body) {
   return 2.0 * run_elastic_analysis(body).strain_energy;
 }
 
-/// Both ends are driven as planes: concrete and steel share the strain.
+/// Both ends are displaced as planes: concrete and steel share the strain.
 TEST(ReinforcedBars, ACompositeStripIsAsStiffAsItsParts) {
   for (const double y : {50.0, 34.0, 61.7}) {
     Strip strip;

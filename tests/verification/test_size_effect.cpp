@@ -104,7 +104,7 @@ TEST(SizeEffect, FamiliesAreThoseOfABody) {
   }
 }
 
-/// The same mean over a plate's width, by the integral and by the bonds of a fine lattice.
+/// Mean over a plate's width, by the integral and by the bonds of a fine lattice.
 TEST(SizeEffect, PlatesLoseWhatTheirSurfacesTakeAway) {
   constexpr Problem problem = Problem::plane_stress;
   constexpr int ratio = 80;

@@ -84,7 +84,8 @@ TEST(Splm2018, ConsistentRulesReachTheTensileStrengthAndKeepTheirEnergy) {
   EXPECT_LT(run.result.largest_surplus, 1e-4);
 }
 
-/// At 0 degrees 16 columns of 0.01 m and one less in turn, except for half a column at each side.
+/// At 0 degrees there are 16 columns of 0.01 m and 15 in turn, except for half a column at each
+/// side.
 TEST(Splm2018, TheSectionOfTheBlockIsThatOfItsColumns) {
   EXPECT_NEAR(mean_section(spaced_tension_test(0.0, 0.01)), 0.15 * 0.145, 1e-9);
   EXPECT_NEAR(mean_section(spaced_tension_test(0.0, 0.005)), 0.15 * 0.1525, 1e-9);
@@ -96,7 +97,7 @@ TEST(Splm2018, RulesOf2018LoseStrengthAndEnergy) {
   const LatticeTestRun run = run_lattice_test(test);
   // Prototypes of the paper's rules reached 54.7 kN at a quarter of this speed.
   EXPECT_NEAR(run.peak_force, 54.7e3, 0.03 * 54.7e3);
-  // The smaller of two forces is no derivative of an energy, even while nothing is damaged.
+  // The smaller of two forces is not the derivative of an energy, even without damage.
   EXPECT_GT(run.result.largest_surplus, 1e-3);
 }
 
@@ -112,7 +113,7 @@ TEST(Splm2018, TheBlockInCompressionFlowsAtItsStrength) {
   EXPECT_GT(run.result.last.energy.external_work, yield * 0.5e-3) << "it takes plastic work";
 }
 
-/// The papers' rules soften by a factor per step and know no crushing energy.
+/// The papers' rules soften by a factor per step and have no crushing energy.
 TEST(Splm2018, CasesOfThePapersRulesHaveNoCrushingEnergy) {
   EXPECT_FALSE(case_of(compression_test("2018", 0.0)).materials.front().lattice->crushing_energy);
   EXPECT_TRUE(

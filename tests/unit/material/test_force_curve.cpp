@@ -8,7 +8,7 @@
 namespace perilink {
 namespace {
 
-/// What an element of unit stiffness has dissipated when it has passed its first `count` events.
+/// Returns the energy dissipated by an element of unit stiffness after its first `count` events.
 double dissipated(const BondLaw& law, int count) {
   double sum = 0.0;
   for (int k = 0; k < count; ++k) {

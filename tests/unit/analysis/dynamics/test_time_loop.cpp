@@ -12,7 +12,7 @@ namespace {
 
 struct Nothing {};
 
-/// Counts what it is told of.
+/// Observer that counts its calls.
 struct LoopWatcher {
   void on_row(const ExplicitRecord& record, const Nothing&) {
     if (record.step == throws_at) throw std::runtime_error("a full disk");

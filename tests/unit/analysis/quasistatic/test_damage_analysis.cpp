@@ -21,8 +21,8 @@ DamageOptions by_steps(std::vector<double> load_factors) {
   return options;
 }
 
-/// Chains of two bonds between held and driven particles: row r breaks at displacement 2 s_r, each
-/// on its own, whatever the others do. The limits are in no order.
+/// Chains of two bonds between fixed and displaced particles: row r breaks at displacement 2 s_r,
+/// independent of the others. The limits are in no order.
 AnalysisBody make_driven_chains() {
   AnalysisBody body = make_chains(2, 5, true, 1.0, infinity);
   const double limits[] = {0.03, 0.01, 0.05, 0.02, 0.04};
@@ -358,7 +358,7 @@ TEST_P(DamagedBlock, ThreadsDoNotChangeARow) {
   }
 }
 
-/// Without scatter the block is symmetric and elements fail in exact ties.
+/// Without scatter the block is symmetric and elements fail at exactly equal ratios.
 INSTANTIATE_TEST_SUITE_P(DamageAnalysis, DamagedBlock,
                          testing::Values(BlockCase{rectangular}, BlockCase{hexagonal, true, true},
                                          BlockCase{hexagonal_ghost, false, true},

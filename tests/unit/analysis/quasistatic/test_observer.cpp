@@ -14,7 +14,7 @@ TEST(Termination, HasAWordForEveryKind) {
   EXPECT_EQ(to_string(Termination::failed), "failed");
 }
 
-/// An observer that only wants the rows needs no more than on_step.
+/// An observer of rows needs only on_step.
 class Counter final : public StepObserver {
  public:
   void on_step(const StepRecord&, StateSource&) override { ++rows; }

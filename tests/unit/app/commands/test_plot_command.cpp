@@ -71,7 +71,7 @@ TEST_F(Plot, TakesTheFirstPeakFromTheSummary) {
   EXPECT_EQ(drawn(R"("first_peak_load": null)").find("first peak"), std::string::npos);
 }
 
-/// The rows of any run can look like those of single breaks.
+/// Rows of any run can resemble those of single breaks.
 TEST_F(Plot, TakesTheKindOfTheRunFromTheSummary) {
   {
     HistoryFile history(directory_.string(), {});

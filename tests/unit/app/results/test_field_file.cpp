@@ -5,7 +5,7 @@
 namespace perilink {
 namespace {
 
-/// Unit square of four particles with its four sides as bonds, a tie to a bar and one bar segment.
+/// Unit square of four particles with its four sides as bonds, a slip spring and one bar element.
 Network make_square() {
   Network network;
   network.particles.dim = 2;

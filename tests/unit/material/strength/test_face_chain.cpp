@@ -52,8 +52,8 @@ TEST(LayerBonds, AreNoneWhereTheLatticeHasNoLayers) {
   EXPECT_FALSE(layer_bonds(offsets, stiffness, {}, 1.0, {std::cos(0.3), std::sin(0.3), 0.0}));
 }
 
-/// Every bond crosses the face once and no layer is apart from the next: the whole body stretches
-/// alike. Bonds along x break first, and those at an angle carry the less.
+/// Every bond crosses the face once, and layers are adjacent: the whole body stretches uniformly.
+/// Bonds along x break first, and inclined bonds carry less.
 TEST(FaceStrength, OfBrittleBondsIsTheStressAtTheirStretch) {
   // sum of k xi^2 / V: 2 along x, 2 along y, 2 and 2 along the diagonals; without stress across.
   const double normal = 2.0 + 4.0 * 0.25, both = 4.0 * 0.25;

@@ -132,8 +132,8 @@ INSTANTIATE_TEST_SUITE_P(
         BlockCase{{"space", Pattern::cubic, Surface::none}, false, false, 4, 0.1, true}),
     [](const auto& body) { return to_string(body.param) + std::to_string(body.index); });
 
-/// At once to the segment on which they hold, with what they lose counted; compression does
-/// nothing.
+/// Bars fall at once to the segment that resists the demand, and the lost energy is counted;
+/// compression changes nothing.
 TEST(ExplicitBonds, FallToTheToothOnWhichTheyHold) {
   const AnalysisBody body = make_block(
       {{"plane", Pattern::rectangular, Surface::none}, false, false, 6, 0.0, false, true});

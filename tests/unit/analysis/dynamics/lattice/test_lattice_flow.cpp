@@ -67,7 +67,7 @@ TEST(LatticeYielding, StoredEnergyThatIsLostIsPlastic) {
   }
 }
 
-// Also where a body could break: nothing of it is counted as fractured.
+// Also in a breakable body: no energy counts as fractured.
 TEST(LatticeYielding, WorkOfTheForcesAgainstTheFlowIsTheEnergyLost) {
   LatticeMaterial material = yielding_concrete();
   material.breakable = true;

@@ -18,8 +18,8 @@ namespace {
 
 using namespace test;
 
-/// A body of boxes in the plane, unit spacing, bonds of two spacings, held at x = 0 and pulled
-/// across at its right end.
+/// A body of rectangles in the plane, unit spacing, bonds of two spacings, fixed at x = 0 and
+/// pulled across at its right end.
 AnalysisBody make_subdomains(std::vector<Subdomain> solid, double right) {
   LatticeInput input;
   input.pattern = Pattern::rectangular;

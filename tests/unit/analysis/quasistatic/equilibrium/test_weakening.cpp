@@ -57,7 +57,7 @@ TEST(Weakening, ABondThatAloneTurnedAParticleMayBreak) {
   }
 }
 
-/// The same joint with a moment on it: the rotation carries load.
+/// Joint with a moment on it: the rotation carries load.
 TEST(Weakening, ABondThatAloneCarriesAMomentLeavesAMechanism) {
   AnalysisBody body = make_joint();
   body.loads.forces[2] = 0.01;
@@ -74,7 +74,7 @@ TEST(Weakening, ABondThatAloneCarriesAMomentLeavesAMechanism) {
   }
 }
 
-/// A chain of two: what hangs on the broken bond carries the load.
+/// A chain of two: the part beyond the broken bond carries the load.
 TEST(Weakening, TheLastBondOfALoadedPartLeavesAMechanism) {
   Network network = single_frame(3, {1.0, 2.0, 2.0}, 1.0, 2.0);
   AnalysisBody body = free_body(std::move(network));
@@ -98,7 +98,7 @@ TEST(Weakening, ABondBetweenPrescribedParticlesBreaksAndNothingMoves) {
   network.particles.volumes.push_back(1.0);
   network.particles.material.push_back(0);
   network.particles.kind.push_back(ParticleKind::solid);
-  network.bonds.append(network.particles, 1, 2);  // to a particle that moves with the driven one
+  network.bonds.append(network.particles, 1, 2);  // its end moves with the controlled one
   network.stiffness.push_back(1.0);
   network.bending.push_back(3.0);
   network.critical_stretch.push_back(1e-3);

@@ -145,7 +145,7 @@ TEST(CrossingSearch, BreaksTiesByNumberAndForgetsWhatIsBroken) {
   found = search.ahead(now, growing, 1, tie_tolerance, 1);
   EXPECT_EQ(found.element, second);
   EXPECT_NEAR(found.distance, 0.005, 1e-16);
-  // Shortened bonds never fail: nothing happens on the way back.
+  // Shortened bonds never fail: unloading has no event.
   EXPECT_EQ(search.ahead(now, growing, -1, tie_tolerance, 1).element, no_index);
 }
 

@@ -86,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(Lattices, FramesOf,
                                          LatticeCase{"space", Pattern::cubic, Surface::none}),
                          [](const auto& test) { return test.param.name; });
 
-/// Bending alone, and shear of a bond that becomes shorter, break nothing.
+/// Pure bending, and shear of a shortened bond, cause no event.
 TEST(FrameLimitSearch, BondsBreakInTensionOnly) {
   const Network network = single_frame(2, {1.0, 0.0}, 2.0, 3.0);
   FrameLimitSearch search(network);
@@ -102,7 +102,7 @@ TEST(FrameLimitSearch, BondsBreakInTensionOnly) {
   EXPECT_NEAR(hit.ratio, 1e3 * std::sqrt(1e-6 + 1.5 * 0.04 + 1.5 * 0.04 / 12.0), 1e-10);
 }
 
-/// By their axial stretch alone, whatever their shear; in compression once they are awake.
+/// Events follow from the axial stretch, whatever the shear; in compression only when active.
 TEST(FrameLimitSearch, BondsThatCrushHaveALimitInEachSense) {
   Network network = single_frame(2, {1.0, 0.0}, 2.0, 3.0);
   network.laws = {BondLaw::brittle().crushing({{1.0, 1.0}}, 7.0, true)};
@@ -120,7 +120,7 @@ TEST(FrameLimitSearch, BondsThatCrushHaveALimitInEachSense) {
   EXPECT_EQ(search.find(pushed, 0.0, 1).element, no_index) << "broken";
 }
 
-/// What a calibration left of a bond's stiffness does not decide how shear and bending count.
+/// The calibrated stiffness of a bond does not change the weights of shear and bending.
 TEST(FrameLimitSearch, BendingOfCalibratedBondsCountsByItsOwnRatio) {
   Network network = single_frame(2, {1.0, 0.0}, 0.02 * 2.0, 1.7 * 3.0);
   network.bending_ratio = {1.5};

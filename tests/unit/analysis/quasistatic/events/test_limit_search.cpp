@@ -76,7 +76,7 @@ TEST_P(EveryDimension, ListsAllThatReachARatio) {
   EXPECT_GT(hits.size(), 0U);
 }
 
-/// An element of either sense may be the first of a tie.
+/// An element of either sense may be the first of equal ratios.
 TEST(LimitSearch, TiesAcrossSensesGoToTheLowestNumber) {
   for (const Index yielding : {0, 1}) {
     Network network = make_network({"", Pattern::rectangular, Surface::none}, 2);
@@ -126,8 +126,8 @@ TEST_P(EveryDimension, NegativeStretchNeverBreaks) {
 INSTANTIATE_TEST_SUITE_P(LimitSearch, EveryDimension, testing::Values(plane, space),
                          [](const auto& test) { return test.param.name; });
 
-/// Bonds of one length in a row have equal ratios under a uniform strain; then one is changed by
-/// less, or more, than the width of a tie.
+/// Bonds of one length in a row have equal ratios under a uniform strain. Then one is changed by
+/// less, or more, than the tolerance of equal ratios.
 TEST(LimitSearch, TiesWithinTheToleranceGoToTheLowestNumber) {
   AnalysisBody body = make_chains(6, 1 + 1, false, 1.0, 0.01);
   Network& network = body.network;
@@ -205,7 +205,7 @@ TEST(LimitSearch, ThreadsDoNotChangeTheResult) {
       EXPECT_EQ(hit.ratio, expected.ratio) << "to the last bit";
     }
   }
-  // A uniform strain: a tie of all bonds along x, decided by the number.
+  // Under a uniform strain all bonds along x have equal ratios; the number decides.
   const auto pull = linear_field(network.particles, {{{1, 0, 0}, {0, -1, 0}, {0, 0, 0}}});
   for (int threads = 1; threads <= 3; ++threads) {
     EXPECT_EQ(searches[threads - 1].find(pull, tie_tolerance, threads).element, 0);

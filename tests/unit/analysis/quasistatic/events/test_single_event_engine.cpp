@@ -11,7 +11,8 @@ namespace {
 using namespace test;
 
 /// A spring of stiffness 1 and a bar of stiffness 2, both of unit length, in parallel between a
-/// held particle and a free one, which a spring of stiffness 1 ties to a particle moved by 1.
+/// fixed particle and a free one. A spring of stiffness 1 joins the free particle to one moved by
+/// 1.
 AnalysisBody make_yielding_bar(double yield_strain) {
   const BarMaterial bar{2.0, 1.0, 2.0 * yield_strain, false};
   return make_chains(2, 2, true, 1.0, infinity, {{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}}}, bar);
@@ -42,10 +43,10 @@ TEST(SingleEventEngine, BarYieldsAlongTheSawTooth) {
   }
 }
 
-/// Two bonds of unit stiffness and length in series, beside a row that stays elastic, whose end is
-/// moved by lambda, with secants a of the first and 1 of the second: the first stretches by lambda
-/// / (1 + a). Its segments end at 0.01, 0.014 and 0.03 (lambda = 0.02, 0.0224, 0.036) before the
-/// second reaches 0.01.
+/// Two bonds of unit stiffness and length in series, parallel to an elastic row, whose end is moved
+/// by lambda. With secants a of the first and 1 of the second, the first stretches by lambda / (1 +
+/// a). Its segments end at 0.01, 0.014 and 0.03 (lambda = 0.02, 0.0224, 0.036) before the second
+/// reaches 0.01.
 TEST(SingleEventEngine, BondsLoseTheirStiffnessToothByTooth) {
   AnalysisBody body = make_chains(2, 2, true, 1.0, 0.01);
   for (const Index e : bonds_of_row(body.network, 1.0)) body.network.critical_stretch[e] = infinity;
@@ -108,7 +109,7 @@ TEST(SingleEventEngine, TellsNoEventOfWhatOnlyMoves) {
   }
 }
 
-/// What is only compressed has no event either, and this is an answer.
+/// Bodies under pure compression have no event, and the search returns that.
 TEST(SingleEventEngine, TellsThatNothingIsInTension) {
   AnalysisBody body = make_chains(2, 3, true, 1.0, 0.1);
   for (double& motion : body.unknowns.prescribed) motion = -motion;

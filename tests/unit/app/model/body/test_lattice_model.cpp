@@ -63,7 +63,7 @@ TEST(LatticeModel, HasTheParticlesOfTheExplicitBody) {
   EXPECT_EQ(model.reference.value, 0.04);
 }
 
-/// One that falls between particles, or beside them, would otherwise go unseen.
+/// Regions between or outside the particles are refused.
 TEST(LatticeModel, TellsWhatHolesTake) {
   const std::string whole = elastic(test::lattice_strip_case());
   const std::string holed =

@@ -123,7 +123,7 @@ class Rows final : public BondRunObserver {
     }
   }
   std::vector<ExplicitRecord> records;
-  std::vector<Index> cracked;  ///< in the order that the run tells
+  std::vector<Index> cracked;  ///< in the order of the run
   std::vector<Index> seen;     ///< to be damaged, row after row, in a row by their numbers
 };
 
@@ -161,7 +161,7 @@ TEST(ParticleModel, CracksInTensionAndKeepsItsEnergy) {
   EXPECT_LT(surplus, 1e-3 * work);
 }
 
-/// A run of which every step is a row shows which particle cracked in which step.
+/// A run with a row at every step shows which particle cracked in which step.
 TEST(ParticleModel, KnowsInWhichOrderParticlesCracked) {
   const Rows all = run_bar(1, "0.1", "30", 1000000), few = run_bar(1, "0.1", "30", 1);
   ASSERT_GT(all.seen.size(), 5U);

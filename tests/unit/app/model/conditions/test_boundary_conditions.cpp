@@ -121,7 +121,8 @@ TEST(BoundaryConditions, DrivenDisplacementsArePrescribed) {
   EXPECT_DOUBLE_EQ(model.reference.value, 0.2);
 }
 
-/// The load of strip_case() acts on the end that is driven; that of the whole strip reaches it too.
+/// The load of strip_case() acts on the displacement-controlled end; so does that of the whole
+/// strip.
 TEST(BoundaryConditions, ForcesOnWhatIsDrivenAreNoted) {
   CaseFile input = strip_case();
   DisplacementSection driven;
@@ -319,7 +320,7 @@ TEST(BoundaryConditions, RotationsInSpaceGoAboutTheAxesThatAreNamed) {
   }
 }
 
-/// The strip under its load, then gripped and driven at its upper end.
+/// The strip under its load, then clamped and displaced at its upper end.
 TEST(BoundaryConditions, StagesHaveTheirOwnLoadsAndGrips) {
   CaseFile input = strip_case();
   input.loads[0].stage = "weight";

@@ -124,8 +124,8 @@ TEST_P(BondRuns, ThreadsChangeNothing) {
   }
 }
 
-/// A run of which every step is a row shows which bond broke in which step; one with next to no
-/// rows has to know it as well.
+/// A run with a row at every step shows which bond broke in which step. A run with almost no rows
+/// reports this order too.
 TEST_P(BondRuns, KnowInWhichOrderBondsBroke) {
   AnalysisBody body = overloaded(make_block(GetParam()));
   ExplicitOptions options = slow_options(body, 1.0, body.reference.value);
@@ -172,7 +172,7 @@ TEST(ExplicitBondAnalysis, AChainBreaksAtItsStrength) {
   const Outcome outcome = run(body, slow_options(body, 300.0, 0.1), {});
   EXPECT_EQ(outcome.result.termination, Termination::completed);
   EXPECT_GE(outcome.result.last.broken_bonds, 2);  // the waves of the first break others
-  // What the ramp excites in a chain of this length, less for longer ramps.
+  // Vibration excited by the ramp in a chain of this length; longer ramps excite less.
   EXPECT_NEAR(std::abs(outcome.result.peak_load), 2.0 * stiffness * limit,
               0.02 * stiffness * limit);
   EXPECT_NEAR(outcome.result.peak_displacement, 6.0 * limit, 0.02 * 6.0 * limit);
@@ -329,7 +329,7 @@ INSTANTIATE_TEST_SUITE_P(
       return to_string(std::get<0>(instance.param)) + std::to_string(instance.index);
     });
 
-/// A square or cube held and driven at opposite faces, of two materials that crack differently.
+/// A square or cube of two materials that crack differently, fixed and displaced at opposite faces.
 TEST(ExplicitBondAnalysis, ParticlesCrackOnTheWay) {
   for (const int dim : {2, 3}) {
     AnalysisBody body = free_body(unstructured_particles(dim, dim == 2 ? 30 : 9).network);
