@@ -330,8 +330,8 @@ type = "{3}"
 }
 
 /// Double precision leaves some 1e-5 of the load out of balance in a cantilever a thousand times as
-/// long as high: the run succeeds, and says so where people and programs look. The force is so
-/// small that displacements are.
+/// long as high. The run succeeds and reports this in print and in the summary. The force is small
+/// enough for small displacements.
 TEST_F(ProgramRuns, DoubtResultsThatRoundOffHasReached) {
   const std::string force = "[[loads]]\nregion = \"right\"\nforce = [0, 1e-12]";
   write_text(work() / "slender.toml", cantilever_case(2000, force, "elastic"));

@@ -1,5 +1,5 @@
-// The program under mpiexec: the same answers by any number of processes. Where the build has no
-// MPI only the message that says so is tested.
+// The program under mpiexec: results do not depend on the number of processes. Builds without MPI
+// test only the message.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -204,8 +204,8 @@ TEST_P(RankStops, KeepWhatTheyFound) {
 
 class RankMemory : public RankFolder, public testing::WithParamInterface<RankCase> {};
 
-/// Where a rank has no room for its part, a search, or a run whose parts are sent already, the
-/// others do not wait.
+/// If a rank has no memory for its part, a solve, or a run whose parts are already sent, the others
+/// do not wait.
 TEST_P(RankMemory, EndsTogetherWhereOneHasNone) {
   if (!fs::exists(mpi_program())) GTEST_SKIP() << "built without MPI";
   write_text(work() / "c.toml", GetParam().text);

@@ -120,7 +120,7 @@ TEST(ReinforcedBars, LinearBondHandsTheForceOverAsTheHyperbolicTangent) {
   EXPECT_GT(std::log2(errors[0] / errors[1]), 1.9);
 }
 
-/// How far opposite forces at its ends stretch a bar in the middle of a square.
+/// Returns the stretch of a bar in the middle of a square by opposite forces at its ends.
 double extension_of_inclined(double angle, double shift_x, double shift_y, double spacing) {
   Strip strip;
   strip.length = strip.height = 300.0;

@@ -119,8 +119,8 @@ TEST(SizeEffect, PlatesLoseWhatTheirSurfacesTakeAway) {
   }
 }
 
-/// A bar of the program is as soft as its neighbourhoods say. They are strained uniformly, which
-/// can only be stiffer.
+/// A bar of the program is as soft as its neighbourhoods. They are strained uniformly, which can
+/// only be stiffer.
 TEST(SizeEffect, NarrowBarsAreSofter) {
   double narrower = 0.0;
   for (const int width : {1, 2, 3}) {

@@ -34,8 +34,9 @@ TEST(Splm2018, CountsAboutTheParticlesOfTheDisc) {
   EXPECT_NEAR(particles_of(disc_test("2018", 0.0, 0.0025)), 3315, 33.2);
 }
 
-/// Whole lattice vectors change nothing; half of one changes the body and, where rows run along the
-/// split, what the platens drive: columns of sqrt(3)/2 of the spacing, five or six of them.
+/// Shifts by whole lattice vectors leave the body unchanged. A shift by half of one changes it.
+/// Where rows run along the split it also changes the region moved by the platens: columns of
+/// sqrt(3)/2 of the spacing, five or six of them.
 TEST(Splm2018, PlacementsMoveTheLatticeInTheDisc) {
   const double spacing = 0.005, column = 0.5 * std::numbers::sqrt3 * spacing;
   const LatticeTest centred = disc_test("consistent", 30.0, spacing);
@@ -126,9 +127,9 @@ TEST(Splm2018, TheDiscOfThePaperSplits) {
   EXPECT_NEAR(run.peak_force, 98e3, 5e3);
 }
 
-/// However the rows lie, by the consistent rules the disc carries what the same law carries in a
-/// continuum between platens of that width, less what flow under them takes, 1 to 2 %, and what
-/// columns of 0.005 m do not resolve.
+/// For any direction of rows, the disc under the consistent rules carries the load of a continuum
+/// with the same law between platens of that width. Flow under them reduces it by 1 to 2 %, and
+/// columns of 0.005 m do not resolve the platens exactly.
 TEST(Splm2018, TheDiscBearsWhatItsLawDoes) {
   for (const double degrees : {15.0, 30.0}) {
     LatticeTest test = disc_test("consistent", degrees, 0.005);

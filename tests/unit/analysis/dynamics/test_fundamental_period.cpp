@@ -17,8 +17,8 @@ double period_of(const AnalysisBody& body, const Inertia& inertia) {
   return fundamental_period(body.network, body.unknowns, inertia);
 }
 
-/// N equal masses m behind one another on springs k, the first spring held: the slowest vibration
-/// is 2 sqrt(k/m) sin(pi / (2 (2 N + 1))).
+/// N equal masses m in series on springs k, the first spring fixed: the slowest vibration is 2
+/// sqrt(k/m) sin(pi / (2 (2 N + 1))).
 TEST(FundamentalPeriod, OfAChainIsTheClosedForm) {
   const double stiffness = 3.0, mass = 0.7;
   // Three equal chains have a triple eigenvalue, which does not disturb the quotient. The long ones

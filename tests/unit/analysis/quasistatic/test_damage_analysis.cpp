@@ -242,14 +242,14 @@ TEST(DamageAnalysis, StepsBreakWhatEventsBreak) {
   EXPECT_EQ(result.termination, Termination::completed);
   EXPECT_EQ(broken, (std::vector<Index>{0, 1, 1, 2, 4}));
   EXPECT_LT(result.energy_error, 1e-14);
-  // Unloading breaks nothing.
+  // Unloading breaks no bond.
   Recorder back;
   EXPECT_EQ(run(body, by_steps({0.05, 0.01}), back).broken_bonds, 2);
   EXPECT_EQ(back.rows[1].broken_bonds, 2);
 }
 
 /// Under a constant force of 0.016 the square loses a horizontal bond and cannot carry that force
-/// any more: the last row is that of the body before it separated, at the 0.01 that it can carry.
+/// any more. The last row describes the body before separation, at the 0.01 that it can carry.
 TEST(DamageAnalysis, StepsCollapseWithinAStep) {
   Recorder recorder;
   const DamageResult result = run(make_square(), by_steps({0.012, 0.016, 0.02}), recorder);
@@ -304,7 +304,7 @@ class DamagedBlock : public testing::TestWithParam<BlockCase> {
 TEST_P(DamagedBlock, EndsInTwoUnlessSomethingUnbreakableHoldsIt) {
   Recorder recorder({}, most_rows);
   const DamageResult result = run(make_block(GetParam()), {}, recorder);
-  // In the small cube the unbreakable bonds of the two faces reach each other.
+  // In the small cube the unbreakable bonds of the two faces meet.
   EXPECT_EQ(result.termination, GetParam().bar ? Termination::interrupted
                                 : GetParam().lattice.pattern == Pattern::cubic
                                     ? Termination::nothing_breaks
@@ -334,7 +334,7 @@ TEST_P(DamagedBlock, AllRoutesFindTheSameEvents) {
 
 bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
-/// All that a row holds but the time.
+/// All values of a row except the time.
 TEST_P(DamagedBlock, ThreadsDoNotChangeARow) {
   const AnalysisBody body = make_block(GetParam());
   Recorder one({}, most_rows), two({}, most_rows);

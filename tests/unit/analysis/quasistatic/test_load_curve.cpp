@@ -95,7 +95,7 @@ TEST(Envelope, DissipatesWhatTheEventsDissipateInEveryWindow) {
   }
 }
 
-/// Under prescribed displacements as under forces: nothing is drawn that no row has reached.
+/// Under prescribed displacements and under forces the curve ends at the last row reached.
 TEST(Envelope, LiesNowhereBeyondTheRowsOfItsWindow) {
   for (const bool driven : {false, true}) {
     const std::vector<CurvePoint> path = event_path(make_path(1001, driven));

@@ -24,7 +24,7 @@ class Counter final : public StepObserver {
 class NoState final : public StateSource {
  public:
   StepState state() override {
-    ADD_FAILURE() << "nobody asked for the state";
+    ADD_FAILURE() << "the state was not requested";
     return {network_, {}, {}};
   }
 

@@ -94,7 +94,7 @@ TEST(StagedRun, GripsABodyWhereItIs) {
   EXPECT_NEAR(gripped.load, 2.0 * (2.0 * 0.01 - 0.01), 1e-15) << "the dead load bears its part";
   EXPECT_NEAR(gripped.strain_energy, 4.0 * 0.01 * 0.01, 1e-15);
   EXPECT_NEAR(gripped.external_work, gripped.strain_energy, 1e-15);
-  // The other row reaches its limit at the same displacement, and then nothing resists.
+  // The other row reaches its limit at an equal displacement, and then no resistance remains.
   EXPECT_NEAR(recorder.rows[2].displacement, 0.01, 1e-15);
   EXPECT_NEAR(recorder.rows[2].load, 2.0 * 0.01 - 2.0 * 0.01, 1e-15);
   EXPECT_EQ(result.termination, Termination::collapsed);

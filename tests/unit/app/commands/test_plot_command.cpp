@@ -56,7 +56,7 @@ TEST_F(Plot, DrawsCurveAndFields) {
   EXPECT_NE(text("load_displacement.svg").find("displacement (in)"), std::string::npos);
 }
 
-/// The rows alone do not say whether the load vibrates, nor what cracked before the first of them.
+/// Rows do not show whether the load vibrates, or which particles cracked before the first row.
 TEST_F(Plot, TakesTheFirstPeakFromTheSummary) {
   const auto drawn = [&](const std::string& summary) {
     std::ofstream(directory_ / "summary.json") << R"({"status": "completed", )" << summary << "}";

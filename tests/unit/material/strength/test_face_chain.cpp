@@ -72,8 +72,8 @@ TEST(FaceStrength, OfToughBondsComesNearTheSumOfTheirLargestForces) {
   EXPECT_LT(face_strength(square({1.0, 0.0, 0.0}), even, linear_law(5.0)), tough);
 }
 
-/// Bonds along the normal that join neighbouring layers alone carry what one carries, whatever is
-/// on either side.
+/// Bonds along the normal that only join neighbouring layers carry the load of one bond, for any
+/// material on either side.
 TEST(FaceStrength, OfOneKindOfBondsIsTheLargestForceOfOne) {
   const std::vector<LayerBond> chain = {{1, 1.0, 3.0, 0.0}, {1, 0.0, 1.0, 0.0}};
   for (const auto& sides : {even, {0.5, 1.5}}) {

@@ -42,7 +42,7 @@ class StencilBodies : public testing::TestWithParam<StencilCase> {
   double size_ = 0.0;
 };
 
-/// Against every half of a bond by itself, while more and more of them break.
+/// Compares with directed bonds stored one by one, while more and more break.
 TEST_P(StencilBodies, DoWhatSingleHalvesDo) {
   const auto stencil = make_explicit_bonds(network_), halves = make_explicit_halves(network_);
   Index broken = 0;

@@ -74,7 +74,7 @@ TEST(LatticeYielding, WorkOfTheForcesAgainstTheFlowIsTheEnergyLost) {
   const ExplicitModel model = plane_model(rectangle(0.05, 0.05, 0.01, 23.0), material);
   const LatticeChanges changes(model);
   ExplicitState state(model);
-  strain_body(model, state, -1.5e-3, -2.5e-3, 1e-4);  // no tension: nothing cracks
+  strain_body(model, state, -1.5e-3, -2.5e-3, 1e-4);  // no tension: no cracks
   const double before = stored_energy(state);
   change(model, changes, state);
   for (const double damage : state.damage) EXPECT_EQ(damage, 0.0);

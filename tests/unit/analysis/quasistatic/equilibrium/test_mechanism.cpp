@@ -80,7 +80,7 @@ TEST(Mechanism, IsRefusedInsideABody) {
   }
 }
 
-/// Nor is a strip of one row of cells one, a thousand times as long as it is high.
+/// A strip of one row of cells, a thousand times as long as high, is not a mechanism.
 TEST(Mechanism, SlenderBodiesAreNone) {
   const AnalysisBody strip = make_subdomains({{{0, 0, 0}, {1000, 1, 0}}}, 1000.0);
   EXPECT_NO_THROW(run_elastic_analysis(strip));

@@ -164,7 +164,7 @@ TEST(Separation, DrivenBodiesThatNothingHoldsDoNoWork) {
 TEST(Separation, RefinedDisplacementsOfSlenderBodiesBalance) {
   const AnalysisBody body = make_slender({600, 2, SlenderLoad::force_across});
   SingleEventEngine engine = make_engine(body, FactorRoute::in_place);
-  // Double precision alone leaves 1e-16 times stiffness times deflection: 1e-6 of the load.
+  // Double precision leaves 1e-16 times stiffness times deflection: 1e-6 of the load.
   const Balance balance = engine.check_equilibrium();
   EXPECT_LT(balance.residual, 1e-10);
   EXPECT_NEAR(2.0 * balance.stored_energy, engine.load_work().forces,

@@ -90,8 +90,7 @@ TEST(Weakening, TheLastBondOfALoadedPartLeavesAMechanism) {
 }
 
 /// Two prescribed particles stretch (1), shear (0.5 - 0.2 / 2 = 0.4) and bend (0.2) the bond
-/// between them: nothing unknown is held by it, and all that it takes along is its share of the
-/// reactions.
+/// between them. It holds no unknown, so breaking it changes only the reactions.
 TEST(Weakening, ABondBetweenPrescribedParticlesBreaksAndNothingMoves) {
   Network network = single_frame(2, {1.0, 0.0}, 1.0, 3.0);
   network.particles.positions.insert(network.particles.positions.end(), {0.0, 1.0});

@@ -110,7 +110,7 @@ TEST(FrameLimitSearch, BondsThatCrushHaveALimitInEachSense) {
   const std::vector<double> pushed = {0, 0, 0.1, -1e-3, 0.2, -0.1};
   FrameLimitSearch search(network);
   EXPECT_NEAR(search.find(pulled, 0.0, 1).ratio, 1.0, 1e-12);
-  EXPECT_EQ(search.find(pushed, 0.0, 1).element, no_index) << "asleep";
+  EXPECT_EQ(search.find(pushed, 0.0, 1).element, no_index) << "inactive";
   search.set_limits(0, 2e-3, 5e-4);
   EXPECT_NEAR(search.find(pulled, 0.0, 1).ratio, 0.5, 1e-12);
   EXPECT_NEAR(search.find(pushed, 0.0, 1).ratio, 2.0, 1e-12);
@@ -133,7 +133,7 @@ TEST(FrameLimitSearch, BendingOfCalibratedBondsCountsByItsOwnRatio) {
               1e3 * std::sqrt(1e-6 + own * 0.04 + own * 0.04 / 12.0), 1e-10);
 }
 
-/// Not even where nothing is stretched: the other bonds of the particle may be as well.
+/// Round-off selects no bond in an unstretched body either.
 TEST(FrameLimitSearch, RefusesWhatIsNotFinite) {
   const Network network = single_frame(2, {1.0, 0.0}, 2.0, 3.0);
   for (const double extension : {1e-3, -1e-3}) {
@@ -155,7 +155,7 @@ TEST(FrameLimitSearch, RefusesWhatIsNotFinite) {
   }
 }
 
-/// Among bonds that symmetry makes equal the lowest breaks, whatever round-off says.
+/// Among bonds equal by symmetry the lowest number breaks, whatever the round-off.
 TEST(FrameLimitSearch, TiesGoToTheLowestElement) {
   Network network = single_frame(2, {1.0, 0.0}, 2.0, 3.0);
   network.bonds.append(network.particles, 0, 1);

@@ -157,15 +157,14 @@ TEST(LimitSearch, LeavesOutWhatCannotBreak) {
   const Index first = bonds_of_row(network, 0.0)[0];
   network.critical_stretch[first] = std::numeric_limits<double>::infinity();
   LimitSearch search(network);
-  search.set_limit(first, INFINITY);  // not in the table: nothing happens
+  search.set_limit(first, INFINITY);  // not in the table: no effect
   EXPECT_EQ(search.find(u, tie_tolerance, 1).element, bonds_of_row(network, 0.0)[1]);
 
   for (double& limit : network.critical_stretch) limit = std::numeric_limits<double>::infinity();
   EXPECT_EQ(LimitSearch(network).find(u, tie_tolerance, 1).element, no_index);
 }
 
-/// A measure that is not a number is no bond that holds, wherever in a block it stands and whatever
-/// the others say; nor is a limit.
+/// A NaN measure or limit is reported, at any position in a block and for any other measures.
 TEST(LimitSearch, RefusesWhatIsNotFinite) {
   for (const LatticeCase& lattice : {plane, space}) {
     Network network = make_network(lattice, 4);

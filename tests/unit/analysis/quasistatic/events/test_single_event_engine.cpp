@@ -86,9 +86,9 @@ TEST(SingleEventEngine, BarThatWasCutDoesNotYield) {
   EXPECT_EQ(engine.next_event().element, no_index);
 }
 
-/// A body that moves as a whole strains nothing: what its bonds stretch by is round-off, and names
-/// none of them. On weak springs it hides which of them breaks, and "none" was the answer. (Springs
-/// followed by a factor are compared with the motion of their ends alone.)
+/// In a rigid motion the stretches of bonds are round-off and give no event. On weak springs
+/// round-off must not hide the bond that breaks. (Springs followed by a factor are compared with
+/// the motion of their ends.)
 TEST(SingleEventEngine, TellsNoEventOfWhatOnlyMoves) {
   for (const bool micropolar : {false, true}) {
     for (const LinearSolver solver : {LinearSolver::direct, LinearSolver::iterative}) {

@@ -269,8 +269,8 @@ TEST(SubdomainFactor, UnknownsSayWhatVectorsSay) {
   EXPECT_GT(unknowns.columns_solved(), vectors.columns_solved());
 }
 
-/// The particle at a corner is left on a two hundredth of its elements, one after the other: the
-/// last of them hold it by themselves.
+/// The elements of a corner particle are reduced one by one to a two hundredth; the last of them
+/// hold it.
 TEST(SubdomainFactor, FollowsSmallPivots) {
   const AnalysisBody body = make_block({{"cubic", Pattern::cubic, Surface::none}, false, false, 5});
   std::vector<double> secants = intact(body.network);

@@ -205,7 +205,7 @@ TEST(BoundaryConditions, FreeBodiesAreRefusedUnlessTheyMayBePinned) {
   expect_refused(input, "analysis.rigid_body_modes", "partly supported");
 }
 
-/// In motion nothing holds a free body but its inertia, and pins would hold particles.
+/// In motion a free body needs no supports, and pins would fix particles.
 TEST(BoundaryConditions, BodiesInMotionAreHeldByTheirInertia) {
   CaseFile input = free_strip_case();
   input.analysis.type = AnalysisType::explicit_;
@@ -270,7 +270,7 @@ TEST(BoundaryConditions, LooseParticlesAreRefused) {
   CaseFile input = strip_case();
   input.body.surface = Surface::none;
   input.body.horizon = 14.2;
-  RebarSection bar;  // its outer node, off the corner of the body, hangs on one line
+  RebarSection bar;  // its outer node, off the corner of the body, has a single element
   bar.points = {{40.0, 80.0, 0.0}, {47.0, 87.0, 0.0}};
   bar.bond = RebarBond::concrete;
   bar.across_gaps = true;

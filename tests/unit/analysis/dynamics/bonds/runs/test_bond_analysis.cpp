@@ -105,7 +105,7 @@ TEST_P(BondRuns, EnergyIsAccountedFor) {
     EXPECT_GT(outcome.result.last.broken_bonds, 0);
     EXPECT_GT(outcome.result.last.energy.fractured, 0.0);
     EXPECT_EQ(outcome.result.last.energy.external_damping > 0.0, rate > 0.0);
-    // Some thousand steps with round-off of the energies, which pass through one another.
+    // Round-off of energies over some thousand steps.
     EXPECT_LT(outcome.result.largest_surplus, 1e-11);
   }
 }
@@ -141,7 +141,7 @@ TEST_P(BondRuns, KnowInWhichOrderBondsBroke) {
   EXPECT_EQ(few.result.last.broken_bonds, static_cast<Index>(few.recorder.broken.size()));
 }
 
-/// An elastic body that is loaded slowly and damped comes to rest in static equilibrium.
+/// An elastic body loaded slowly and damped reaches static equilibrium.
 TEST_P(BondRuns, ComeToRestInEquilibrium) {
   AnalysisBody body = make_block(GetParam());
   std::fill(body.network.critical_stretch.begin(), body.network.critical_stretch.end(), INFINITY);
@@ -164,8 +164,8 @@ INSTANTIATE_TEST_SUITE_P(
                     BlockCase{{"space", Pattern::cubic, Surface::none}, true, false, 4, 0.1, true}),
     [](const auto& body) { return to_string(body.param) + std::to_string(body.index); });
 
-/// Springs behind one another break at the force k xi s_c wherever; slowly loaded the support
-/// feels it, and the chain holds until then.
+/// Springs in series break at the force k xi s_c. Under slow loading the support carries this force
+/// before they break.
 TEST(ExplicitBondAnalysis, AChainBreaksAtItsStrength) {
   const double stiffness = 10.0, limit = 0.01;
   const AnalysisBody body = scaled(make_chains(6, 2, true, stiffness, limit), 0.1);
@@ -192,8 +192,8 @@ TEST(ExplicitBondAnalysis, StepsBeyondTheCriticalOneAreRefused) {
   EXPECT_THROW(run(body, options, {}), std::invalid_argument);
 }
 
-/// The bound of a chain is that of an endless one: a little beyond it the motion grows, and the run
-/// says so instead of filling up with numbers that are none.
+/// The bound of a chain is that of an endless one. Slightly beyond it the motion grows, and the run
+/// fails with a message instead of NaN.
 TEST(ExplicitBondAnalysis, UnstableRunsEnd) {
   const AnalysisBody body = make_chains(40, 2, true, 10.0, INFINITY);
   const Inertia inertia = lumped_inertia(body.network, std::vector{1.0});

@@ -126,8 +126,8 @@ TEST(DynamicRelaxation, GreenStrainsOfAChain) {
   EXPECT_NEAR(outcome.result.last.energy.stored, 2.0 * 6.0 * 0.5 * 10.0 * 0.625 * 0.625, 1e-7);
 }
 
-/// Springs in series hold to their limit and carry nothing behind it, which ends the run; all that
-/// they had stored is fractured or damped.
+/// Springs in series hold up to their limit and break, which ends the run; all their stored energy
+/// is fractured or damped.
 TEST(DynamicRelaxation, BondsBreakBetweenLoadSteps) {
   const double stiffness = 10.0, limit = 0.01;
   const AnalysisBody body = make_chains(6, 2, true, stiffness, limit);
