@@ -61,7 +61,7 @@ struct ExplicitRecord {
   double load_factor = 0.0;
   double load = 0.0;              ///< force on controlled particles, inertia included [force]
   double support_reaction = 0.0;  ///< along the load [force]
-  double displacement = 0.0;      ///< of controlled particles [length]
+  double displacement = 0.0;      ///< displacement of controlled particles [length]
   Index cracked_particles = 0;    ///< lattices only
   Index yielded_particles = 0;    ///< lattices only
   Index broken_bonds = 0;         ///< networks of bonds only

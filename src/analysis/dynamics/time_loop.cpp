@@ -9,7 +9,7 @@
 namespace perilink {
 namespace {
 
-constexpr double smallest = 1e-290;  // prevents division by zero for bodies at rest
+constexpr double smallest = 1e-290;  // prevents division by zero for bodies without motion
 
 }  // namespace
 
