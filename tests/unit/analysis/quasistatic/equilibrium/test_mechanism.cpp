@@ -18,8 +18,8 @@ namespace {
 
 using namespace test;
 
-/// A body of rectangles in the plane, unit spacing, bonds of two spacings, fixed at x = 0 and
-/// pulled across at its right end.
+/// A body of boxes in the plane, unit spacing, bonds of two spacings, held at x = 0 and pulled
+/// across at its right end.
 AnalysisBody make_subdomains(std::vector<Subdomain> solid, double right) {
   LatticeInput input;
   input.pattern = Pattern::rectangular;
@@ -80,7 +80,7 @@ TEST(Mechanism, IsRefusedInsideABody) {
   }
 }
 
-/// A strip of one row of cells, a thousand times as long as high, is not a mechanism.
+/// Nor is a strip of one row of cells one, a thousand times as long as it is high.
 TEST(Mechanism, SlenderBodiesAreNone) {
   const AnalysisBody strip = make_subdomains({{{0, 0, 0}, {1000, 1, 0}}}, 1000.0);
   EXPECT_NO_THROW(run_elastic_analysis(strip));
