@@ -104,8 +104,8 @@ TEST(ExplicitLoop, EnergyOutOfNothingEndsTheRun) {
         },
         1);
     EXPECT_EQ(result.termination, Termination::failed);
-    EXPECT_NE(result.reason.find("grew out of nothing at step 400"), std::string::npos)
-        << "looked at every 200 steps: " << result.reason;
+    EXPECT_NE(result.reason.find("grew without external work at step 400"), std::string::npos)
+        << "checked every 200 steps: " << result.reason;
     EXPECT_EQ(result.steps, 400);
     // A state that has overflowed is not a row.
     const bool finite = std::isfinite(kinetic);

@@ -55,7 +55,7 @@ TEST_F(RelaxationRun, SummaryTellsHowItEnded) {
   EXPECT_LE(json["residual"], 1e-7);
   EXPECT_LE(json["displacement_error"], 1e-7);
   EXPECT_EQ(json["rows"], 2);
-  EXPECT_EQ(json["kinetic_energy"], 0.0) << "at rest";
+  EXPECT_EQ(json["kinetic_energy"], 0.0) << "in equilibrium";
   EXPECT_THAT(run.summary.text, testing::HasSubstr("residual"));
 }
 

@@ -154,7 +154,7 @@ class Relaxation {
           fmt::format("load step {} (load factor {}): {} after {} iterations; the residual force "
                       "is {:.2e} of the loads and reactions, the estimated error {:.2e}; the "
                       "tolerance of both is {:.2e}",
-                      step_ + 1, factor_, grows ? "the motion grows" : "not at rest",
+                      step_ + 1, factor_, grows ? "the motion grows" : "not converged",
                       std::min(iteration_, options_.most_iterations), result_.residual,
                       result_.error, options_.tolerance));
     }
@@ -280,7 +280,7 @@ class Relaxation {
 
   void note_end() {
     const std::size_t steps = options_.load_factors.size();
-    result_.reason = fmt::format("{} load step{} at rest", steps, steps == 1 ? "" : "s");
+    result_.reason = fmt::format("{} load step{} converged", steps, steps == 1 ? "" : "s");
     result_.residual = largest_residual_;
     result_.error = largest_error_;
     observer_.on_end(record_, state());

@@ -168,7 +168,7 @@ TEST(DynamicRelaxation, AnIterationLimitIsNoSuccess) {
   options.most_iterations = 20;
   const Relaxed outcome = relax(body, options);
   EXPECT_EQ(outcome.result.termination, Termination::failed);
-  EXPECT_THAT(outcome.result.reason, testing::HasSubstr("not at rest after 20 iterations"));
+  EXPECT_THAT(outcome.result.reason, testing::HasSubstr("not converged after 20 iterations"));
   EXPECT_TRUE(outcome.recorder.rows.empty());
   EXPECT_EQ(outcome.recorder.ends, 0);
 }
