@@ -14,7 +14,7 @@
 
 namespace perilink {
 
-/// What the first rank asks the others for, the first word of every order.
+/// Requests of the root to the workers; the first word of every message.
 enum class Service : int { end, solve, move_bonds };
 
 /// Ghosts: particles whose motion this rank needs and another rank owns.

@@ -107,7 +107,7 @@ TEST_F(Comparisons, EarlierComparisonsAreKeptUnlessForced) {
   const std::vector<std::string> words = {"compare", "results/a", "results/a", "--out",
                                           "results/a"};
   const std::set<std::string> before = names("results/a");
-  ASSERT_EQ(run(words).exit_status, 0) << "beside the result is no harm";
+  ASSERT_EQ(run(words).exit_status, 0) << "a comparison may be written into a result";
   const ProcessEnd refused = run(words);
   EXPECT_EQ(refused.exit_status, 2);
   EXPECT_EQ(refused.out, "");

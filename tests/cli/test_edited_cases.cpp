@@ -1,5 +1,5 @@
-// What `check` and `run` refuse alike, in the same words, before anything is computed: the cases of
-// malformed/run and some with files beside them.
+// Inputs that `check` and `run` refuse in identical words before they compute: the cases of
+// malformed/run and some with extra files.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -22,8 +22,8 @@ class FullDisks : public testing::Test {
   nlohmann::json summary(const std::string& directory) const {
     return nlohmann::json::parse(read_text(work() / directory / "summary.json"), nullptr, false);
   }
-  /// Runs the program in a disk of its own, whose files go to work()/kept at its end.
-  /// \return exit status; -1 where the system lets nobody make disks
+  /// Runs the program on a separate disk and moves its files to work()/kept at the end.
+  /// \return exit status; -1 where the system does not permit making disks
   int run_on_disk(int kilobytes, const std::string& words) const {
     const std::string disk = (temporary_ / "disk").string(), kept = (work() / "kept").string();
     fs::create_directories(disk);

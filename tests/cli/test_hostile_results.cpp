@@ -1,4 +1,4 @@
-// Results and inputs that are damaged or laid as a trap, and directories that two runs want.
+// Damaged or malicious results and inputs, and directories used by two runs.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -22,7 +22,7 @@ struct Campaign {
 
 void PrintTo(const Campaign& campaign, std::ostream* stream) { *stream << campaign.name; }
 
-/// A notched strip in elements that let go of their particles too late: the run begins again and
+/// A notched strip in elements that release their particles too late: the run begins again and
 /// takes back the files that it has written.
 constexpr const char* late_elements_case = R"(regions = [
   {name = "strip", x = [0, 80], y = [0, 80]},
@@ -118,7 +118,7 @@ TEST_P(Kills, LeaveEveryFileWhole) {
   EXPECT_GT(killed, GetParam().kills / 4) << "the moments lie within the run";
   EXPECT_GT(with_results, GetParam().kills / 10);
 
-  // Whatever is left: the next run takes its place, and temporaries go.
+  // The next run replaces the remains and removes temporary files.
   write_text(work() / "r/summary.json.0123abcd.part", "half a fi");
   std::vector<std::string> again = words;
   again.emplace_back("--force");

@@ -1,6 +1,5 @@
-// Every case of malformed/text is refused by the reader and by the program, every case of
-// malformed/body by the program, which has the body before it. The tables say what the message
-// must contain.
+// Reader and program refuse every case of malformed/text. The program refuses every case of
+// malformed/body, which needs the body. The tables contain text that the message must contain.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -30,7 +29,7 @@ void expect_message(const std::string& message, const CaseEntry& entry) {
   EXPECT_FALSE(entry.expected.empty()) << entry.name << " has no line `? ...`";
   for (const std::string& text : entry.expected) EXPECT_THAT(message, testing::HasSubstr(text));
   EXPECT_THAT(message, testing::HasSubstr(entry.name + ".toml"));
-  EXPECT_LT(message.size(), 1500u) << "nobody reads that much";
+  EXPECT_LT(message.size(), 1500u) << "too long to read";
 }
 
 std::string name_of(const testing::TestParamInfo<CaseEntry>& info) { return info.param.name; }
@@ -63,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(Text, MalformedCase, testing::ValuesIn(test::read_case_
 
 class BodyCase : public TableCase {};
 
-/// Otherwise the process test would pass for a reason that has nothing to do with the body.
+/// Otherwise the process test could pass for a reason unrelated to the body.
 TEST_P(BodyCase, IsAcceptedByReader) { EXPECT_NO_THROW(read_case_file(write().string())); }
 
 INSTANTIATE_TEST_SUITE_P(Text, BodyCase, testing::ValuesIn(test::read_case_tables("body")),
@@ -85,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(Program, MalformedProcess, testing::ValuesIn(all_entrie
 
 class BaseCase : public testing::TestWithParam<std::filesystem::path> {};
 
-/// What is refused, is refused for the edit.
+/// The unedited case is accepted, so the edit is the cause of the refusal.
 TEST_P(BaseCase, IsAcceptedByReader) { EXPECT_NO_THROW(read_case_file(GetParam().string())); }
 
 INSTANTIATE_TEST_SUITE_P(Text, BaseCase,

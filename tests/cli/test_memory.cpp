@@ -1,4 +1,4 @@
-// Too little memory from outside: the program says so and ends, wherever it runs out.
+// Too little memory from the system: the program reports it and ends, wherever it runs out.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -168,7 +168,7 @@ TEST_F(Program, AnEarlierResultIsRefusedByteForByteAndForcedOnRequest) {
 TEST_F(Program, AnEarlierResultIsRefusedBeforeTheModelIsBuilt) {
   std::string loose = small_ghost_case;
   loose.replace(loose.find("\"pin\""), 5,
-                "\"refuse\"");  // what holds the body only the model knows
+                "\"refuse\"");  // only the model determines the supports of the body
   write_case("loose.toml", loose);
   EXPECT_THAT(run({"run", "loose.toml", "--out", "r"}).err, HasSubstr("rigid-body modes"));
   fs::create_directories(work() / "r");
@@ -280,7 +280,7 @@ TEST_F(Program, ElasticLatticesAnswerAsSlowExplicitRunsDo) {
     return nlohmann::json::parse(read_text(work() / "results" / name / "summary.json"));
   };
   const auto moving = summary_of("moving"), still = summary_of("elastic");
-  // What is left is the part of the true lengths, as large as the strain.
+  // The remaining error comes from the true lengths, as large as the strain.
   const double load = still["peak_load"];
   EXPECT_NEAR(-moving["peak_reaction"].get<double>(), load, 1e-3 * load);
   const double energy = still["strain_energy"];
@@ -337,7 +337,7 @@ TEST_F(Program, ExplicitRunsWriteTheFilesOfTheContract) {
                            "fields_000000.vtu", "log.txt"}) {
     EXPECT_TRUE(names().contains(place + name)) << name;
   }
-  // Strain 0.04 over 1.8 between the grips, E = 100, height 1: the body is one half row stiffer.
+  // Strain 0.04 over 1.8 between the clamps, E = 100, height 1: the body is one half row stiffer.
   EXPECT_NEAR(-summary["peak_reaction"].get<double>(), 100.0 * 0.04 / 1.8, 0.15 * 2.22);
   EXPECT_LT(summary["energy_error"].get<double>(), 1e-3);
   ASSERT_EQ(run({"run", place + "case.toml", "--out", "again"}).exit_status, 0);

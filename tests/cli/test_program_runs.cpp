@@ -123,7 +123,7 @@ TEST_F(ProgramRuns, KeepTheirResultsWhenTheirTerminalIsClosed) {
   EXPECT_EQ(summary("r")["status"], "interrupted");
 }
 
-/// What nobody reads is no reason to lose results.
+/// A closed pipe on standard output does not stop a run.
 TEST_F(ProgramRuns, EndWellWhenNobodyReadsTheirOutput) {
   write_text(work() / "small.toml", small_ghost_case);
   const std::string command = "cd " + work().string() + " && (" + PERILINK_PROGRAM +
@@ -249,9 +249,9 @@ void PrintTo(const BarCase& bar, std::ostream* stream) { *stream << bar.pattern;
 
 class ElasticBars : public ProgramRuns, public testing::WithParamInterface<BarCase> {};
 
-/// A bond lattice is a cubic crystal: along the cubes' edges its Young's modulus is
-/// (C11 - C12) (C11 + 2 C12) / (C11 + C12) with C11 ~ sum x^4 / xi^3 and C12 ~ sum x^2 y^2 / xi^3
-/// over the family, scaled so that C11 + 2 C12 = 2 E. Particles at the surface lack bonds, which
+/// A bond lattice is a cubic crystal: along the cubes' edges its Young's modulus is (C11 - C12)
+/// (C11 + 2 C12) / (C11 + C12) with C11 ~ sum x^4 / xi^3 and C12 ~ sum x^2 y^2 / xi^3 over the
+/// neighbourhood, scaled so that C11 + 2 C12 = 2 E. Particles at the surface lack bonds, which
 /// softens the bar in proportion to horizon / width; two spacings extrapolate to none of that. What
 /// is left is quadratic in the spacing.
 TEST_P(ElasticBars, StretchByForceTimesLengthOverStiffness) {
@@ -289,7 +289,8 @@ INSTANTIATE_TEST_SUITE_P(Patterns, ElasticBars,
                                                  0.8364}),
                          [](const auto& bar) { return std::string(bar.param.pattern); });
 
-/// A cantilever of unit height, held at x <= 3 and loaded or driven across at its last two columns.
+/// A cantilever of unit height, fixed at x <= 3, with a load or a displacement across its last two
+/// columns.
 std::string cantilever_case(int length, const std::string& load, const std::string& analysis) {
   return fmt::format(R"([body]
 surface = "none"
@@ -329,8 +330,8 @@ type = "{3}"
 }
 
 /// Double precision leaves some 1e-5 of the load out of balance in a cantilever a thousand times as
-/// long as high: the run succeeds, and says so where people and programs look. The force is so
-/// small that displacements are.
+/// long as high. The run succeeds and reports this in print and in the summary. The force is small
+/// enough for small displacements.
 TEST_F(ProgramRuns, DoubtResultsThatRoundOffHasReached) {
   const std::string force = "[[loads]]\nregion = \"right\"\nforce = [0, 1e-12]";
   write_text(work() / "slender.toml", cantilever_case(2000, force, "elastic"));
@@ -365,7 +366,7 @@ TEST_F(ProgramRuns, AnEquilibriumThatRoundOffHasLostIsAFailure) {
   EXPECT_EQ(summary("r")["status"], "failed");
 }
 
-/// What is left of the load in the last row is zero, not round-off, and in the picture too.
+/// The load in the last row is zero, not round-off, also in the picture.
 TEST_F(ProgramRuns, ASeparatedBodyBearsNoLoad) {
   const std::string drive = "[[displacements]]\nregion = \"right\"\ny = -1";
   write_text(work() / "driven.toml", cantilever_case(60, drive, "damage"));

@@ -1,5 +1,5 @@
-// The program under mpiexec: the same answers by any number of processes. Where the build has no
-// MPI only the message that says so is tested.
+// The program under mpiexec: results do not depend on the number of processes. Builds without MPI
+// test only the message.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -117,7 +117,7 @@ TEST_P(ExplicitRankRuns, WriteTheSameBytes) {
 
 TEST_F(RankFolder, SayWhatIsWrongOnce) {
   if (!fs::exists(mpi_program())) GTEST_SKIP() << "built without MPI";
-  // No case, a body that can turn, a support beside it.
+  // No case, a body that can turn, a support outside it.
   const std::string held = bar_case(true, "");
   write_text(work() / "free.toml", replaced(held, R"("x", "y", "z")", R"("x")"));
   write_text(work() / "beside.toml", replaced(held, "x = [0, 0]", "x = [-2, -1]"));
@@ -204,8 +204,8 @@ TEST_P(RankStops, KeepWhatTheyFound) {
 
 class RankMemory : public RankFolder, public testing::WithParamInterface<RankCase> {};
 
-/// Where a rank has no room for its part, a search, or a run whose parts are sent already, the
-/// others do not wait.
+/// If a rank has no memory for its part, a solve, or a run whose parts are already sent, the others
+/// do not wait.
 TEST_P(RankMemory, EndsTogetherWhereOneHasNone) {
   if (!fs::exists(mpi_program())) GTEST_SKIP() << "built without MPI";
   write_text(work() / "c.toml", GetParam().text);
@@ -236,7 +236,7 @@ TEST_F(RankFolder, HaveOneCommandAlone) {
 }
 
 TEST_F(RankFolder, WithoutMpiTheFirstSaysSo) {
-  // A copy, beside which there is no perilink-mpi.
+  // A copy without perilink-mpi in its folder.
   fs::copy_file(PERILINK_PROGRAM, work() / "perilink");
   const std::string command = "cd '" + work().string() + "' && OMPI_COMM_WORLD_SIZE=2 " +
                               "OMPI_COMM_WORLD_RANK=0 ./perilink --version 2>err >out";

@@ -1,5 +1,5 @@
-// Bonds of three teeth through the whole program: implicit and explicit runs, fields, pictures and
-// their comparison.
+// Bonds of three segments through the whole program: implicit and explicit runs, fields, pictures
+// and their comparison.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -125,7 +125,7 @@ TEST_F(Study, TheWrittenStudyRunsAgainToTheSameTable) {
   EXPECT_EQ(file("first/table.csv"), file("second/table.csv"));
 }
 
-/// A weak part of a body breaks, and a strong one beside it bears more afterwards.
+/// A weak part of a body breaks, and a strong part carries more afterwards.
 TEST_F(Study, APeakAfterCollapseIsTold) {
   write_text(work() / "parts.toml", R"(
 regions = [

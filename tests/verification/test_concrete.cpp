@@ -6,10 +6,10 @@
 namespace perilink::verification {
 namespace {
 
-/// The study's specimen with fewer bonds and coarser teeth: the elastic point and the peak in
-/// tension of the integrated law, 2.485 MPa at 1e-4 and 4.662 MPa at 2.8e-4, with sides that are
-/// free. Few directions and a ripple of 7 % for the bonds along the pull leave 3 % of the peak;
-/// elastic bonds are calibrated for the whole square, of which the stress is that of a part.
+/// The study's specimen with fewer bonds and coarser segments. The law integrates to the elastic
+/// point 2.485 MPa at 1e-4 and the peak in tension 4.662 MPa at 2.8e-4, with free sides. Few
+/// directions and an overshoot of 7 % of the bonds along the pull leave 3 % of the peak. Elastic
+/// bonds are calibrated for the whole square, while the stress is that of a part.
 TEST(Concrete, BearsUnderUniformStrainWhatItsLawSays) {
   if (!has_gmsh()) GTEST_SKIP() << "built without gmsh";
   const auto points = strain_uniformly({.layout = "mesh = \"cloud.geo\"\nmesh_size = 12.7\n"

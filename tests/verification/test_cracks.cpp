@@ -83,7 +83,7 @@ TEST(Cracks, GriffithLoadHasThePublishedFactor) {
 
 class CrackOfABeam : public testing::TestWithParam<Surface> {};
 
-/// The study's claims at its coarsest spacing: one crack, plane but for the spacing by which its
+/// The study's claims at its coarsest spacing: one crack, plane except for the spacing by which its
 /// length is uncertain, and no break elsewhere.
 TEST_P(CrackOfABeam, GrowsFromTheNotchAndNowhereElse) {
   const CrackRun run = run_specimen(make_specimen(Shape::notched_beam, 4.0, GetParam()), 1);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr Sizes short_beam{24, 4, 3};
 
-/// The explicit mode comes to rest where the implicit one is, to its tolerance.
+/// The explicit mode reaches the implicit equilibrium, to its tolerance.
 TEST(ExplicitBeams, ComeToRestWhereTheImplicitModeIs) {
   for (const char* joined : {"none", "calibrated", "fibres"}) {
     const Specimen specimen = make_specimen(Structure::cantilever, short_beam, joined);

@@ -51,7 +51,7 @@ TEST_F(FractureMechanics, EnergyReleaseTurnsACrackFartherThanHoopStress) {
   const double a = 10.0 * degree;
   EXPECT_NEAR(kinked_factors(0.0, a)[0], std::pow(std::cos(0.5 * a), 3), 1e-3);
   EXPECT_NEAR(kinked_factors(0.0, a)[1], std::sin(0.5 * a) * std::pow(std::cos(0.5 * a), 2), 2e-3);
-  // The same expansions, written down and searched a second time by somebody else.
+  // The expansions, derived and evaluated independently a second time.
   EXPECT_NEAR(energy_release_kink(30.0 * degree), -45.4 * degree, 0.1 * degree);
   EXPECT_NEAR(energy_release_kink(60.0 * degree), -64.3 * degree, 0.1 * degree);
   EXPECT_LT(energy_release_kink(90.0 * degree), hoop_stress_kink(90.0 * degree) - 5.0 * degree);
@@ -67,7 +67,7 @@ TEST_F(FractureMechanics, CracksTurnTowardsTheLargestHoopStress) {
 }
 
 /// Across the axes of a square lattice with three spacings, and with so many bonds that all
-/// directions are nearly alike.
+/// directions are nearly equivalent.
 TEST_F(FractureMechanics, RowsLeadCracksAstrayLessTheLongerTheHorizon) {
   EXPECT_NEAR(Rows(false, 3.0).energy(0.0), 0.960, 0.001);
   const Rows many(true, 20.0);

@@ -1,4 +1,4 @@
-// What verification/studies/irregular_particles shows, on its smaller bodies.
+// Results of verification/studies/irregular_particles, on its smaller bodies.
 
 #include <gtest/gtest.h>
 

@@ -63,7 +63,7 @@ class SmoothField {
   std::array<Series, 2> along_{}, across_{};
 };
 
-/// What displacements are off that are held on the whole surface, in the mean over the volume.
+/// Mean error over the volume of displacements prescribed on the whole surface.
 double relative_error(const JointCase& tested, int count) {
   const JointBody joint(tested, count);
   LoadedNetwork problem;

@@ -14,7 +14,7 @@
 
 namespace perilink::verification {
 
-/// How GoogleTest names a body.
+/// Prints a body for GoogleTest.
 void PrintTo(const PatchBody& body, std::ostream* out) { *out << body.name; }
 
 namespace {

@@ -81,7 +81,7 @@ double force_of_unit_motion(const AnalysisBody& body) {
   return 2.0 * run_elastic_analysis(body).strain_energy;
 }
 
-/// Both ends are driven as planes: concrete and steel share the strain.
+/// Both ends are displaced as planes: concrete and steel share the strain.
 TEST(ReinforcedBars, ACompositeStripIsAsStiffAsItsParts) {
   for (const double y : {50.0, 34.0, 61.7}) {
     Strip strip;
@@ -120,7 +120,7 @@ TEST(ReinforcedBars, LinearBondHandsTheForceOverAsTheHyperbolicTangent) {
   EXPECT_GT(std::log2(errors[0] / errors[1]), 1.9);
 }
 
-/// How far opposite forces at its ends stretch a bar in the middle of a square.
+/// Returns the stretch of a bar in the middle of a square by opposite forces at its ends.
 double extension_of_inclined(double angle, double shift_x, double shift_y, double spacing) {
   Strip strip;
   strip.length = strip.height = 300.0;
@@ -169,14 +169,15 @@ TEST(ReinforcedBars, AShortBarFollowsTheModelCode) {
   const double surface = perimeter * 10.0;
   double work = 0.0, slip = 0.0;
   for (const StepRecord& row : rows.rows) {
-    // Both nodes fall from tooth to tooth: the stress moves about the curve.
+    // Both nodes fall from segment to segment: the stress moves about the curve.
     EXPECT_NEAR(row.load / surface, curve.force(row.displacement), 0.055 * 15.0)
         << row.displacement;
     work = row.external_work;
     slip = row.displacement;
   }
   EXPECT_NEAR(result.peak_load / surface, 15.0, 0.05 * 15.0);
-  // The path through the events runs along the tops of the teeth, half a ripple above the curve.
+  // The path through the events runs along the tops of the segments, half a overshoot above the
+  // curve.
   EXPECT_GT(work / surface, curve.area(slip));
   EXPECT_LT(work / surface, 1.025 * curve.area(slip));
   EXPECT_LT(result.energy_error, 1e-9);

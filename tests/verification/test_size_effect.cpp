@@ -37,7 +37,7 @@ TEST(SizeEffect, ClosedFormsAreTheIntegralsOverDirections) {
   }
 }
 
-/// Exactly half of every family on the surface is left.
+/// Exactly half of every neighbourhood on the surface is left.
 TEST(SizeEffect, HalfOfTheModulusIsLeftAtTheSurface) {
   for (const Problem problem : {Problem::plane_stress, Problem::three_dimensional}) {
     const MicropolarModuli moduli = continuum_micropolar(problem, {1.0, 0.2}, 1.0, 1.0);
@@ -104,23 +104,23 @@ TEST(SizeEffect, FamiliesAreThoseOfABody) {
   }
 }
 
-/// The same mean over a plate's width, by the integral and by the bonds of a fine lattice.
+/// Mean over a plate's width, by the integral and by the bonds of a fine lattice.
 TEST(SizeEffect, PlatesLoseWhatTheirSurfacesTakeAway) {
   constexpr Problem problem = Problem::plane_stress;
   constexpr int ratio = 80;
   const MicropolarModuli moduli = continuum_micropolar(problem, {1.0, 0.2}, 1.0, 1.0);
-  // Half a horizon, where both surfaces cut every family, and more.
+  // Half a horizon, where both surfaces cut every neighbourhood, and more.
   for (const int rows : {ratio / 2, ratio, 2 * ratio, 5 * ratio}) {
     const auto width = static_cast<double>(rows) / ratio;
     const auto bonds = layer_moduli(problem, plate_of_neighbourhoods(problem, ratio, rows, 0.2));
     const auto exact = layer_moduli(problem, plate_stiffness(problem, moduli, 1.0, width));
-    // E2 of single families is off by 1.7e-3 at this ratio (the study's result.csv).
+    // E2 of single neighbourhoods is off by 1.7e-3 at this ratio (the study's result.csv).
     EXPECT_NEAR(bonds.e2, exact.e2, 2e-3) << "width " << width;
   }
 }
 
-/// A bar of the program is as soft as its families say. They are strained uniformly, which can only
-/// be stiffer.
+/// A bar of the program is as soft as its neighbourhoods. They are strained uniformly, which can
+/// only be stiffer.
 TEST(SizeEffect, NarrowBarsAreSofter) {
   double narrower = 0.0;
   for (const int width : {1, 2, 3}) {

@@ -34,8 +34,9 @@ TEST(Splm2018, CountsAboutTheParticlesOfTheDisc) {
   EXPECT_NEAR(particles_of(disc_test("2018", 0.0, 0.0025)), 3315, 33.2);
 }
 
-/// Whole lattice vectors change nothing; half of one changes the body and, where rows run along the
-/// split, what the platens drive: columns of sqrt(3)/2 of the spacing, five or six of them.
+/// Shifts by whole lattice vectors leave the body unchanged. A shift by half of one changes it.
+/// Where rows run along the split it also changes the region moved by the platens: columns of
+/// sqrt(3)/2 of the spacing, five or six of them.
 TEST(Splm2018, PlacementsMoveTheLatticeInTheDisc) {
   const double spacing = 0.005, column = 0.5 * std::numbers::sqrt3 * spacing;
   const LatticeTest centred = disc_test("consistent", 30.0, spacing);
@@ -84,7 +85,8 @@ TEST(Splm2018, ConsistentRulesReachTheTensileStrengthAndKeepTheirEnergy) {
   EXPECT_LT(run.result.largest_surplus, 1e-4);
 }
 
-/// At 0 degrees 16 columns of 0.01 m and one less in turn, but for half a column at each side.
+/// At 0 degrees there are 16 columns of 0.01 m and 15 in turn, except for half a column at each
+/// side.
 TEST(Splm2018, TheSectionOfTheBlockIsThatOfItsColumns) {
   EXPECT_NEAR(mean_section(spaced_tension_test(0.0, 0.01)), 0.15 * 0.145, 1e-9);
   EXPECT_NEAR(mean_section(spaced_tension_test(0.0, 0.005)), 0.15 * 0.1525, 1e-9);
@@ -96,7 +98,7 @@ TEST(Splm2018, RulesOf2018LoseStrengthAndEnergy) {
   const LatticeTestRun run = run_lattice_test(test);
   // Prototypes of the paper's rules reached 54.7 kN at a quarter of this speed.
   EXPECT_NEAR(run.peak_force, 54.7e3, 0.03 * 54.7e3);
-  // The smaller of two forces is no derivative of an energy, even while nothing is damaged.
+  // The smaller of two forces is not the derivative of an energy, even without damage.
   EXPECT_GT(run.result.largest_surplus, 1e-3);
 }
 
@@ -112,7 +114,7 @@ TEST(Splm2018, TheBlockInCompressionFlowsAtItsStrength) {
   EXPECT_GT(run.result.last.energy.external_work, yield * 0.5e-3) << "it takes plastic work";
 }
 
-/// The papers' rules soften by a factor per step and know no crushing energy.
+/// The papers' rules soften by a factor per step and have no crushing energy.
 TEST(Splm2018, CasesOfThePapersRulesHaveNoCrushingEnergy) {
   EXPECT_FALSE(case_of(compression_test("2018", 0.0)).materials.front().lattice->crushing_energy);
   EXPECT_TRUE(
@@ -125,9 +127,9 @@ TEST(Splm2018, TheDiscOfThePaperSplits) {
   EXPECT_NEAR(run.peak_force, 98e3, 5e3);
 }
 
-/// However the rows lie, by the consistent rules the disc bears what the same law bears in a
-/// continuum between platens of that width, less what flow under them takes, 1 to 2 %, and what
-/// columns of 0.005 m do not resolve.
+/// For any direction of rows, the disc under the consistent rules carries the load of a continuum
+/// with the same law between platens of that width. Flow under them reduces it by 1 to 2 %, and
+/// columns of 0.005 m do not resolve the platens exactly.
 TEST(Splm2018, TheDiscBearsWhatItsLawDoes) {
   for (const double degrees : {15.0, 30.0}) {
     LatticeTest test = disc_test("consistent", degrees, 0.005);

@@ -1,4 +1,5 @@
-// What a long crack costs: the table of crack costs measured again, and whole cases.
+// Fracture energy of a long crack: the table of fracture-energy corrections measured again, and
+// whole cases.
 
 #include <gtest/gtest.h>
 
@@ -30,8 +31,8 @@ double tabled(const Strip& strip) {
   return crack_cost(make_body(lattice), input, input.materials[0]);
 }
 
-/// Where a crack begins and how high the strip is decide which way it winds between two rows: by
-/// 1.5 % in the mean over a dozen periods (verification/studies/toughness).
+/// The start of a crack and the height of the strip decide how it winds between two rows: by 1.5 %
+/// in the mean over a dozen periods (verification/studies/toughness).
 constexpr double winding = 0.02;
 
 Strip short_strip(Pattern pattern, double horizon_ratio, double lame_ratio) {
@@ -53,7 +54,7 @@ TEST(Toughness, TheTableIsWhatStripsCost) {
   }
 }
 
-/// In space the front is rough: bonds beside one another give way one after the other.
+/// In space the front is rough: adjacent bonds break one after the other.
 TEST(Toughness, TheTableIsWhatStripsInSpaceCost) {
   Strip strip = short_strip(Pattern::cubic, 3.0, 1.0);
   strip.front = 2;

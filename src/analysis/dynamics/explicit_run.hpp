@@ -22,8 +22,8 @@ struct ExplicitOptions {
   double time_step = 0.0;  ///< zero: `safety` times the critical one [time]
   double safety = 0.9;
   int rows = 500;  ///< approximate number of rows of the history
-  /// Displacement of the driven particles at load factor 1 [length]. Without prescribed
-  /// displacements (`driven` is false): the load at load factor 1 [force].
+  /// Displacement of the displacement-controlled particles at load factor 1 [length]. Without them
+  /// (`driven` is false): the load at load factor 1 [force].
   double reference = 1.0;
   bool driven = true;
   int threads = 1;
@@ -59,9 +59,9 @@ struct ExplicitRecord {
   Index step = 0;
   double time = 0.0;  ///< [time]
   double load_factor = 0.0;
-  double load = 0.0;              ///< force on the driven particles, inertia included [force]
+  double load = 0.0;              ///< force on controlled particles, inertia included [force]
   double support_reaction = 0.0;  ///< along the load [force]
-  double displacement = 0.0;      ///< at the driven particles [length]
+  double displacement = 0.0;      ///< displacement of controlled particles [length]
   Index cracked_particles = 0;    ///< lattices only
   Index yielded_particles = 0;    ///< lattices only
   Index broken_bonds = 0;         ///< networks of bonds only
@@ -94,7 +94,7 @@ struct ExplicitResult {
   double time_step = 0.0;           ///< [time]
   double critical_time_step = 0.0;  ///< [time]
   double peak_load = 0.0;           ///< largest support reaction in magnitude [force]
-  double peak_displacement = 0.0;   ///< displacement of driven particles at the peak [length]
+  double peak_displacement = 0.0;   ///< displacement of controlled particles at the peak [length]
   double largest_surplus = 0.0;  ///< largest energy surplus over the external work at the end [-]
   int ranks = 1;                 ///< number of processes that shared the work
   ExplicitRecord last;

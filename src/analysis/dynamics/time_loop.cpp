@@ -9,7 +9,7 @@
 namespace perilink {
 namespace {
 
-constexpr double smallest = 1e-290;  // prevents division by zero for bodies at rest
+constexpr double smallest = 1e-290;  // prevents division by zero for bodies without motion
 
 }  // namespace
 
@@ -51,8 +51,8 @@ std::string ExplicitLoop::why() const {
     return fmt::format("is too large; the critical one of the intact body is {:.4g}", critical);
   }
   return fmt::format(
-      "is below the critical one of the intact body, {:.4g}: what breaks or flows "
-      "takes energy from its own rules, which smaller steps may not cure",
+      "is below the critical one of the intact body, {:.4g}: rules of breaking or flow that are "
+      "not conservative can add energy, and smaller steps may not prevent it",
       critical);
 }
 
@@ -73,9 +73,10 @@ void ExplicitLoop::check_growth(Index step, const EnergyBalance& energy) {
   result_.steps = step;
   overflowed_ = !std::isfinite(energy.kinetic + energy.stored + energy.external_work);
   end(Termination::failed,
-      fmt::format("the motion grew out of nothing at step {} (energy {:.3g}, supplied {:.3g}): the "
-                  "time step {:.4g} {}",
-                  step, std::max(std::abs(held), energy.kinetic), supplied_, time_step(), why()));
+      fmt::format(
+          "the energy grew without external work at step {} (energy {:.3g}, supplied {:.3g}): the "
+          "time step {:.4g} {}",
+          step, std::max(std::abs(held), energy.kinetic), supplied_, time_step(), why()));
 }
 
 void ExplicitLoop::note_row(const ExplicitRecord& record) {

@@ -71,7 +71,7 @@ class ExplicitLoop {
   }
 
   /// \param supports      reaction of supports [force]
-  /// \param displacement  of the driven particles in this step [length]
+  /// \param displacement  displacement of the controlled particles in this step [length]
   void note_reaction(double supports, double displacement) {
     if (!(std::abs(supports) > std::abs(result_.peak_load))) return;  // also false for NaN
     result_.peak_load = supports;

@@ -8,7 +8,7 @@
 namespace perilink {
 namespace {
 
-/// What an element of unit stiffness has dissipated when it has passed its first `count` events.
+/// Returns the energy dissipated by an element of unit stiffness after its first `count` events.
 double dissipated(const BondLaw& law, int count) {
   double sum = 0.0;
   for (int k = 0; k < count; ++k) {
@@ -102,8 +102,8 @@ TEST(ForceCurve, BreaksAtOnceWhereItEndsWithItsFirstLine) {
   EXPECT_FALSE(law.is_brittle()) << "it breaks in compression too";
 }
 
-/// Slope 0.1 behind the first point (1, 1): force 1 + 0.1 (x - 1). Flow 1.8 comes from x = 3,
-/// f = 1.2; the rest begins there.
+/// Slope 0.1 after the first point (1, 1): force 1 + 0.1 (x - 1). Flow 1.8 comes from x = 3, f =
+/// 1.2; the rest begins there.
 TEST(ForceCurve, BehindFlowTheRestIsLeft) {
   const ForceCurve rest = curve_behind(hardens, 1.8);
   ASSERT_EQ(rest.points.size(), 2u);

@@ -40,8 +40,8 @@ TEST(J2Plasticity, StaysElasticBelowYield) {
   EXPECT_EQ(state.equivalent_strain, 0.0);
 }
 
-/// Whatever the strain, the stress ends on the yield surface, the flow keeps the volume, follows
-/// the deviator, and total = elastic + plastic.
+/// For any strain the stress ends on the yield surface, the flow keeps the volume and follows the
+/// deviator, and total = elastic + plastic.
 TEST(J2Plasticity, EndsOnTheYieldSurfaceByAssociatedFlow) {
   for (const Problem problem :
        {Problem::plane_stress, Problem::plane_strain, Problem::three_dimensional}) {

@@ -141,7 +141,8 @@ TEST(Segments, DissipateTheEnergyOfTheCurveInSum) {
         sum += dissipated_by_segment(law, static_cast<int>(k));
       }
       // Round-off of a few hundred terms.
-      EXPECT_NEAR(2.0 * sum, each.energy, 1e-12 * each.energy) << each << ", ripple " << overshoot;
+      EXPECT_NEAR(2.0 * sum, each.energy, 1e-12 * each.energy)
+          << each << ", overshoot " << overshoot;
     }
   }
 }
@@ -158,7 +159,7 @@ TEST(Segments, DissipateTheEnergyOfTheCurveOneByOne) {
         sum += dissipated_by_segment(law, static_cast<int>(k) - 1);
         const double x = meeting_point(curve, segments[k].secant);
         EXPECT_NEAR(sum, curve.area(x) - 0.5 * segments[k].secant * x * x, 1e-11 * each.energy)
-            << each << ", ripple " << overshoot << ", tooth " << k;
+            << each << ", overshoot " << overshoot << ", segment " << k;
       }
     }
   }
@@ -171,10 +172,10 @@ TEST(Segments, AllButTheLastRiseByTheRipple) {
       const std::vector<Segment> segments = segments_of(saw_tooth_of(curve, overshoot));
       for (std::size_t k = 0; k < segments.size(); ++k) {
         const double rise = segments[k].secant * segments[k].limit - curve.force(segments[k].limit);
-        // The ends of teeth are halved down to 1e-12 of themselves.
-        EXPECT_LT(rise, overshoot * (1.0 + 1e-8)) << each << ", tooth " << k;
+        // The ends of segments are halved down to 1e-12 of themselves.
+        EXPECT_LT(rise, overshoot * (1.0 + 1e-8)) << each << ", segment " << k;
         if (k + 1 < segments.size()) {
-          EXPECT_NEAR(rise, overshoot, 1e-8 * overshoot) << each << ", tooth " << k;
+          EXPECT_NEAR(rise, overshoot, 1e-8 * overshoot) << each << ", segment " << k;
         }
       }
     }
@@ -211,7 +212,7 @@ TEST(Segments, AreMoreWhereTheyMayRiseLess) {
   }
 }
 
-/// The force is constant up to the end; every tooth but the last takes what lies between its
+/// The force is constant up to the end; every segment but the last takes what lies between its
 /// unloading lines, sqrt(S_k S_(k+1)) its limit, and all together take the area.
 /// Up to 1e10 times the elastic energy all curves have secants; where round-off hides their fall
 /// the search for these ends by a refusal.
@@ -258,7 +259,7 @@ TEST(SofteningCurves, OfConcreteArePlateaus) {
           EXPECT_NEAR(now.limit, std::sqrt(1.0 / (now.secant * next.secant)), 1e-12 * end);
         }
       }
-      EXPECT_NEAR(sum, end - 0.5, 1e-10 * end) << "end " << end << ", ripple " << overshoot;
+      EXPECT_NEAR(sum, end - 0.5, 1e-10 * end) << "end " << end << ", overshoot " << overshoot;
     }
   }
 }

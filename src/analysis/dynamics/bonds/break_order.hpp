@@ -22,8 +22,8 @@ class BreakOrder {
   explicit BreakOrder(Index blocks) : of_blocks_(static_cast<std::size_t>(blocks)) {}
 
   /// Adds the numbers that broke in a block, in the step of its last call or a later one. A number
-  /// that breaks again, such as the other half of a bond, counts once. Calls for different blocks
-  /// may run in parallel.
+  /// that breaks again, such as the other half of a bond, counts once, also in a later step. Calls
+  /// for different blocks may run in parallel.
   void add(Index block, Index step, std::span<const Index> broken) {
     for (const Index each : broken) of_blocks_[block].push_back({step, each});
   }

@@ -45,7 +45,7 @@ int main_component(const LoadedNetwork& problem);
 /// Network of bonds in motion, common to explicit runs and dynamic relaxation. Blocks of particles
 /// may be computed in parallel; each stage ends for all blocks before the next begins.
 struct MovingBonds {
-  /// Starts at rest with all bonds intact.
+  /// Starts with zero motion and all bonds intact.
   /// \param problem  must outlive this object
   /// \param masses   must outlive this object
   MovingBonds(const LoadedNetwork& problem, const Inertia& masses,

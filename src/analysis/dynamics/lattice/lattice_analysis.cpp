@@ -23,7 +23,7 @@ namespace {
 
 constexpr Index particles_per_thread = 4000;
 
-/// The numbers of a row that steps which are looked at have.
+/// Computes the energies of a row, for steps that are recorded.
 void measure_row(const ExplicitModel& model, ExplicitState& state, Index r, double dt) {
   RowSums& sums = state.sums[r];
   sums.stored = half_step_energy(model, state, r, dt);
@@ -69,7 +69,7 @@ class ExplicitRun {
   }
 
   ExplicitResult run() {
-    // Three barriers per step: a thread pays only with enough particles of its own.
+    // A step has three barriers, so a thread pays only with enough particles.
     const Index useful = std::max<Index>(1, model_.lattice.particles() / particles_per_thread);
     const Index threads = std::min<Index>(options_.threads, useful);
     prepare_passing(threads);
@@ -77,7 +77,7 @@ class ExplicitRun {
   }
 
  private:
-  /// Damage and flow, between stretches and forces; nothing in bodies that never change.
+  /// Stages of damage and flow, between stretches and forces; none for bodies that never change.
   auto changes(double dt) {
     const Index reach = model_.lattice.reach, flow = model_.material.yields ? reach : 0;
     const auto stage = [this](Index behind, Index ahead, const auto& work) {
@@ -94,14 +94,14 @@ class ExplicitRun {
         stage(reach, 0, [this, dt](Index r) { changes_->update_sums(state_, r, dt); })};
   }
 
-  /// Own bonds end in the row itself or in rows after it, so sums take in the bonds of rows before.
+  /// Own bonds end in the row itself or in later rows, so sums need the bonds of earlier rows.
   auto stretches(double dt) {
     return std::tuple{
         RowStage{0, 0, [this, dt](Index r) { measure_bonds(model_, state_, r, dt); }},
         RowStage{model_.lattice.reach, 0, [this](Index r) { sum_stretches(model_, state_, r); }}};
   }
 
-  /// Forces take in the sums of rows after, motion the forces of rows before.
+  /// Forces need the sums of later rows, motion the forces of earlier rows.
   auto motion(double dt, double factor, double increment) {
     const Index reach = model_.lattice.reach;
     return std::tuple{RowStage{0, reach, [this](Index r) { bond_forces(model_, state_, r); }},
@@ -114,13 +114,13 @@ class ExplicitRun {
     return std::tuple_cat(stretches(dt), changes(dt), motion(dt, factor, increment));
   }
 
-  /// Steps that nobody looks at keep their numbers in the cache.
+  /// Prepares cache-blocked sweep buffers for steps that are not recorded.
   void prepare_passing(Index threads) {
     const SweepReach reach = reach_of(all_stages(0.0, 0.0, 0.0));
     PassingRows passing;
     passing.blocks = threads;
     passing.alive = reach.ahead + reach.widest + 1;
-    // From above: what stages leave to the edge, what these read, and the mean over neighbours.
+    // Upper bound: rows left to the edge, rows these read, and the mean over neighbours.
     passing.edge = reach.shortest() + 2 * reach.widest;
     RowPlaces places = passing_places(model_.lattice, passing);
     if (places.slots >= model_.lattice.slots) return;
@@ -159,7 +159,7 @@ class ExplicitRun {
     note_loads(step);
   }
 
-  /// Loads of a step into the record.
+  /// Writes the loads of a step into the record.
   void note_loads(Index step) {
     double driven = 0.0, supports = 0.0;
     for (const RowReactions& row : state_.reactions) {
@@ -201,9 +201,11 @@ class ExplicitRun {
   std::optional<LatticeChanges> changes_;
   ExplicitLoop loop_;
   ExplicitRecord record_;
-  StepNumbers passing_;       ///< what the state does not hold now
-  Index passing_blocks_ = 0;  ///< zero: nothing would be saved
-  bool passed_ = false;       ///< in the last step; rounds of steps may differ in their threads
+  /// step values not in use by the state: sweep buffers, or the whole lattice
+  StepNumbers passing_;
+  Index passing_blocks_ = 0;  ///< zero: buffers would save no memory traffic
+  /// the last step used the buffers; rounds of steps may differ in their threads
+  bool passed_ = false;
 };
 
 }  // namespace

@@ -7,12 +7,13 @@ namespace perilink {
 
 using ExplicitObserver = RunObserver<ExplicitState>;
 
-/// Runs a body from the given state by Euler–Cromer: forces at step n change velocities, those the
-/// displacements. Sums are the same for any number of threads.
+/// Runs a body from the given state by Euler–Cromer: forces at step n change velocities, and these
+/// the displacements. Sums do not depend on the number of threads.
 /// \throws std::invalid_argument where the time step exceeds the critical one (unless
-/// refuse_unstable is off) or duration is not positive
-/// \returns ending = failed where energy grows from nothing: kinetic and stored energy exceed twice
-/// all work done so far, or the kinetic one a hundred times
+///     refuse_unstable is off) or duration is not positive
+/// \returns termination = failed where energy grows without external work: kinetic and stored
+///          energy exceed twice all work done so far, or the kinetic energy exceeds it a hundred
+///          times
 ExplicitResult run_explicit_analysis(const ExplicitModel& model, ExplicitState& state,
                                      const ExplicitOptions& options, ExplicitObserver& observer);
 

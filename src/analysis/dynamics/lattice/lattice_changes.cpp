@@ -22,7 +22,7 @@ void LatticeChanges::look(ExplicitState& state, Index row) const {
   state.row_changes[row] |= RowChanges::scanned;
   thread_local DueParticles due;
   scan_row(model_, state, row, due);
-  // Both see the stretches that were there before.
+  // Damage and flow both use the stretches before the change.
   for (const Index slot : due.damage) {
     if (damage_.grow(state, row, slot)) state.row_changes[row] |= RowChanges::damage_grew;
   }
@@ -81,8 +81,8 @@ void LatticeChanges::update_plastic_sums(ExplicitState& state, Index row, double
     if ((bits & RowChanges::damage_grew) != 0) state.sums[row].fractured += after;
     state.slack[row] = 0.0;
   }
-  // Not before: bonds of rows before this one were weighed with the old ones in the last stage, and
-  // what flowed has lost its energy with them. Those bonds need the new ones in the next stage.
+  // The roots change after the last stage: there, bonds of earlier rows and the energy of flow
+  // still use the old roots. The next stage of those bonds uses the new roots.
   if ((state.row_changes[row] & RowChanges::damage_grew) != 0) damage_.update_roots(state, row);
 }
 

@@ -9,8 +9,8 @@ namespace perilink {
 bool LatticeDamage::begins(ExplicitState& state, Index row, const Neighbourhood& neighbourhood,
                            Vector3& normal) const {
   const LatticeMaterial& material = model_.material;
-  // A particle that lacks bonds has a stress of its own only together with its neighbours: along a
-  // jagged face the outer ones pull where the inner ones push.
+  // Particles near a face use the mean stress of their neighbourhood: along a jagged face, stresses
+  // of outer and inner particles alternate in sign.
   const bool consistent = model_.rules == LatticeRules::consistent;
   const bool averaged = consistent && particles_.is_near_face(neighbourhood.slot);
   double volume = 0.0;
@@ -80,11 +80,12 @@ void LatticeDamage::watch(ExplicitState& state, const Neighbourhood& neighbourho
   if (damage >= 1.0) {
     next = never;
   } else if (follows_stress(neighbourhood)) {
-    // Where a mean began it, the particle's own stress may still be below the strength.
+    // A mean stress may have started the crack while the particle's own stress is below the
+    // strength.
     const double cohesive = (1.0 - damage) * model_.material.youngs_modulus * strain;
     next = damage > 0.0 ? cohesive : model_.material.softening.strength;
   } else {
-    // Damage rises with the strain. Only particles with all bonds are looked at strain by strain.
+    // Damage rises with the strain. Only particles with all bonds have a threshold of strain.
     const bool counted = model_.lattice.dim == 2 && particles_.is_whole(neighbourhood);
     next = counted ? strain : -never;
   }

@@ -11,7 +11,7 @@ constexpr double most_flow = 0.01;
 /// Largest fall of the yield stress in a step, as a factor (2018, below Eq. 24).
 constexpr double softening_per_step = 0.99;
 
-/// Strain of an isotropic solid under a stress.
+/// Returns the elastic strain of an isotropic solid under a stress.
 SymmetricTensor elastic_strain(double e, double nu, const SymmetricTensor& stress) {
   const double trace = stress[0] + stress[1] + stress[2];
   SymmetricTensor strain{};
@@ -21,8 +21,8 @@ SymmetricTensor elastic_strain(double e, double nu, const SymmetricTensor& stres
   return strain;
 }
 
-/// In-plane strain without stress of a particle with this plastic strain: that out of the plane
-/// cannot happen in plane strain and presses the sides apart.
+/// Returns the stress-free in-plane strain of a particle with a plastic strain. In plane strain the
+/// prevented out-of-plane part adds in-plane strain.
 SymmetricTensor free_strain(Problem problem, double nu, SymmetricTensor plastic) {
   if (problem != Problem::plane_strain) return plastic;
   plastic[0] += nu * plastic[2];
@@ -115,7 +115,7 @@ bool LatticeYielding::step_along(const Halves& force, double length, ExplicitSta
   return true;
 }
 
-/// 2017, Eqs. 4.15 and 4.17, with the strain that is there, not with its plastic part.
+/// Nikravesh 2017, Eqs. 4.15 and 4.17, with the present strain instead of its plastic part.
 double LatticeYielding::yield_of_2017(const ExplicitState& state,
                                       const Neighbourhood& neighbourhood, bool& beyond) const {
   const YieldCurve& curve = model_.material.yielding;
@@ -146,7 +146,7 @@ LatticeYielding::Change LatticeYielding::flow_as_in_2017(ExplicitState& state,
   result.crushed = beyond && state.flow.crushed[slot] == 0;
   if (result.crushed) state.flow.crushed[slot] = 1;
   state.flow.yield[slot] = yield;
-  // The yield stress follows the strain and has to be asked for every time.
+  // The yield stress depends on the strain, so the particle is checked at every step.
   state.flow.look_at[slot] = model_.material.yielding.yield;
   const Halves force = particles_.forces(state, neighbourhood);
   const double mises = mises_stress(particles_.stress(state, neighbourhood, force));
@@ -167,7 +167,7 @@ void LatticeYielding::harden_as_in_2018(ExplicitState& state,
   double& look_at = state.flow.look_at[neighbourhood.slot];
   if (strain >= curve.ultimate_strain) {
     yield *= softening_per_step;
-    look_at = -1.0;  // a yield stress that falls does so in every step
+    look_at = -1.0;  // a falling yield stress falls in every step
   } else {
     look_at = yield = std::max(yield, curve.yield + slope * strain);
   }
@@ -180,7 +180,7 @@ LatticeYielding::Change LatticeYielding::flow_as_in_2018(ExplicitState& state,
   Halves force = particles_.forces(state, neighbourhood);
   const double mises = mises_stress(particles_.stress(state, neighbourhood, force));
   if (mises <= yield) return {};
-  // The smaller one of the two force states where they agree in sign, else their mean (Eq. 5).
+  // Takes the smaller force state of the two ends where signs agree, else their mean (Eq. 5).
   const Halves other = particles_.partner_forces(state, neighbourhood);
   for (int j = 0; j < neighbourhood.bonds; ++j) {
     const double smaller = std::abs(force[j]) < std::abs(other[j]) ? force[j] : other[j];

@@ -17,12 +17,12 @@ double period_of(const AnalysisBody& body, const Inertia& inertia) {
   return fundamental_period(body.network, body.unknowns, inertia);
 }
 
-/// N equal masses m behind one another on springs k, the first spring held: the slowest vibration
-/// is 2 sqrt(k/m) sin(pi / (2 (2 N + 1))).
+/// N equal masses m in series on springs k, the first spring fixed: the slowest vibration is 2
+/// sqrt(k/m) sin(pi / (2 (2 N + 1))).
 TEST(FundamentalPeriod, OfAChainIsTheClosedForm) {
   const double stiffness = 3.0, mass = 0.7;
-  // Three equal chains: the eigenvalue comes three times, which the quotient does not mind. The
-  // long ones have many particles in a box.
+  // Three equal chains have a triple eigenvalue, which does not disturb the quotient. The long ones
+  // have many particles in a subdomain.
   for (const auto& [columns, tolerance] : {std::pair{12, 1e-7}, std::pair{900, 6e-7}}) {
     const AnalysisBody body = make_chains(columns, 3, false, stiffness, INFINITY);
     Inertia inertia;
@@ -72,7 +72,7 @@ double period_over_square(int length) {
   return period_of(body, lumped_inertia(body.network, std::vector{1.0})) / length / length;
 }
 
-/// Bends 1e12 times more easily than bonds stretch, of which rounded forces know four digits. Beams
+/// Bends 1e12 times more easily than bonds stretch; rounded forces keep four digits of that. Beams
 /// of a length L take a + b / L times L^2: particles next to the held end are softer.
 TEST(FundamentalPeriod, OfABeamTwoThousandTimesAsLongAsItsSpacingHasThreeDigits) {
   const double at_250 = period_over_square(250), at_500 = period_over_square(500);
@@ -94,7 +94,7 @@ TEST(FundamentalPeriod, FreeBodiesHaveNone) {
   number(body, [](Index, int) { return false; });
   const Inertia inertia = lumped_inertia(body.network, std::vector{1.0});
   EXPECT_THROW(period_of(body, inertia), SolverError);
-  // But for their rigid motions, of which there are three.
+  // Three rigid motions are excluded.
   const std::vector<std::uint8_t> held(body.unknowns.number.size(), 0);
   const std::vector<Fragment> parts = find_fragments(body.network, held);
   ASSERT_EQ(parts.size(), 1U);

@@ -90,7 +90,7 @@ TEST(Inertia, GreenStrainsAllowForTheStretchAtWhichBondsBreak) {
             small.frequency_bound);
 }
 
-/// Scaled masses differ from the true ones but for their sum, and allow a longer step.
+/// Scaled masses have the true sum, differ one by one, and allow a longer step.
 TEST(Inertia, ScalingKeepsTheMassOfTheBody) {
   const AnalysisBody body = make_block({{"plane", Pattern::rectangular, Surface::none}});
   const Inertia plain = lumped_inertia(body.network, std::vector{density});

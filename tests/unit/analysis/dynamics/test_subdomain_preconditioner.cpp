@@ -48,7 +48,7 @@ TEST(SubdomainPreconditioner, IsSymmetric) {
   }
 }
 
-/// With a box for every particle the boxes alone are the inverse; the blocks add no more than a few
+/// With one subdomain per particle the coarse part is the inverse; the blocks add at most a few
 /// times as much.
 TEST(SubdomainPreconditioner, OfASmallBodyIsTheInverseAndTheBlocks) {
   const AnalysisBody body = make_block({{"plane", Pattern::rectangular, Surface::none}});
@@ -65,7 +65,7 @@ TEST(SubdomainPreconditioner, OfASmallBodyIsTheInverseAndTheBlocks) {
   EXPECT_LT((dense_preconditioner(body) - expected).norm(), 1e-9 * expected.norm());
 }
 
-/// What boxes of rigid motions are for: the stiffness itself has a condition of 1e7 and 2e8.
+/// Rigid motions of subdomains reduce the condition number; the stiffness has 1e7 and 2e8.
 TEST(SubdomainPreconditioner, DoesNotMindHowSlenderABodyIs) {
   const double shorter = condition(cantilever(100, 2)), longer = condition(cantilever(200, 2));
   EXPECT_LT(shorter, 100.0);

@@ -12,7 +12,7 @@ namespace {
 
 struct Nothing {};
 
-/// Counts what it is told of.
+/// Observer that counts its calls.
 struct LoopWatcher {
   void on_row(const ExplicitRecord& record, const Nothing&) {
     if (record.step == throws_at) throw std::runtime_error("a full disk");
@@ -104,8 +104,8 @@ TEST(ExplicitLoop, EnergyOutOfNothingEndsTheRun) {
         },
         1);
     EXPECT_EQ(result.termination, Termination::failed);
-    EXPECT_NE(result.reason.find("grew out of nothing at step 400"), std::string::npos)
-        << "looked at every 200 steps: " << result.reason;
+    EXPECT_NE(result.reason.find("grew without external work at step 400"), std::string::npos)
+        << "checked every 200 steps: " << result.reason;
     EXPECT_EQ(result.steps, 400);
     // A state that has overflowed is not a row.
     const bool finite = std::isfinite(kinetic);

@@ -21,8 +21,8 @@ DamageOptions by_steps(std::vector<double> load_factors) {
   return options;
 }
 
-/// Chains of two bonds between held and driven particles: row r breaks at displacement 2 s_r, each
-/// on its own, whatever the others do. The limits are in no order.
+/// Chains of two bonds between fixed and displaced particles: row r breaks at displacement 2 s_r,
+/// independent of the others. The limits are in no order.
 AnalysisBody make_driven_chains() {
   AnalysisBody body = make_chains(2, 5, true, 1.0, infinity);
   const double limits[] = {0.03, 0.01, 0.05, 0.02, 0.04};
@@ -67,7 +67,7 @@ TEST(DamageAnalysis, CollapsesExactlyWhenTheLastLoadPathGoes) {
   EXPECT_EQ(recorder.broken_at_end, 1) << "the body before it separated";
 }
 
-/// Four chains break at a displacement of 0.01 under half of that each; the fifth bears 0.2.
+/// Four chains break at a displacement of 0.01 under half of that each; the fifth carries 0.2.
 TEST(DamageAnalysis, TellsTheFirstPeakFromWhatIsBorneAfterwards) {
   AnalysisBody body = make_chains(2, 5, true, 1.0, infinity);
   for (int row = 0; row < 5; ++row) {
@@ -159,7 +159,7 @@ TEST(DamageAnalysis, StopsWhenTheObserverAsks) {
 }
 
 /// Asked before the second event of a step, the run ends with a row at the load that the body as it
-/// stands bears.
+/// stands carries.
 TEST(DamageAnalysis, AnObserverThatFailsLeavesWhatWasFound) {
   class FullDisk final : public StepObserver {
    public:
@@ -242,14 +242,14 @@ TEST(DamageAnalysis, StepsBreakWhatEventsBreak) {
   EXPECT_EQ(result.termination, Termination::completed);
   EXPECT_EQ(broken, (std::vector<Index>{0, 1, 1, 2, 4}));
   EXPECT_LT(result.energy_error, 1e-14);
-  // Unloading breaks nothing.
+  // Unloading breaks no bond.
   Recorder back;
   EXPECT_EQ(run(body, by_steps({0.05, 0.01}), back).broken_bonds, 2);
   EXPECT_EQ(back.rows[1].broken_bonds, 2);
 }
 
-/// Under a constant force of 0.016 the square loses a horizontal bond and cannot bear that force
-/// any more: the last row is that of the body before it separated, at the 0.01 that it can bear.
+/// Under a constant force of 0.016 the square loses a horizontal bond and cannot carry that force
+/// any more. The last row describes the body before separation, at the 0.01 that it can carry.
 TEST(DamageAnalysis, StepsCollapseWithinAStep) {
   Recorder recorder;
   const DamageResult result = run(make_square(), by_steps({0.012, 0.016, 0.02}), recorder);
@@ -271,10 +271,11 @@ TEST(DamageAnalysis, StepsCollapseWithinAStep) {
   EXPECT_NEAR(fallen.released_energy, followed.released_energy, 1e-15);
 }
 
-/// A saw-tooth that stands for a plateau (see test_single_event_engine.cpp): after n teeth the bar
-/// has lost exactly what the plateau dissipates up to the strain s_y r^n, k_b s_y^2 (r^n - 1) / 2.
-/// The path drawn through the peaks of the teeth lies above by the ripple: here, with one unknown,
-/// lambda_k grows with the pivot so that each event dissipates r times the energy released.
+/// A saw-tooth that stands for a plateau (see test_single_event_engine.cpp): after n segments the
+/// bar has lost exactly what the plateau dissipates up to the strain s_y r^n, k_b s_y^2 (r^n - 1) /
+/// 2. The path drawn through the peaks of the segments lies above by the overshoot: here, with one
+/// unknown, lambda_k grows with the pivot so that each event dissipates r times the energy
+/// released.
 TEST(DamageAnalysis, YieldingBarDissipatesThePlateau) {
   constexpr double strain = 0.01, r = 1.05, stiffness = 2.0;
   const BarMaterial bar{stiffness, 1.0, stiffness * strain, false};
@@ -303,7 +304,7 @@ class DamagedBlock : public testing::TestWithParam<BlockCase> {
 TEST_P(DamagedBlock, EndsInTwoUnlessSomethingUnbreakableHoldsIt) {
   Recorder recorder({}, most_rows);
   const DamageResult result = run(make_block(GetParam()), {}, recorder);
-  // In the small cube the unbreakable bonds of the two faces reach each other.
+  // In the small cube the unbreakable bonds of the two faces meet.
   EXPECT_EQ(result.termination, GetParam().bar ? Termination::interrupted
                                 : GetParam().lattice.pattern == Pattern::cubic
                                     ? Termination::nothing_breaks
@@ -333,7 +334,7 @@ TEST_P(DamagedBlock, AllRoutesFindTheSameEvents) {
 
 bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
-/// All that a row holds but the time.
+/// All values of a row except the time.
 TEST_P(DamagedBlock, ThreadsDoNotChangeARow) {
   const AnalysisBody body = make_block(GetParam());
   Recorder one({}, most_rows), two({}, most_rows);
@@ -357,7 +358,7 @@ TEST_P(DamagedBlock, ThreadsDoNotChangeARow) {
   }
 }
 
-/// Without scatter the block is symmetric and elements fail in exact ties.
+/// Without scatter the block is symmetric and elements fail at exactly equal ratios.
 INSTANTIATE_TEST_SUITE_P(DamageAnalysis, DamagedBlock,
                          testing::Values(BlockCase{rectangular}, BlockCase{hexagonal, true, true},
                                          BlockCase{hexagonal_ghost, false, true},

@@ -27,8 +27,8 @@ std::vector<Index> all(const Particles& particles) {
   return numbers;
 }
 
-/// Stretches 0.01 and 0.03 with a shear of 0.02, and a rotation that strains nothing.
-/// Tolerance: round-off.
+/// Stretches 0.01 and 0.03 with a shear of 0.02, and a rotation without strain. Tolerance:
+/// round-off.
 TEST(ElementStrain, IsThePrincipalOneOfALinearMotion) {
   for (const int dim : {2, 3}) {
     for (const int width : {dim, dim == 2 ? 3 : 6}) {

@@ -10,7 +10,7 @@ namespace perilink {
 namespace {
 
 /// Rows of single events in a body whose stiffness falls at each while the load factor jumps about.
-/// \param driven  displacements of 0.3 at load factor 1 drive it, else a load of 3
+/// \param driven  displacements of 0.3 at load factor 1 are prescribed, else a load of 3
 std::vector<StepRecord> make_path(int rows, bool driven) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -50,7 +50,7 @@ TEST(EventPath, AreTheRowsUnderForcesOrDrivenDisplacements) {
   }
 }
 
-/// What a separated body leaves is no part of a path on which stiffnesses are read.
+/// The path after separation is not used for stiffnesses.
 TEST(EventPath, EndsBeforeARowThatResistsNothing) {
   std::vector<StepRecord> records = make_path(50, true);
   records[49].load = -1.5e-12;
@@ -68,7 +68,8 @@ TEST(EventPath, IsEmptyWhereRowsAreNoSingleEvents) {
   EXPECT_TRUE(event_path({}).empty());
 }
 
-/// Forces work beside the reactions of driven displacements: load times displacement lacks that.
+/// Forces work in addition to reactions of prescribed displacements; load times displacement lacks
+/// their work.
 TEST(EventPath, IsEmptyWhereTheAxesMissWork) {
   std::vector<StepRecord> records = make_path(50, true);
   for (StepRecord& record : records) record.strain_energy *= 1.01;
@@ -94,7 +95,7 @@ TEST(Envelope, DissipatesWhatTheEventsDissipateInEveryWindow) {
   }
 }
 
-/// Under driven displacements as under forces: nothing is drawn that no row has reached.
+/// Under prescribed displacements and under forces the curve ends at the last row reached.
 TEST(Envelope, LiesNowhereBeyondTheRowsOfItsWindow) {
   for (const bool driven : {false, true}) {
     const std::vector<CurvePoint> path = event_path(make_path(1001, driven));
@@ -113,7 +114,8 @@ TEST(Envelope, LiesNowhereBeyondTheRowsOfItsWindow) {
   }
 }
 
-/// Displacement over load factor is the same in all rows of a driven body but for its last digit.
+/// Displacement over load factor is equal in all rows of a displacement-controlled body up to its
+/// last digit.
 TEST(Envelope, MakesNoPointOfRoundOff) {
   std::vector<CurvePoint> path;
   for (int k = 0; k < 400; ++k) {
@@ -170,7 +172,7 @@ TEST(ResidualStrength, IsNoneOfTeeth) {
   EXPECT_EQ(rows_before_residual(path, false), path.size());
 }
 
-/// The event path of one load, told as rows of a stage.
+/// Event path of one load as rows of a stage.
 TEST(ResidualStrength, StagesHaveTheEnvelopeOfTheirEvents) {
   std::vector<StepRecord> rows = make_path(1001, true);
   for (std::size_t k = 1; k < rows.size(); ++k) {
@@ -186,13 +188,13 @@ TEST(Envelope, PassesOverSingleTeeth) {
     const double load = k % 10 == 5 ? 6.0 : 3.0;
     path.push_back({load * (1.0 + k), load});
   }
-  // Two of ten events have one end on the tooth: load^2 = (8 * 3 * 3 + 2 * 3 * 6) / 10.
+  // Two of ten events have one end on the segment: load^2 = (8 * 3 * 3 + 2 * 3 * 6) / 10.
   EXPECT_NEAR(smoothed_peak(path).value(), std::sqrt(10.8), 1e-12);
   EXPECT_FALSE(smoothed_peak(std::span(path).first(20))) << "one window is no curve";
 }
 
-/// On weak springs the events of the body hardly move their displacement; a last window in which
-/// the springs themselves let go was the whole envelope, with a peak far below that of the rows.
+/// On weak springs the events of the body hardly move their displacement. The envelope must not
+/// consist only of a last window in which the springs fail, with a peak far below that of the rows.
 TEST(Envelope, HasNoPeakWhereWindowsWithoutAPointBearMore) {
   std::vector<CurvePoint> path;
   for (int k = 0; k <= 100; ++k) path.push_back({8e9 * (1.0 + 1e-12 * k), 800.0});
@@ -201,7 +203,7 @@ TEST(Envelope, HasNoPeakWhereWindowsWithoutAPointBearMore) {
   EXPECT_FALSE(smoothed_peak(path));
 }
 
-/// What is left of a body bears more, in as many events again.
+/// The rest of a body carries more, in equally many further events.
 TEST(ResidualStrength, BeginsWhereTheBodyGaveWay) {
   std::vector<CurvePoint> path;
   for (int k = 0; k <= 4; ++k) path.push_back({1.0 + k, 3.0});
@@ -243,7 +245,7 @@ TEST(PeakWatch, ABodyThatGivesWayAndStaysWeakHasOnePeak) {
   EXPECT_EQ(peaks.highest().load, 5.0);
 }
 
-/// A test whose displacement only grows sees nothing of teeth that snap back and come again.
+/// A test with growing displacement does not follow segments that snap back and return.
 TEST(PeakWatch, PassesOverTeethThatSnapBack) {
   const PeakWatch peaks =
       watch({{1.0, 5.0}, {0.3, 1.4}, {0.2, 0.9}, {1.2, 5.2}, {0.4, 1.6}, {1.4, 5.4}});

@@ -14,7 +14,7 @@ TEST(Termination, HasAWordForEveryKind) {
   EXPECT_EQ(to_string(Termination::failed), "failed");
 }
 
-/// An observer that only wants the rows needs no more than on_step.
+/// An observer of rows needs only on_step.
 class Counter final : public StepObserver {
  public:
   void on_step(const StepRecord&, StateSource&) override { ++rows; }
@@ -24,7 +24,7 @@ class Counter final : public StepObserver {
 class NoState final : public StateSource {
  public:
   StepState state() override {
-    ADD_FAILURE() << "nobody asked for the state";
+    ADD_FAILURE() << "the state was not requested";
     return {network_, {}, {}};
   }
 

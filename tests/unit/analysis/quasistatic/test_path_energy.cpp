@@ -41,7 +41,7 @@ TEST(PathEnergy, TwoEventsUnderAForce) {
   EXPECT_DOUBLE_EQ(energy.external_work(), energy.stored() + energy.dissipated());
 }
 
-/// The same springs moved by 1: R'd is 4, then 3, then 2, and f'u - R'd grows by 1 each time.
+/// Springs moved by 1: R'd is 4, then 3, then 2, and f'u - R'd grows by 1 each time.
 TEST(PathEnergy, TwoEventsUnderADisplacement) {
   PathEnergy energy;
   energy.advance(2.0, {0.0, 4.0});
@@ -110,7 +110,7 @@ TEST(PathEnergy, AnEventBesideAConstantForce) {
 }
 
 /// A body of compliance 1/2 becomes freer, 1, under a constant force of 2 and a growing one of 3:
-/// nothing dissipates, and what the stored energy loses is told apart.
+/// no energy dissipates, and the loss of stored energy is reported separately.
 TEST(PathEnergy, FreedomBesideAConstantForce) {
   const ConstantWork held{4.0 / 2.0, 2.0 / 2.0, 0.0, 2.0 / 2.0, 0.0};
   const ConstantWork freed{4.0 / 1.0, 2.0 / 1.0, 0.0, 2.0 / 1.0, 0.0};

@@ -43,7 +43,7 @@ TEST(ReleasingRun, StrainsConvertElementsBeforeTheBondsInThemFail) {
   }
 }
 
-/// Where no strain comes to the alert the bonds do, at their limits.
+/// Bonds at their limits trigger release where no strain reaches the threshold.
 TEST(ReleasingRun, BondsAtTheirLimitsConvertElementsThatNoStrainHas) {
   Rows free, embedded;
   run_strip("", free);
@@ -52,7 +52,7 @@ TEST(ReleasingRun, BondsAtTheirLimitsConvertElementsThatNoStrainHas) {
   EXPECT_NEAR(embedded.rows.back().load, free.rows.back().load, 0.1 * free.rows.back().load);
 }
 
-/// Under compression alone nothing fails and no strain is large: the run ends.
+/// Under pure compression no bond fails and no strain is large: the run ends.
 TEST(ReleasingRun, EndsWhereNothingCanFailAndNoElementIsStrained) {
   CaseFile input = parse_case(R"([body]
 spacing = 1

@@ -67,7 +67,7 @@ TEST(Peaks, EndWithTheCrackThroughTheBody) {
   Network network = build_model(test::strip_case()).network;
   std::vector<StepRecord> rows = rows_of(bonds_across(network));
   const std::size_t through = rows_before_through_crack(network, rows);
-  network.laws.push_back(BondLaw::plateau());  // bodies of brittle bonds alone have another rule
+  network.laws.push_back(BondLaw::plateau());  // bodies of brittle bonds have another rule
   const auto result_of = [&](double later) {
     DamageResult result;
     for (std::size_t k = 0; k < rows.size(); ++k) {

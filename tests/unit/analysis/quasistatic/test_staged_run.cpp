@@ -70,8 +70,8 @@ TEST(StagedRun, LoadsAPrestressedTruss) {
   EXPECT_NEAR(recorder.rows[1].load_factor, 0.02, 1e-15);
   EXPECT_NEAR(recorder.rows[1].load, 0.04, 1e-15);
   EXPECT_NEAR(recorder.rows[1].displacement, 0.01, 1e-15);
-  // Rows are independent: the other one breaks at the same force. What is left of the first bears
-  // F = 0.02 by a right bond that is shortened by 0.01.
+  // Rows are independent: the other one breaks at an equal force. The rest of the first carries F =
+  // 0.02 by a right bond that is shortened by 0.01.
   EXPECT_NEAR(recorder.rows[2].load_factor, 0.02, 1e-15);
   EXPECT_NEAR(recorder.rows[2].strain_energy, 2.0 * 0.01 * 0.01, 1e-15);
   // 2 (0.01) (0.02) / 2: half the stiffness times the stretch before and that of the gap after.
@@ -79,8 +79,8 @@ TEST(StagedRun, LoadsAPrestressedTruss) {
   EXPECT_LT(result.energy_error, 1e-12);
 }
 
-/// Chains of two bonds of stiffness 2 and limit 0.01 whose ends bear 0.01 each, are gripped where
-/// that moves them, and driven: bonds are at their limits after another 0.01.
+/// Chains of two bonds of stiffness 2 and limit 0.01 whose ends carry 0.01 each. The ends are
+/// clamped in that position and displaced: bonds reach their limits after another 0.01.
 TEST(StagedRun, GripsABodyWhereItIs) {
   AnalysisBody body = make_chains(2, 2, false, 2.0, 0.01);
   const LoadCase dead = set_of(body);
@@ -94,7 +94,7 @@ TEST(StagedRun, GripsABodyWhereItIs) {
   EXPECT_NEAR(gripped.load, 2.0 * (2.0 * 0.01 - 0.01), 1e-15) << "the dead load bears its part";
   EXPECT_NEAR(gripped.strain_energy, 4.0 * 0.01 * 0.01, 1e-15);
   EXPECT_NEAR(gripped.external_work, gripped.strain_energy, 1e-15);
-  // The other row reaches its limit at the same displacement, and then nothing resists.
+  // The other row reaches its limit at an equal displacement, and then no resistance remains.
   EXPECT_NEAR(recorder.rows[2].displacement, 0.01, 1e-15);
   EXPECT_NEAR(recorder.rows[2].load, 2.0 * 0.01 - 2.0 * 0.01, 1e-15);
   EXPECT_EQ(result.termination, Termination::collapsed);
@@ -102,7 +102,7 @@ TEST(StagedRun, GripsABodyWhereItIs) {
 }
 
 /// make_square() under a dead load of up to 0.03 each: a horizontal bond breaks at 0.015; then its
-/// end would move by 0.03, three halves of what the diagonal bears.
+/// end would move by 0.03, three halves of what the diagonal carries.
 TEST(StagedRun, AConstantLoadThatIsTooBigMakesAnAvalanche) {
   AnalysisBody body = make_square();
   body.sets = {set_of(body)};
@@ -119,7 +119,7 @@ TEST(StagedRun, AConstantLoadThatIsTooBigMakesAnAvalanche) {
   EXPECT_LT(result.energy_error, 1e-12);
 }
 
-/// The same under dead loads that the growing ones relieve: the lower end bears 0.014 - lambda, the
+/// Joint under dead loads relieved by the growing ones: the lower end carries 0.014 - lambda, the
 /// upper one 0.012 + lambda / 10. At lambda = 0.03 the upper bond breaks; its diagonal would need
 /// lambda <= -0.02, the lower bond lambda >= -0.001.
 TEST(StagedRun, WithoutAnAdmissibleLoadFactorElementsBreakAtTheLastOne) {
@@ -166,7 +166,7 @@ TEST(StagedRun, EndsAStageByItsOwnRules) {
     displacements.push_back(row.displacement);
     stages.push_back(row.stage);
   }
-  // Three rows of two bonds in series resist 1/2 each, on the way back too.
+  // Three rows of two bonds in series resist 1/2 each, also while unloading.
   EXPECT_THAT(displacements, testing::Pointwise(testing::DoubleNear(1e-15),
                                                 {0.02, 0.04, 0.06, -0.5, 0.0, 0.06, 0.08}));
   EXPECT_THAT(stages, testing::ElementsAre(1, 1, 1, 2, 3, 4, 4));

@@ -70,7 +70,7 @@ TEST(StrainWatch, LooksAtBondsOfTheSolidAlone) {
   EXPECT_FALSE(StrainWatch(body.network).is_beyond(body.motion, body.side, intact(body.network)));
 }
 
-/// Bonds that fail under compression bear no load without limit.
+/// Bonds that fail under compression carry no load without limit.
 TEST(StrainWatch, LooksAtNoBondThatIsCrushedByItself) {
   Pressed body;
   for (double& stretch : body.network.critical_stretch) stretch = 1e-3;

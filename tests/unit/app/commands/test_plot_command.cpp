@@ -56,7 +56,7 @@ TEST_F(Plot, DrawsCurveAndFields) {
   EXPECT_NE(text("load_displacement.svg").find("displacement (in)"), std::string::npos);
 }
 
-/// The rows alone do not say whether the load vibrates, nor what cracked before the first of them.
+/// Rows do not show whether the load vibrates, or which particles cracked before the first row.
 TEST_F(Plot, TakesTheFirstPeakFromTheSummary) {
   const auto drawn = [&](const std::string& summary) {
     std::ofstream(directory_ / "summary.json") << R"({"status": "completed", )" << summary << "}";
@@ -71,7 +71,7 @@ TEST_F(Plot, TakesTheFirstPeakFromTheSummary) {
   EXPECT_EQ(drawn(R"("first_peak_load": null)").find("first peak"), std::string::npos);
 }
 
-/// The rows of any run can look like those of single breaks.
+/// Rows of any run can resemble those of single breaks.
 TEST_F(Plot, TakesTheKindOfTheRunFromTheSummary) {
   {
     HistoryFile history(directory_.string(), {});

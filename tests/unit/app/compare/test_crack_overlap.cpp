@@ -8,7 +8,7 @@
 namespace perilink {
 namespace {
 
-/// A square of side 10 in cells, or a cube, cracked where `is_cracked` says so at their centres.
+/// A square or cube of side 10 in cells, cracked where `is_cracked` is true at their centres.
 CrackPattern cracked_block(int dim, double spacing,
                            const std::function<bool(double, double)>& is_cracked) {
   CrackPattern pattern;

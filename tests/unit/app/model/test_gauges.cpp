@@ -65,7 +65,7 @@ void expect_values_of_linear_displacement(const CaseFile& input) {
   EXPECT_NEAR(values[0], 2.0 * (du * 0.6 + dv * 0.8), 1e-14);
   EXPECT_NEAR(values[1], 2.0 * du, 1e-14);
   EXPECT_NEAR(values[2], 2.0 * (0.002 * 30.0 - 0.004 * 60.0), 1e-14);
-  // Rows at 60, 70 and 80, of which the last has half cells; across the width x averages to 20.
+  // Rows at 60, 70 and 80, the last with half cells; across the width x averages to 20.
   const double mean_y = (60.0 + 70.0 + 0.5 * 80.0) / 2.5;
   EXPECT_NEAR(values[3], 2.0 * (0.002 * 20.0 - 0.004 * mean_y), 1e-14);
   const double e = 3000.0, nu = input.materials[0].poissons_ratio.value_or(1.0 / 3.0);
@@ -113,7 +113,7 @@ TEST(Gauges, AreLinearBetweenParticles) {
   }
 }
 
-/// Flanks of a pre-crack along y = 45 move apart: points beside it follow their own flank.
+/// Flanks of a pre-crack along y = 45 move apart: points next to it follow their own flank.
 TEST(Gauges, StayOnTheirSideOfACrack) {
   CaseFile input = strip_with_gauges();
   CrackSection crack;

@@ -22,12 +22,12 @@ TEST(TotalLoad, OfPlatensAgainstOneAnotherIsTheForceOfEach) {
   EXPECT_DOUBLE_EQ(load_of({pushed("a", {0.0, -7.0, 0.0}), pushed("b", {0.0, 7.0, 0.0})}), 7.0);
 }
 
-/// 7 from above against 4 from below: supports bear 3, and 7 pass through the body.
+/// 7 from above against 4 from below: supports carry 3, and 7 pass through the body.
 TEST(TotalLoad, CountsWhatIsLeftToSupports) {
   EXPECT_DOUBLE_EQ(load_of({pushed("a", {0.0, -7.0, 0.0}), pushed("b", {0.0, 4.0, 0.0})}), 7.0);
 }
 
-/// Four faces pressed one by one bear as much as the same pressure in one entry.
+/// Four faces pressed one by one carry as much as the same pressure in one entry.
 TEST(TotalLoad, OfAPlaceInBalanceCountsTheSizesOfItsForces) {
   const double apart = load_of({pushed("a", {7.0, 0.0, 0.0}), pushed("b", {-7.0, 0.0, 0.0}),
                                 pushed("c", {0.0, 7.0, 0.0}), pushed("d", {0.0, -7.0, 0.0})});

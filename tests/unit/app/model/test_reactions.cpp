@@ -71,7 +71,7 @@ TEST(Reactions, OfMicropolarBodiesCountTheMomentsOfHeldRotations) {
   EXPECT_NEAR(reaction.moment[2], 3.0 * arm, 1e-9);
 }
 
-/// Springs and a plane of symmetry share the load, and the table says that all is in balance.
+/// Springs and a plane of symmetry share the load, and the table reports balance.
 TEST(Reactions, OfAllPlacesBalanceTheLoads) {
   CaseFile input = elastic_strip();
   input.supports.clear();
@@ -157,7 +157,7 @@ TEST(Reactions, OutOfBalanceAreReportedOnce) {
   sum.moment = {};
   ReactionBalance moments;
   moments.add(1, sum, 10.0, 1e-7);
-  EXPECT_FALSE(moments.warning()) << "round-off of forces beside moments";
+  EXPECT_FALSE(moments.warning()) << "round-off of forces against moments";
   sum.force[0] = NAN;
   loose.add(8, sum, 10.0, 0.05);
   EXPECT_TRUE(loose.warning());

@@ -23,7 +23,7 @@ ConvergencePlot sample() {
   return plot;
 }
 
-/// Numbers of all attributes of this name, "cx" of circles say.
+/// Returns the numbers of all attributes of a name, for example "cx" of circles.
 std::vector<double> attributes(const std::string& text, const std::string& name) {
   const std::regex pattern(" " + name + "=\"([-0-9.]+)\"");
   std::vector<double> found;

@@ -66,7 +66,7 @@ TEST(LoadDisplacement, ManyEventsGetAnEnvelopeAndASmallFile) {
   EXPECT_EQ(svg.find("nan"), std::string::npos);
 }
 
-/// Triangular path of 400 rows from nothing over a peak at `middle` to nothing.
+/// Triangular path of 400 rows from zero over a peak at `middle` to zero.
 std::vector<StepRecord> tent(double middle) {
   std::vector<StepRecord> records(400);
   for (int k = 0; k < 400; ++k) {

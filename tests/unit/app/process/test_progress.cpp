@@ -35,7 +35,7 @@ TEST(Progress, SaysNothingInItsFirstSecondsNorWhenQuiet) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-/// What an action writes on a standard error that is a terminal.
+/// Returns the output of an action on a standard error that is a terminal.
 std::string on_terminal(const std::function<void()>& action) {
   const int master = posix_openpt(O_RDWR | O_NOCTTY);
   if (master < 0 || grantpt(master) != 0 || unlockpt(master) != 0) return "no terminal to be had";

@@ -30,7 +30,7 @@ TEST_F(SignalsDeathTest, InterruptAndTerminateAreRemembered) {
   EXPECT_EXIT(catch_and_report(SIGHUP), testing::ExitedWithCode(0), "");
 }
 
-/// The system and the shell may both tell that the terminal is gone.
+/// Both system and shell may report that the terminal is gone.
 TEST_F(SignalsDeathTest, TerminalsMayBeClosedTwice) {
   EXPECT_EXIT(
       {

@@ -5,7 +5,7 @@
 namespace perilink {
 namespace {
 
-/// Unit square of four particles with its four sides as bonds, a tie to a bar and one bar segment.
+/// Unit square of four particles with its four sides as bonds, a slip spring and one bar element.
 Network make_square() {
   Network network;
   network.particles.dim = 2;
@@ -91,7 +91,7 @@ TEST_F(FieldFile, DisplacementsAndEnergiesAreThoseOfTheMotion) {
   EXPECT_EQ(u[5], 0.0);
   // Only bond 0-1 of stiffness 2 is stretched at particle 0, by 0.1: half of 2 * 0.1^2 / 2.
   EXPECT_NEAR(grid_.find_point_data("strain_energy_density")->values[0], 0.005, 1e-15);
-  // Stretch 0.1 along x and nothing across.
+  // Stretch 0.1 along x and zero across.
   const std::vector<double>& strain = grid_.find_point_data("principal_strain")->values;
   EXPECT_NEAR(strain[0], 0.1, 1e-14);
   EXPECT_NEAR(strain[1], 0.0, 1e-14);

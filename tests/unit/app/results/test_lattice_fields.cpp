@@ -69,7 +69,7 @@ TEST(ExplicitFields, HoldEveryParticleOnce) {
   EXPECT_EQ(grid.field("thickness", 0.0), model.thickness);
 }
 
-/// A run of which every step is a row shows which particle cracked in which step.
+/// A run with a row at every step shows which particle cracked in which step.
 TEST(ExplicitFields, NumberCracksInTheOrderOfTime) {
   struct Order final : ExplicitObserver {
     explicit Order(const ExplicitModel& of) : model(of) {}

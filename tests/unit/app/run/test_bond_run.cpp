@@ -172,7 +172,7 @@ TEST_F(BondRunTest, FieldsNumberBreaksInTheOrderOfTime) {
   EXPECT_FALSE(std::is_sorted(order.broken.begin(), order.broken.end()));
 }
 
-/// The model may have taken factors to calibrate bonds; steps need none, nor do their preparations.
+/// The model may have used factors to calibrate bonds; steps and their preparation need none.
 TEST_F(BondRunTest, TakesNoFactor) {
   const test::TemporaryDirectory work;
   const auto run = make_bond_run(input_, 1, true);

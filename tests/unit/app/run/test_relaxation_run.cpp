@@ -41,7 +41,7 @@ TEST_F(RelaxationRun, WritesARowAndFieldsForEachLoadStep) {
   EXPECT_DOUBLE_EQ(table.rows[1][load], 2.0 * table.rows[0][load]);
   EXPECT_EQ(table.rows[1][time], 2.0);
   EXPECT_EQ(run.series().size(), 2U);
-  // The reaction bears the load, to the tolerance.
+  // The reaction carries the load, to the tolerance.
   const double last = std::abs(table.rows[1][load]);
   EXPECT_NEAR(std::abs(run.summary.json["peak_reaction"].get<double>()), last, 1e-6 * last);
 }
@@ -55,7 +55,7 @@ TEST_F(RelaxationRun, SummaryTellsHowItEnded) {
   EXPECT_LE(json["residual"], 1e-7);
   EXPECT_LE(json["displacement_error"], 1e-7);
   EXPECT_EQ(json["rows"], 2);
-  EXPECT_EQ(json["kinetic_energy"], 0.0) << "at rest";
+  EXPECT_EQ(json["kinetic_energy"], 0.0) << "in equilibrium";
   EXPECT_THAT(run.summary.text, testing::HasSubstr("residual"));
 }
 

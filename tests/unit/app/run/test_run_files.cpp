@@ -59,7 +59,7 @@ TEST(RunFiles, AStateIsWrittenOnce) {
   EXPECT_GT(files.seconds_writing(), 0.0);
 }
 
-/// Loads of explicit runs vibrate: one row below half of the peak says nothing.
+/// Loads of explicit runs vibrate: one row below half of the peak is not failure.
 TEST(RunFiles, BeginAgainWithoutFormerRowsAndFields) {
   const test::TemporaryDirectory work;
   const CaseFile input = case_of(AnalysisType::explicit_);

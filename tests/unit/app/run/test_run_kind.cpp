@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A run that does nothing but end.
+/// A run that only ends.
 class Stub final : public RunKind {
  public:
   using RunKind::RunKind;
@@ -77,7 +77,7 @@ TEST(RunKind, NamesEveryEnding) {
   }
 }
 
-/// One case of each kind that make_run() knows.
+/// One case of each kind of make_run().
 std::vector<CaseFile> cases_of_all_kinds() {
   std::vector<CaseFile> cases(4, test::strip_case());
   cases[0].stop.broken_bonds = 3;
@@ -93,7 +93,7 @@ std::vector<CaseFile> cases_of_all_kinds() {
   return cases;
 }
 
-/// What is added in the frame is in the summaries of all kinds, under its key and in print.
+/// Values added by the frame are in the summaries of all kinds, under their key and in print.
 TEST(RunKind, QuantitiesOfTheFrameAreThoseOfAllKinds) {
   for (const CaseFile& input : cases_of_all_kinds()) {
     const test::WholeRun run(input);

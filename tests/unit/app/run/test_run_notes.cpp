@@ -63,7 +63,7 @@ TEST(ClampNote, CountsBondsThatBreakAtParticlesWithPrescribedDisplacements) {
               HasSubstr("2 of 4 broken bonds end at particles of [[supports]]"));
 }
 
-/// Only bonds that broke after the body gave way count.
+/// Only bonds that broke after failure of the body count.
 TEST(PeakWarning, CountsLaterBondsAtGrips) {
   const auto [model, at_clamp, elsewhere] = HeldStrip();
   DamageResult result = result_of({{0.1, 3320}, {0.2, 900}, {5.0, 11314}});

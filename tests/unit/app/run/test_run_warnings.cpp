@@ -71,8 +71,8 @@ TEST(RunWarnings, NameCompressionBeyondTenTimesTheTensileStrength) {
   EXPECT_EQ(largest_compression(network, principal).stress, 0.0) << "it can crush";
 }
 
-/// Two bonds of length 2 and stiffness 3 with teeth that take 0.05 and 0.95 of 10 (their areas over
-/// the square of the critical stretch).
+/// Two bonds of length 2 and stiffness 3 with segments that take 0.05 and 0.95 of 10 (their areas
+/// over the square of the critical stretch).
 TEST(RunWarnings, NameEnergyThatSofteningTakesBesideTheCracks) {
   const BondLaw law = BondLaw::saw_tooth({{1.0, 1.0}, {0.5, std::sqrt(19.0)}});
   Network network;

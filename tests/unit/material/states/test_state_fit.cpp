@@ -82,8 +82,8 @@ TEST(StateFit, OfFaceCentredFamiliesAreTheClosedForms) {
   }
 }
 
-/// Difference from Hooke's tensor of a family with these constants, component by component: the
-/// stress under each unit strain, Frobenius norm over all four indices.
+/// Difference from Hooke's tensor of a neighbourhood with these constants, component by component:
+/// the stress under each unit strain, Frobenius norm over all four indices.
 double residual_of(const ParticleModuli& moduli, std::span<const NeighbourhoodBond> neighbourhood,
                    double volume, Problem problem, double ratio) {
   const int dim = dimension_of(problem);
@@ -147,7 +147,7 @@ TEST(StateFit, OfScatteredFamiliesIsTheNearest) {
 }
 
 TEST(StateFit, ReportsFamiliesThatLeaveAStrainFree) {
-  // All neighbours in one line: a sheared family does not notice.
+  // All neighbours in one line: a sheared neighbourhood does not notice.
   const std::vector<NeighbourhoodBond> line = {{{1.0, 0.0, 0.0}, spacing, false},
                                                {{-1.0, 0.0, 0.0}, spacing, false}};
   const ParticleFit fit = fit_particle_moduli(Problem::plane_stress, state_modulus, 0.2, line, 0.1);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr Vector3 along_x = {1.0, 0.0, 0.0};
 
-/// With teeth that add less than 1e-4 to the strength.
+/// With segments that add less than 1e-4 to the strength.
 double strength_factor(std::span<const CellBond> cell, int dim, const SofteningShape& shape,
                        double end) {
   return cell_strength(cell, dim, along_x,
@@ -32,7 +32,7 @@ struct StrengthTable {
 class StrengthFactors : public testing::TestWithParam<StrengthTable> {};
 
 /// Computed independently: the largest stress of a continuum of bonds whose softening curves are
-/// followed without teeth. 1 % for the finite directions here.
+/// followed without segments. 1 % for the finite directions here.
 TEST_P(StrengthFactors, AreThoseOfAContinuumOfBonds) {
   const StrengthTable& table = GetParam();
   const std::vector<CellBond> cell = isotropic_cell(table.problem, 1.0);
@@ -160,7 +160,7 @@ TEST(LatticeCells, OfSquaresHaveTheModulusOfTheLattice) {
 }
 
 /// Along a row of a triangular lattice the row's bond has the strain s_c when it breaks; the other
-/// two with k' = 3 k / 4 across then bear less.
+/// two with k' = 3 k / 4 across then carry less.
 TEST(LatticeCells, BreakWhereTheirRowsDo) {
   const auto cell =
       lattice_cell(triangle, std::vector<double>(triangle.size(), 7.0), {}, triangle_area);

@@ -52,8 +52,8 @@ TEST(LayerBonds, AreNoneWhereTheLatticeHasNoLayers) {
   EXPECT_FALSE(layer_bonds(offsets, stiffness, {}, 1.0, {std::cos(0.3), std::sin(0.3), 0.0}));
 }
 
-/// Every bond crosses the face once and no layer is apart from the next: the whole body stretches
-/// alike. Bonds along x break first, and those at an angle bear the less.
+/// Every bond crosses the face once, and layers are adjacent: the whole body stretches uniformly.
+/// Bonds along x break first, and inclined bonds carry less.
 TEST(FaceStrength, OfBrittleBondsIsTheStressAtTheirStretch) {
   // sum of k xi^2 / V: 2 along x, 2 along y, 2 and 2 along the diagonals; without stress across.
   const double normal = 2.0 + 4.0 * 0.25, both = 4.0 * 0.25;
@@ -63,17 +63,17 @@ TEST(FaceStrength, OfBrittleBondsIsTheStressAtTheirStretch) {
 }
 
 /// A bond that takes very much energy is on its plateau when all others are: with the strains held
-/// across by bonds that do not soften, each bears no more than its largest force.
+/// across by bonds that do not soften, each carries no more than its largest force.
 TEST(FaceStrength, OfToughBondsComesNearTheSumOfTheirLargestForces) {
   const double most = 2.0 + 4.0 * 0.5;  // sum of k xi^2 cos^2 / V
   const double tough = face_strength(square({1.0, 0.0, 0.0}), even, linear_law(5000.0));
-  EXPECT_LT(tough, 1.01 * most);  // the teeth
+  EXPECT_LT(tough, 1.01 * most);  // the segments
   EXPECT_GT(tough, 0.95 * most);
   EXPECT_LT(face_strength(square({1.0, 0.0, 0.0}), even, linear_law(5.0)), tough);
 }
 
-/// Bonds along the normal that join neighbouring layers alone bear what one bears, whatever is on
-/// either side.
+/// Bonds along the normal that only join neighbouring layers carry the load of one bond, for any
+/// material on either side.
 TEST(FaceStrength, OfOneKindOfBondsIsTheLargestForceOfOne) {
   const std::vector<LayerBond> chain = {{1, 1.0, 3.0, 0.0}, {1, 0.0, 1.0, 0.0}};
   for (const auto& sides : {even, {0.5, 1.5}}) {

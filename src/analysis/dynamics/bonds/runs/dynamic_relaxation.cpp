@@ -126,7 +126,7 @@ class Relaxation {
     ++result_.iterations;
   }
 
-  /// Decides whether the body is at rest and how it is damped.
+  /// Decides whether the body is in equilibrium and how it is damped.
   void judge(const RestSums& all) {
     const double rest = std::sqrt(all.residual);
     most_held_ = std::max(most_held_, all.held);
@@ -154,7 +154,7 @@ class Relaxation {
           fmt::format("load step {} (load factor {}): {} after {} iterations; the residual force "
                       "is {:.2e} of the loads and reactions, the estimated error {:.2e}; the "
                       "tolerance of both is {:.2e}",
-                      step_ + 1, factor_, grows ? "the motion grows" : "not at rest",
+                      step_ + 1, factor_, grows ? "the motion grows" : "not converged",
                       std::min(iteration_, options_.most_iterations), result_.residual,
                       result_.error, options_.tolerance));
     }
@@ -247,7 +247,7 @@ class Relaxation {
         return collapse("the body is in pieces and no longer resists the displacements");
       }
       if (step_ + 1 == options_.load_factors.size()) return note_end();
-      // Load steps may be at rest from the beginning.
+      // Load steps may be in equilibrium from the beginning.
       if (observer_.stop_requested()) end(Termination::interrupted, "interrupted");
     });
   }
@@ -280,7 +280,7 @@ class Relaxation {
 
   void note_end() {
     const std::size_t steps = options_.load_factors.size();
-    result_.reason = fmt::format("{} load step{} at rest", steps, steps == 1 ? "" : "s");
+    result_.reason = fmt::format("{} load step{} converged", steps, steps == 1 ? "" : "s");
     result_.residual = largest_residual_;
     result_.error = largest_error_;
     observer_.on_end(record_, state());
@@ -289,9 +289,8 @@ class Relaxation {
   const RelaxationOptions& options_;
   BondRunObserver& observer_;
   MovingBonds body_;
-  std::vector<double> before_;  ///< internal forces of the last iteration
-  std::vector<double> first_,
-      first_force_;             ///< displacement and force where measuring the damping began
+  std::vector<double> before_;               ///< internal forces of the last iteration
+  std::vector<double> first_, first_force_;  ///< motion and force where damping was restarted
   std::vector<double> weight_;  ///< factors of squared forces and moments, per component
   std::vector<RestSums> rest_;  ///< per block
   Separation separation_;

@@ -79,8 +79,8 @@ class LeadingShare final : public RunShare {
   std::vector<double> collect(MovingBonds& body);
   /// Collects the motion of all particles and the forces on them, during a synchronisation.
   void collect_motion(MovingBonds& body);
-  /// Collects secants during a synchronisation. \param secants  of all elements; values of other
-  /// ranks are overwritten
+  /// Collects secants during a synchronisation. \param secants  all elements; values of other ranks
+  /// are overwritten
   void collect_secants(std::span<double> secants);
   void end_meeting(bool goes_on);
 

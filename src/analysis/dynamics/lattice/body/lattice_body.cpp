@@ -13,8 +13,8 @@
 namespace perilink {
 namespace {
 
-/// Share of the cell that the triangles between a particle and its neighbours fill: a half on a
-/// straight edge. In space the share of its bonds.
+/// Returns the share of the cell filled by triangles between a particle and its neighbours: a half
+/// on a straight edge. In space it is the share of its bonds.
 std::vector<double> tributary_shares(const LatticeRows& lattice) {
   std::vector<double> share(lattice.slots, 0.0);
   const int own = lattice.own_bonds();
@@ -37,7 +37,7 @@ std::vector<double> tributary_shares(const LatticeRows& lattice) {
   return share;
 }
 
-/// Particles at corners get the mass of those on straight edges, for the sake of the time step.
+/// Corner particles get the mass of particles on straight edges, which keeps the time step long.
 constexpr double least_inertia = 0.5;
 
 void set_masses(ExplicitModel& model) {
@@ -59,8 +59,8 @@ void set_masses(ExplicitModel& model) {
   }
 }
 
-/// Nikravesh (2017, Eqs. 3.55–3.57) with the wavelength 2 L_0 of the hexagonal lattice and the
-/// speed sqrt(K / rho).
+/// Sets damping by Nikravesh (2017, Eqs. 3.55–3.57) with the wavelength 2 L_0 of the hexagonal
+/// lattice and the speed sqrt(K / rho).
 void set_damping(ExplicitModel& model) {
   const LatticeMaterial& material = model.material;
   const double bulk = material.youngs_modulus / (3.0 * (1.0 - 2.0 * material.poissons_ratio));
@@ -75,8 +75,8 @@ void set_damping(ExplicitModel& model) {
   model.mass_damping = mass_damping_rate(material.external_damping, material.fundamental_period);
 }
 
-/// Widest band that a crack can have: half-way between two directions of rows, along a face of the
-/// cube in space.
+/// Returns the widest crack band: half-way between two directions of rows, in space along a face of
+/// the cube.
 double widest_band(const ExplicitModel& model) {
   const LatticeRows& lattice = model.lattice;
   if (lattice.dim == 3) return lattice.cell_volume / (0.5 * lattice.spacing * lattice.spacing);
@@ -98,7 +98,7 @@ void check_damage(const ExplicitModel& model) {
       model.lattice.spacing, model.lattice.spacing * limit / widest));
 }
 
-/// Softening of the consistent rules, by the energy of a band of one row.
+/// Sets the softening of the consistent rules by the energy of a band of one row.
 void set_softening(ExplicitModel& model) {
   LatticeMaterial& material = model.material;
   if (!material.yields) return;
@@ -108,8 +108,9 @@ void set_softening(ExplicitModel& model) {
   if (model.rules != LatticeRules::consistent) return;
   YieldCurve& curve = material.yielding;
   curve.failure_strain = failure_strain(curve, material.crushing_energy, widest_band(model));
-  // Flow must take back more stress than the surface shrinks by: 3 mu per equivalent strain, under
-  // equal stresses in plane stress E / (2 (1 - nu)); and a bar of a band no less than it unloads.
+  // Flow must reduce stress faster than the yield surface shrinks: 3 mu per equivalent strain,
+  // under equal stresses in plane stress E / (2 (1 - nu)). A bar with one band must not soften
+  // faster than it unloads.
   const double e = material.youngs_modulus, nu = material.poissons_ratio;
   const double equal = model.problem == Problem::plane_stress ? e / (2.0 * (1.0 - nu)) : e;
   const double least = curve.ultimate / std::min({1.5 * e / (1.0 + nu), equal, e});
@@ -121,7 +122,8 @@ void set_softening(ExplicitModel& model) {
       model.lattice.spacing, model.lattice.spacing * softening / least));
 }
 
-/// Largest sum of two neighbours' p, with the stiffness of own bond k along its direction.
+/// Returns the largest sum of p of two neighbours, with the stiffness of own bond k along its
+/// direction.
 double largest_pair(const ExplicitModel& model, const std::vector<double>& stiffness) {
   const LatticeRows& lattice = model.lattice;
   const int own = lattice.own_bonds();

@@ -23,13 +23,13 @@ struct LatticeMaterial {
   double compressive_threshold = 1.0 / 3.0;
   bool yields = false;
   /// Yield stress over plastic strain. Consistent rules: failure_strain follows from
-  /// crushing_energy; the papers' rules have their own softening.
+  /// crushing_energy. Rules of the papers: softening of their own.
   YieldCurve yielding;
   double crushing_energy = 0.0;   ///< dissipated by softening per area; infinite: none
                                   ///< [force/length]
-  double boundary_factor = 1.0;   ///< beta_1: on the stress of particles that lack bonds [-]
-  double internal_damping = 0.0;  ///< ratio at the frequency of a particle's own vibration
-  double external_damping = 0.0;  ///< ratio at the fundamental frequency of the body
+  double boundary_factor = 1.0;   ///< beta_1: factor of the stress of particles that lack bonds [-]
+  double internal_damping = 0.0;  ///< damping ratio at the frequency of a particle's own vibration
+  double external_damping = 0.0;  ///< damping ratio at the fundamental frequency of the body
   /// Longest period of the body [time]; needed for external damping.
   double fundamental_period = 0.0;
 };
@@ -48,7 +48,7 @@ struct AppliedForce {
   double value = 0.0;  ///< at load factor 1 [force]
 };
 
-/// Everything of an explicit lattice run that does not change with time.
+/// Constant data of an explicit lattice run.
 struct ExplicitModel {
   Problem problem = Problem::plane_stress;
   LatticeRules rules = LatticeRules::consistent;
@@ -60,50 +60,51 @@ struct ExplicitModel {
   std::vector<double> inverse_mass;  ///< zero where a slot is empty
   std::vector<double> volume;        ///< volume over which a particle's stress is taken [length^3]
   std::vector<std::vector<PrescribedMotion>> prescribed;  ///< per row, by slot
-  std::vector<std::vector<AppliedForce>> applied;         ///< the same; empty: no forces
-  int load_component = 1;  ///< along which the reaction of supports is summed: that of the largest
-                           ///< amplitude
+  std::vector<std::vector<AppliedForce>> applied;         ///< per row, by slot; empty: no forces
+  /// component along which reactions of supports are summed: that of the largest amplitude
+  int load_component = 1;
   double bond_damping = 0.0;  ///< force of a bond per velocity of its ends [force time/length]
   double mass_damping = 0.0;  ///< force per momentum [1/time]
 
-  /// Coefficient of the own stretch of own bond k [force].
+  /// Returns the coefficient of the own stretch of own bond k [force].
   double own_modulus(int k) const {
     return moduli.own + (lattice.bonds[k].length > 1.2 * lattice.spacing ? moduli.far : 0.0);
   }
-  /// Whether anything can happen to a particle but motion.
+  /// Returns whether particles can be damaged or yield.
   bool alters() const { return material.breakable || material.yields; }
-  /// Whether damage weakens a bond's stretch in the sums of its ends by another factor than its
-  /// force.
+  /// Returns whether damage reduces a bond's stretch in the sums of its ends by a factor other than
+  /// that of its force.
   bool weighs_halves() const { return material.breakable && rules == LatticeRules::consistent; }
 };
 
-/// Rate at which forces in proportion to the mass damp a vibration of a period with a ratio: twice
-/// the ratio times the frequency (Nikravesh 2017, Eq. 3.57) [1/time].
+/// Returns the rate of mass-proportional damping that damps a vibration of a period with a ratio
+/// [1/time]: twice the ratio times the circular frequency (Nikravesh 2017, Eq. 3.57).
 double mass_damping_rate(double ratio, double period);
 
-/// Masses, moduli and damping of a body without supports.
-/// \throws std::invalid_argument where the material cannot be (see hexagonal_moduli), a lattice of
-/// another dimension than the problem's, damage or flow by the rules of 2018 in three dimensions,
-/// or a spacing at which the stress of a band falls faster than it unloads
+/// Returns a body without supports, with masses, moduli and damping.
+/// \throws std::invalid_argument for an impossible material (see hexagonal_moduli), different
+///     dimensions of lattice and problem, damage or flow by the rules of 2018 in space, or a
+///     spacing at which the stress of a band falls faster than it unloads
 ExplicitModel make_explicit_model(Problem problem, LatticeRules rules, LatticeRows lattice,
                                   const LatticeMaterial& material, double thickness);
 
 /// Prescribes a component of the motion of particles.
 void prescribe(ExplicitModel& model, const std::vector<PrescribedMotion>& motions);
 
-/// Width of the crack band of a particle [length]: its volume over the area of a crack along rows
-/// (in space: along densest planes) of the lattice, which a crack at an angle crosses in steps.
+/// Returns the width of the crack band of a particle [length]: its volume over the area of a crack.
+/// The crack runs in steps along rows (in space: densest planes) of the lattice.
 /// \param normal  unit vector normal to the crack
 double band_width(const ExplicitModel& model, const Vector3& normal);
 
-/// Square of the highest frequency that the body can have, from above, exact far from surfaces
-/// where the sum of the stretches softens (poissons_ratio up to 1/3 in plane stress, 1/4 else):
-/// every bond's energy is at most k (p_i + p_j) times the kinetic form of its two particles, with
-/// p_i the largest eigenvalue of particle i's own stiffness over its mass [1/time^2].
+/// Returns an upper bound of the square of the highest circular frequency of the body [1/time^2].
+/// Every bond's energy is at most k (p_i + p_j) times the kinetic form of its two particles, with
+/// p_i the largest eigenvalue of particle i's own stiffness over its mass. The bound is exact far
+/// from surfaces where the sum of the stretches softens (poissons_ratio up to 1/3 in plane stress,
+/// 1/4 else).
 double frequency_bound_squared(const ExplicitModel& model);
 
-/// Time step below which Euler–Cromer with lagging damping forces is stable for certain: the
-/// positive root of dt^2 K + 2 dt C = 4 with both operators bounded as above [time].
+/// Returns the time step below which Euler–Cromer with lagging damping forces is stable [time]: the
+/// positive root of dt^2 K + 2 dt C = 4 with upper bounds of both operators.
 double critical_time_step(const ExplicitModel& model);
 
 }  // namespace perilink

@@ -10,7 +10,7 @@ namespace {
 constexpr std::array<std::array<int, 2>, 6> axes = {
     {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
 
-/// The entries that a body in the plane or in space has.
+/// Returns the entries of a SymmetricTensor in the plane or in space.
 std::vector<int> entries_of(int dim) {
   return dim == 2 ? std::vector<int>{0, 1, 3} : std::vector<int>{0, 1, 2, 3, 4, 5};
 }

@@ -9,7 +9,7 @@
 
 namespace perilink {
 
-/// What particles of a lattice see of their bonds, one particle at a time: for the few that change.
+/// Bonds, forces and stresses of single particles of a lattice, for the few particles that change.
 class LatticeParticles {
  public:
   static constexpr int most_bonds = 18;
@@ -17,69 +17,71 @@ class LatticeParticles {
 
   explicit LatticeParticles(const ExplicitModel& model);
 
-  /// The bonds of a particle, own ones first, then the incoming ones; absent ones are in the mask.
+  /// Bonds of a particle: own bonds first, then incoming ones. The mask excludes absent bonds.
   struct Neighbourhood {
     Index slot = 0;
     int bonds = 0;                            ///< 6 or 18
     std::array<Index, most_bonds> at{};       ///< in arrays of shape (own bonds, slots)
     std::array<Index, most_bonds> partner{};  ///< slot of the other particle
     Index now = 0;                            ///< slot in StepNumbers
-    std::array<Index, most_bonds> now_at{}, now_partner{};  ///< the same there
+    std::array<Index, most_bonds> now_at{}, now_partner{};  ///< positions in StepNumbers
     std::uint32_t mask = 0;                                 ///< bit j: bond j exists
 
     bool has(int j) const { return (mask >> j & 1U) != 0U; }
     int own_number(int j) const { return j < bonds / 2 ? j : j - bonds / 2; }
-    /// Plus one for own bonds, minus one for incoming: the sign of LatticeFlow::half.
+    /// Returns the sign of LatticeFlow::half: plus one for own bonds, minus one for incoming ones.
     double side(int j) const { return j < bonds / 2 ? 1.0 : -1.0; }
   };
   Neighbourhood neighbourhood(const ExplicitState& state, Index row, Index slot) const;
   bool is_whole(const Neighbourhood& neighbourhood) const { return neighbourhood.mask == whole_; }
-  /// Whether a particle or one of its neighbours lacks bonds.
+  /// Returns whether a particle or one of its neighbours lacks bonds.
   bool is_near_face(Index slot) const { return near_face_[slot] != 0; }
 
-  /// Elastic stretches of the particle's own halves of its bonds, without shares of damage.
+  /// Returns elastic stretches of the particle's halves of its bonds, without shares of damage.
   Halves elastic(const ExplicitState& state, const Neighbourhood& neighbourhood) const;
-  /// The same as `damage` sees them: of bonds between particles with different damage, each half
-  /// has its share (whole bonds by the rules of 2017).
+  /// Returns elastic stretches of the particle's halves for damage. In bonds between different
+  /// damages each half has its share; the rules of 2017 use whole bonds.
   Halves shared(const ExplicitState& state, const Neighbourhood& neighbourhood) const;
-  /// Factor of the damage of a bond, by the sign of its stretch.
+  /// Returns the damage factor of a bond by the sign of its stretch.
   static double factor(const ExplicitState& state, const Neighbourhood& neighbourhood, int bond);
-  /// Square root of what the particle's damage leaves of its half of a bond; one by the rules of
-  /// the papers.
+  /// Returns the square root of the damage factor of the particle's half of a bond; one by the
+  /// papers' rules.
   static double root(const ExplicitState& state, const Neighbourhood& neighbourhood, int bond);
-  /// Force states of the particle: own modulus times the stretch times the factor of damage, plus
-  /// the part of the sum times `root` [force].
+  /// Returns the force states of the particle [force]: own modulus times stretch times damage
+  /// factor, plus its part of the sum times `root`.
   Halves forces(const ExplicitState& state, const Neighbourhood& neighbourhood) const;
-  /// Force states of the particles at the other ends of its bonds, each in the bond between the
-  /// two, by the rules of the papers [force].
+  /// Returns the force states of the particles at the other ends, each in the bond to the particle,
+  /// by the papers' rules [force].
   Halves partner_forces(const ExplicitState& state, const Neighbourhood& neighbourhood) const;
-  /// (1 / 2V) sum_j L n n' F_j, with the stress out of the plane in plane strain [force/length^2].
-  /// \param force  F_j, as `forces` gives them
+  /// Returns (1 / 2V) sum_j L n n' F_j, with the stress out of the plane in plane strain
+  /// [force/length^2].
+  /// \param force  F_j from forces()
   SymmetricTensor stress(const ExplicitState& state, const Neighbourhood& neighbourhood,
                          const Halves& force) const;
   SymmetricTensor stress(const ExplicitState& state, const Neighbourhood& neighbourhood) const {
     return stress(state, neighbourhood, forces(state, neighbourhood));
   }
-  /// Mean of the stresses of a particle and its neighbours, weighted with their volumes, without
-  /// plastic strains out of the plane.
+  /// Returns the mean of the stresses of a particle and its neighbours, weighted with their
+  /// volumes, without plastic strains out of the plane.
   /// \param volume  becomes the sum of the volumes
   /// \param count   becomes the number of particles
   SymmetricTensor mean_stress(const ExplicitState& state, const Neighbourhood& neighbourhood,
                               Index row, double& volume, int& count) const;
 
-  /// Strain that fits the stretches of the existing bonds best; in the plane xx, yy and xy only.
+  /// Returns the strain that fits the stretches of the existing bonds best; in the plane xx, yy and
+  /// xy only.
   SymmetricTensor fit(const Halves& stretch, const Neighbourhood& neighbourhood) const;
-  /// Stretches of the bonds under a strain.
+  /// Returns the stretches of the bonds under a strain.
   Halves project(const SymmetricTensor& strain, const Neighbourhood& neighbourhood) const;
 
  private:
-  /// All but the slots in StepNumbers.
+  /// Returns a neighbourhood without the slots in StepNumbers.
   Neighbourhood neighbourhood(Index row, Index slot) const;
   /// Least-squares inverse of "stretch of bond j from strain", shape (bonds, 3 or 6).
   using Inverse = std::vector<double>;
   Inverse invert(std::uint32_t mask) const;
   void find_faces();
-  /// Elastic stretches of the halves at one end, 1: the particle's own, -1: its partners'.
+  /// Returns elastic stretches of the halves at one end, 1: the particle's own, -1: its partners'.
   Halves elastic_at(double end, const ExplicitState& state,
                     const Neighbourhood& neighbourhood) const;
   SymmetricTensor bond_stress(const Neighbourhood& neighbourhood, const Halves& force) const;
@@ -91,7 +93,7 @@ class LatticeParticles {
   std::uint32_t whole_ = 0;
   std::vector<Inverse> inverses_;
   std::vector<std::uint8_t> near_face_;
-  std::vector<std::uint32_t> kind_;  ///< number of the particle's inverse, of each slot
+  std::vector<std::uint32_t> kind_;  ///< per slot: number of the particle's inverse
 };
 
 }  // namespace perilink

@@ -10,7 +10,7 @@
 namespace perilink {
 namespace {
 
-/// Components that are prescribed, shape (particles, dim).
+/// Returns which components are prescribed, shape (particles, dim).
 std::vector<std::uint8_t> held_components(const ExplicitModel& model,
                                           const std::vector<Index>& slots) {
   const LatticeRows& lattice = model.lattice;

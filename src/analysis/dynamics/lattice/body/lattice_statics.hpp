@@ -5,13 +5,13 @@
 
 namespace perilink {
 
-/// The intact body of an explicit run for small displacements. Bonds take the mean of their
-/// particles' force states: where the rules are least_2018 that is not the force of the run.
+/// Returns the intact body of an explicit run as a network for small displacements. Bond forces are
+/// the mean of their particles' force states. By the rules least_2018 the forces of the run differ.
 LatticeNetwork lattice_network(const ExplicitModel& model);
 
-/// Period of the slowest vibration of the intact, undamped body about its prescribed displacements
-/// [time], rigid motions that these leave free set apart; infinite where nothing vibrates.
-/// \throws SolverError  as fundamental_period of networks
+/// Returns the period of the slowest vibration of the intact, undamped body about its prescribed
+/// displacements [time], infinite without vibrations. Free rigid motions are excluded.
+/// \throws SolverError where fundamental_period() of networks does
 double fundamental_period(const ExplicitModel& model);
 
 }  // namespace perilink

@@ -5,7 +5,7 @@
 namespace perilink {
 namespace {
 
-/// Slots before and after the first one of a row that bonds of its neighbours lead to.
+/// Slots before and after the first slot of a row to which bonds of its neighbours lead.
 struct Margins {
   Index before = 0, after = 0;
 
@@ -27,7 +27,8 @@ void for_each_neighbour(const LatticeRows& lattice, const Visit& visit) {
   }
 }
 
-/// Slot of row `other` to which the first slot of row `r` is shifted, from that row's first one.
+/// Returns the slot of row `other` to which the first slot of row `r` is shifted, counted from the
+/// first slot of `other`.
 Index landing(const LatticeRows& lattice, Index r, Index other, Index shift) {
   return lattice.rows[r].first + shift - lattice.rows[other].first;
 }
@@ -43,7 +44,7 @@ Margins margins_of(const LatticeRows& lattice) {
   return margins;
 }
 
-/// Number of the place of each row: one of its own near edges, else one of the block's `alive`.
+/// Returns the position of each row: its own near edges, else one of the block's `alive`.
 std::vector<Index> number_places(Index rows, const PassingRows& passing, Index& count) {
   std::vector<Index> place(rows);
   count = 0;
@@ -59,8 +60,8 @@ std::vector<Index> number_places(Index rows, const PassingRows& passing, Index& 
   return place;
 }
 
-/// Distance between the parts of an array: parts that begin at the same address but for a multiple
-/// of the page would drive each other from the cache.
+/// Returns the distance between the parts of an array. Equal addresses modulo the page size would
+/// evict each other from the cache.
 Index padded(Index slots) {
   constexpr Index page = 512, apart = 40;  // numbers
   return slots + (page + apart - slots % page) % page;
@@ -83,7 +84,7 @@ RowPlaces passing_places(const LatticeRows& lattice, const PassingRows& passing)
   const Margins margins = margins_of(lattice);
   Index count = 0;
   const std::vector<Index> place = number_places(rows, passing, count);
-  // The last place stays empty, for bonds that lead to rows without particles.
+  // The last position stays empty, for bonds to rows without particles.
   const Index width = margins.before + margins.after, nowhere = count * width;
   RowPlaces places;
   places.slots = padded(nowhere + width);

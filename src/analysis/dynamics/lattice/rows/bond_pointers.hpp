@@ -8,8 +8,8 @@
 
 namespace perilink {
 
-/// The factor of a bond that belongs to the sign of its stretch. Both are read, so that loops need
-/// no branches.
+/// Returns the factor of a bond for the sign of its stretch. Both factors are read, so that loops
+/// need no branches.
 inline double by_sign(double stretch, double in_tension, double in_compression) {
   return stretch >= 0.0 ? in_tension : in_compression;
 }
@@ -26,14 +26,14 @@ struct PlaneProducts {
   }
 };
 
-/// The bonds of a row's particles in loops over the row: own ones first, then the incoming ones;
-/// null where the body has no such field.
+/// Fields of the bonds of a row's particles in loops over the row: own bonds first, then incoming
+/// ones; null for empty fields.
 template <int Bonds>
 struct BondPointers {
   std::array<const double*, Bonds> effective, stretch, rate, present, tension, compression, half;
   std::array<const double*, Bonds> share_tension, share_compression;
 
-  // Inlined, so that loops pay only for the fields that they read: rows may be short.
+  // Inlined, so that loops compute only pointers to fields that they read: rows may be short.
   [[gnu::always_inline]] BondPointers(const ExplicitModel& model, const ExplicitState& state,
                                       Index row) {
     const LatticeRows& lattice = model.lattice;

@@ -6,9 +6,10 @@
 namespace perilink {
 namespace {
 
-/// The sums of the last step follow from those of this one, since rates are what lies between.
-/// \param Weakened  bonds have factors, which the present signs of their stretches choose
-/// \param Weighs    with weights of their own in the sums
+/// Computes the stored energy of a row. Sums of the last step follow from the present ones and the
+/// rates.
+/// \param Weakened  bonds have factors, chosen by the present signs of their stretches
+/// \param Weighs    sums have separate weights
 template <int Bonds, bool Weakened, bool Weighs>
 double half_step_energy(const ExplicitModel& model, const ExplicitState& state, Index r,
                         double dt) {
@@ -34,7 +35,7 @@ double half_step_energy(const ExplicitModel& model, const ExplicitState& state, 
 #pragma GCC unroll 18
     for (int j = 0; j < Bonds; ++j) {
       const int k = j % own;
-      double rate = bond.rate[j][i];  // what does not exist has neither stretch nor rate
+      double rate = bond.rate[j][i];  // absent bonds have zero stretch and rate
       if constexpr (Weighs) {
         const double s = bond.stretch[j][i];
         const double share = by_sign(s, bond.share_tension[j][i], bond.share_compression[j][i]);

@@ -9,10 +9,11 @@
 namespace perilink {
 namespace {
 
-constexpr int most_returns = 30;           // a few are needed
-constexpr double yield_round_off = 1e-14;  ///< where the returns end, relative to the yield stress
+constexpr int most_returns = 30;  // a few iterations are enough
+/// convergence limit of returns, relative to the yield stress
+constexpr double yield_round_off = 1e-14;
 
-/// The yield curve and its slope without branches: hardening up to a strain, then softening.
+/// Yield curve and slope without branches: hardening up to a strain, then softening.
 struct Curve {
   double yield, hardening, knee, ultimate, softening;
 
@@ -34,7 +35,7 @@ struct Curve {
   }
 };
 
-/// One value for each particle of a row.
+/// Fields of a row, one value per particle.
 struct Scratch {
   std::vector<double> mean, half, xy, normal, multiplier;
 
@@ -43,8 +44,8 @@ struct Scratch {
   }
 };
 
-/// Trial stresses: half the sum and half the difference of the normal components in the plane, the
-/// shear component and the stress out of the plane.
+/// Computes trial stresses: half the sum and half the difference of the normal components in the
+/// plane, the shear component and the stress out of the plane.
 void find_trial(const ExplicitModel& model, const ExplicitState& state, Index r, Scratch& trial) {
   const LatticeRow& row = model.lattice.rows[r];
   const BondPointers<6> bond(model, state, r);
@@ -82,18 +83,19 @@ void find_trial(const ExplicitModel& model, const ExplicitState& state, Index r,
   }
 }
 
-/// How far the particles of a row are above the yield surface, as functions of their multipliers.
+/// Excess of the particles of a row over the yield surface, as functions of their multipliers.
 ///
 /// Plane stress: in axes of sum and difference the return decouples,
 ///   mean' = mean / (1 + E g / (3 (1 - nu))), difference and shear / (1 + 2 mu g),
-/// where the plastic strain is g times the stress deviator. Plane strain: the deviator shrinks, the
-/// multiplier is the equivalent plastic strain.
+/// where the plastic strain is g times the stress deviator. Plane strain: the deviator shrinks, and
+/// the multiplier is the equivalent plastic strain.
 template <bool Flat>
 struct Surface {
   Curve curve;
   double mu, bulk;
-  double least;     ///< stress to compare with where softening has left nothing
-  double flattest;  ///< derivative of the excess that Newton's method divides by
+  /// least stress for relative errors, where softening has reduced the yield stress to zero
+  double least;
+  double flattest;  ///< least magnitude of the derivative in Newton's method
   const double *means, *halves, *shears, *normals, *equivalent;
 
   Surface(const LatticeMaterial& material, const Scratch& trial, const double* strains)
@@ -108,8 +110,8 @@ struct Surface {
         normals(trial.normal.data()),
         equivalent(strains) {}
 
-  /// Excess of von Mises' stress over the yield stress, its derivative and that yield stress; as
-  /// numbers of their own, since loops with structures are not vectorised.
+  /// Computes the excess of von Mises' stress over the yield stress, its derivative and the yield
+  /// stress. They are separate arguments because loops with structures are not vectorised.
   void at(Index i, double g, double& excess, double& derivative, double& yield) const {
     const double square = 3.0 * (halves[i] * halves[i] + shears[i] * shears[i]);
     double mises = 0.0, slope = 0.0, strain = 0.0, growth = 1.0;
@@ -142,10 +144,10 @@ struct Surface {
   }
 };
 
-/// One iteration of Newton's method for the multipliers of all particles.
-/// \param surface  a copy: behind a reference the multipliers could lie over its numbers, and the
-///                 loop would not be vectorised
-/// \returns the largest excess over the yield stress, as a part of it, before
+/// Does one iteration of Newton's method for the multipliers of all particles.
+/// \param surface  a copy: a reference could alias the multipliers, and the loop would not be
+///                 vectorised
+/// \returns the largest excess before the iteration, relative to the yield stress
 template <bool Flat>
 double improve(const Surface<Flat> surface, Index size, double* multiplier) {
   double worst = 0.0;
@@ -154,9 +156,10 @@ double improve(const Surface<Flat> surface, Index size, double* multiplier) {
     const double g = multiplier[i];
     double excess = 0.0, derivative = 0.0, yield = 0.0;
     surface.at(i, g, excess, derivative, yield);
-    // A particle flows where its multiplier or its excess is positive: where the larger of them is.
+    // A particle flows where its multiplier or its excess is positive.
     const double flows = std::max(g, excess);
-    // Where softening is as steep as the return the excess says nothing; `bisect` looks there.
+    // Where softening is as steep as the return, the excess gives no direction; bisect() handles
+    // it.
     const double slope = std::abs(derivative) > surface.flattest ? derivative : -surface.flattest;
     const double next = std::max(0.0, g - excess / slope);
     const double error = std::abs(excess) / std::max(yield, surface.least);
@@ -166,8 +169,8 @@ double improve(const Surface<Flat> surface, Index size, double* multiplier) {
   return worst;
 }
 
-/// Halves intervals for the particles that Newton's method did not bring to the surface: the excess
-/// falls with the multiplier, but its slope jumps where softening begins and ends.
+/// Bisects for particles on which Newton's method did not converge. The excess falls with the
+/// multiplier, but its slope jumps where softening begins and ends.
 template <bool Flat>
 void bisect(const Surface<Flat>& surface, Index size, double* multiplier) {
   for (Index i = 0; i < size; ++i) {
@@ -183,7 +186,7 @@ void bisect(const Surface<Flat>& surface, Index size, double* multiplier) {
   }
 }
 
-/// Plastic strains, thresholds and halves of bonds from the multipliers.
+/// Updates plastic strains, thresholds and halves of bonds from the multipliers.
 template <bool Flat>
 void settle(const ExplicitModel& model, const Scratch& trial, Index r, ExplicitState& state) {
   const LatticeRows& lattice = model.lattice;
@@ -224,14 +227,14 @@ void settle(const ExplicitModel& model, const Scratch& trial, Index r, ExplicitS
     strain[3][i] += scale * shear;
     equivalent[i] += grown;
     yield[i] = curve.stress(equivalent[i]);
-    // The returned stress may be above the surface by round-off.
+    // Round-off may leave the returned stress above the surface.
     look_at[i] = yield[i] * (1.0 + 10.0 * yield_round_off);
     if constexpr (!Flat) locked[i] = e * strain[2][i];
   }
 }
 
-/// Halves of bonds from the plastic strains; in plane strain the part out of the plane presses the
-/// sides apart.
+/// Computes halves of bonds from the plastic strains. In plane strain the prevented out-of-plane
+/// part adds in-plane strain.
 /// \returns their largest change
 double project_strains(const ExplicitModel& model, ExplicitState& state, Index r) {
   const LatticeRows& lattice = model.lattice;

@@ -3,26 +3,28 @@
 #include "analysis/dynamics/lattice/body/lattice_state.hpp"
 
 /// \file
-/// Flow of whole rows, in loops that the compiler vectorises.
+/// Plastic flow of whole rows, in loops that the compiler vectorises.
 
 namespace perilink {
 
-/// Whether flow_row does what LatticeYielding does: consistent rules in the plane.
+/// Returns whether flow_row() can replace LatticeYielding: consistent rules in the plane.
 bool flows_in_rows(const ExplicitModel& model);
 
-/// Returns the particles of a row to the yield surface that are above it, by backward Euler with
-/// the associated flow: projected in plane stress, radial in plane strain.
-/// \returns whether any was
+/// Returns particles of a row above the yield surface to it by backward Euler with the associated
+/// flow: projected in plane stress, radial in plane strain.
+/// \returns whether a particle yielded
 bool flow_row(const ExplicitModel& model, ExplicitState& state, Index row);
 
-/// Plastic parts of the own bonds of a row from those of their particles' halves; the stretches
-/// follow.
+/// Updates plastic parts of the own bonds of a row from the halves of their particles; the
+/// stretches change accordingly.
 void update_plastic_parts(const ExplicitModel& model, ExplicitState& state, Index row);
 
-/// Energy of the halves of the own bonds of a row (LatticeFlow::locked), with the present factors.
+/// Computes the energy of the halves of the own bonds of a row (LatticeFlow::locked), with the
+/// present factors.
 void lock_energy(const ExplicitModel& model, ExplicitState& state, Index row);
 
-/// What the halves of its bonds add to the sums of a row's particles (LatticeFlow::sum).
+/// Computes the contributions of halves of bonds to the sums of a row's particles
+/// (LatticeFlow::sum).
 void add_plastic_halves(const ExplicitModel& model, ExplicitState& state, Index row);
 
 }  // namespace perilink

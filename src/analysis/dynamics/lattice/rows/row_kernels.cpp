@@ -15,12 +15,12 @@ namespace {
 
 using namespace row_loops;
 
-/// What a row of bonds may be.
+/// State of a row of bonds.
 enum class Level {
   elastic,   ///< the body never changes
-  watched,   ///< intact, but damage and flow look at its stretches
+  watched,   ///< intact, with checks for damage and flow
   flowed,    ///< with plastic parts
-  weakened,  ///< with factors of damage, and plastic parts where the body flows
+  weakened,  ///< with damage factors, and plastic parts where the body yields
 };
 
 Level level_of(const ExplicitModel& model, const ExplicitState& state, Index row) {
@@ -29,7 +29,7 @@ Level level_of(const ExplicitModel& model, const ExplicitState& state, Index row
   return (state.bond_changes[row] & BondChanges::altered) != 0 ? Level::flowed : Level::watched;
 }
 
-/// What measuring a group of own bonds of a row reads and writes.
+/// Inputs and outputs of measuring a group of own bonds of a row.
 template <int Dim>
 struct MeasuredGroup {
   const double *u[Dim], *v[Dim];
@@ -67,8 +67,8 @@ struct MeasuredGroup {
   }
 };
 
-/// Bond vector of unit reference length: n + du / L. Elongation without cancellation:
-/// |y|^2 - 1 = 2 n.du/L + |du/L|^2 = e, |y| - 1 = e / (1 + sqrt(1 + e)).
+/// Measures bonds with vectors of unit reference length, n + du / L. Elongation without
+/// cancellation: |y|^2 - 1 = 2 n.du/L + |du/L|^2 = e, |y| - 1 = e / (1 + sqrt(1 + e)).
 /// \param Flowed  bonds have plastic parts
 template <int Dim, Level Kind, bool Flowed>
 void measure_group(const ExplicitModel& model, ExplicitState& state, Index r, int first,
@@ -81,7 +81,7 @@ void measure_group(const ExplicitModel& model, ExplicitState& state, Index r, in
   for (Index i = 0; i < size; ++i) {
 #pragma GCC unroll 6
     for (int g = 0; g < group; ++g) {
-      // Component by component: arrays in here would keep the loop from being vectorised.
+      // Component by component: arrays here would prevent vectorisation.
       const Index other = i + m.shift[g];
       const double x = (m.u[0][other] - m.u[0][i]) * m.scale[g];
       const double y = (m.u[1][other] - m.u[1][i]) * m.scale[g];
@@ -128,7 +128,7 @@ void measure_group(const ExplicitModel& model, ExplicitState& state, Index r, in
 
 template <int Dim, Level Kind, bool Flowed>
 void measure(const ExplicitModel& model, ExplicitState& state, Index r, double dt) {
-  // What flow took off elastic stretches in the last step counts as their change, too.
+  // Flow in the last step also changed the elastic stretches.
   state.fastest[r] = state.flow.change.empty() ? 0.0 : std::exchange(state.flow.change[r], 0.0);
   state.now.clear_stale(r, model.lattice.rows[r].size);
   for (int first = 0; first < model.lattice.own_bonds(); first += group) {
@@ -148,7 +148,7 @@ void measure(const ExplicitModel& model, ExplicitState& state, Index r, double d
   }
 }
 
-/// Stretches of a row's own bonds times their weights in the sums of their ends.
+/// Computes stretches of a row's own bonds times their weights in the sums of their ends.
 void weigh(const ExplicitModel& model, ExplicitState& state, Index r) {
   const LatticeRows& lattice = model.lattice;
   const LatticeRow& row = lattice.rows[r];
@@ -172,8 +172,8 @@ void weigh(const ExplicitModel& model, ExplicitState& state, Index r) {
   }
 }
 
-/// Magnitudes of a group's bond forces times their directions, by the consistent rules.
-/// \param Weakened  bonds have factors of damage
+/// Computes the bond forces of a group, magnitudes times directions, by the consistent rules.
+/// \param Weakened  bonds have damage factors
 template <int Dim, bool Weakened>
 void force_group(const ExplicitModel& model, ExplicitState& state, Index r, int first) {
   const LatticeRows& lattice = model.lattice;
@@ -230,7 +230,7 @@ void forces(const ExplicitModel& model, ExplicitState& state, Index r) {
   }
 }
 
-/// New velocity of one component of a row, before prescribed motions.
+/// Computes the new velocity of one component of a row, before prescribed motions.
 template <int Own>
 void accelerate(const ExplicitModel& model, const ExplicitState& state, Index r, int c, double dt,
                 double* speed) {
@@ -253,7 +253,7 @@ void accelerate(const ExplicitModel& model, const ExplicitState& state, Index r,
   }
 }
 
-/// \return work of the motion of one component against a drag per mass of one, times 2 / dt
+/// \return work of one component's motion against a drag of one per mass, times 2 / dt
 template <bool Damped>
 double move(const ExplicitModel& model, ExplicitState& state, Index r, int c, double dt,
             const double* speed) {

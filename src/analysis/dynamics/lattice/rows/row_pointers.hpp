@@ -8,14 +8,14 @@
 #include "analysis/dynamics/lattice/rows/bond_pointers.hpp"
 
 /// \file
-/// Where the loops over a row find its part of a field.
+/// Pointers to a row's part of a field, for loops over the row.
 
 namespace perilink::row_loops {
 
-/// Bonds that one loop takes: all three of a hexagonal lattice, a third of a face-centred one.
+/// Bonds in one loop: all three of a hexagonal lattice, a third of a face-centred one.
 inline constexpr int group = 3;
 
-/// An array of a slot-shaped field, from the first slot of a row; null where there is none.
+/// Returns an array of a slot-shaped field from the first slot of a row; null for an empty field.
 inline const double* at(const std::vector<double>& field, const LatticeRows& lattice, Index part,
                         const LatticeRow& row) {
   if (field.empty()) return nullptr;
@@ -27,7 +27,8 @@ inline double* at(std::vector<double>& field, const LatticeRows& lattice, Index 
   return field.data() + static_cast<std::size_t>(part) * lattice.slots + row.first;
 }
 
-/// The same of numbers of the present step.
+/// Returns an array of values of the present step from the first slot of a row; null for an empty
+/// field.
 template <class Field>
 auto* at_now(Field& field, const RowPlaces& places, Index part, Index r) {
   return field.empty()
@@ -47,7 +48,7 @@ void at_bonds(Field& field, const LatticeRows& lattice, int first, const Lattice
   for (int g = 0; g < group; ++g) pointers[g] = at(field, lattice, first + g, row);
 }
 
-/// Whether the stretches of a row's bonds have weights of their own in the sums.
+/// Returns whether the stretches of a row's bonds have separate weights in the sums.
 inline bool is_weighted(const ExplicitModel& model, const ExplicitState& state, Index row) {
   return model.weighs_halves() && (state.bond_changes[row] & BondChanges::weakened) != 0;
 }
@@ -55,8 +56,8 @@ inline bool is_weighted(const ExplicitModel& model, const ExplicitState& state, 
 /// Weights of own bonds in the sums of their two ends (half_bond_weight).
 struct WeightPointers {
   std::array<const double*, group> present, share_tension, share_compression;
-  const double *root_tension, *root_compression;  ///< those of the owner
-  Index shift[group];                             ///< from there to the partner
+  const double *root_tension, *root_compression;  ///< roots of the owner
+  Index shift[group];                             ///< shift from the owner to the partner
 
   WeightPointers(const LatticeRows& lattice, const ExplicitState& state, Index r, int first) {
     const LatticeRow& row = lattice.rows[r];
@@ -78,7 +79,7 @@ struct WeightPointers {
     const Index other = i + shift[g];
     return present[g][i] * share * by_sign(stretch, root_tension[other], root_compression[other]);
   }
-  /// Mean of what both ends add to the bond's force, with their weights.
+  /// Returns the weighted mean of both ends' contributions to the bond's force.
   double mean(int g, Index i, double stretch, double owner, double partner) const {
     return 0.5 * (of_owner(g, i, stretch) * owner + of_partner(g, i, stretch) * partner);
   }

@@ -8,23 +8,24 @@
 namespace perilink {
 namespace {
 
-/// What the particles of a row have left before a crack begins and before they flow, in stress
-/// times volume: negative where they are due.
+/// Margins of the particles of a row before a crack begins and before they yield, in stress times
+/// volume. Negative margins mean that the particle must be checked.
 struct Left {
   std::vector<double> damage, flow;
 };
 
-/// Path that the row's stretches have gone, for particles that wait; where factors are near nobody
-/// can, since they change with the sign of a stretch.
+/// Returns the path of the row's stretches, for particles with a threshold of the path. Near
+/// weakened bonds that threshold is void, because factors change with the sign of a stretch.
 double path_of(const ExplicitModel& model, const ExplicitState& state, Index r) {
   return has_weakened_rows(model, state, r) ? never : state.path[r];
 }
 
-/// What loops over a row have to read of its bonds: nothing beyond stretches, plastic parts too, or
-/// factors of damage as well.
+/// Bond fields that loops over a row read: stretches only, plastic parts too, or damage factors as
+/// well.
 enum class RowBonds { whole, flowed, weakened };
 
-/// What each particle of a row has left, in stress times volume: negative where it is due.
+/// Computes the margins of each particle of a row in the plane.
+/// \return the least margin
 template <RowBonds Bonds, bool Yields>
 double scan_plane(const ExplicitModel& model, const ExplicitState& state, Index r, Left& left) {
   const LatticeRow& row = model.lattice.rows[r];
@@ -71,7 +72,7 @@ double scan_plane(const ExplicitModel& model, const ExplicitState& state, Index 
     const double rest = std::max(crack_at[i] * volume[i] - half_length * (mean + radius),
                                  (quiet_until[i] - path) * stiffness);
     if constexpr (Yields) {
-      // Mean stress in the plane over that out of it.
+      // Mean in-plane stress minus the out-of-plane stress.
       const double over = half_length * (1.0 - 2.0 * nu) * mean + normal[i] * volume[i];
       const double shear = half_length * radius;
       const double other = look_at[i] * volume[i] - std::sqrt(over * over + 3.0 * shear * shear);
@@ -84,8 +85,9 @@ double scan_plane(const ExplicitModel& model, const ExplicitState& state, Index 
   return least;
 }
 
-/// In space: n n' has the eigenvalues 1 and 0, so neither a principal stress nor von Mises' exceeds
-/// the sum of the forces.
+/// Computes margins in space on the safe side. n n' has the eigenvalues 1 and 0, so no principal or
+/// von Mises stress exceeds the sum of the forces.
+/// \return the least margin
 double scan_space(const ExplicitModel& model, const ExplicitState& state, Index r, Left& left) {
   const LatticeRow& row = model.lattice.rows[r];
   const BondPointers<18> bond(model, state, r);
@@ -105,7 +107,7 @@ double scan_space(const ExplicitModel& model, const ExplicitState& state, Index 
       const double plastic = look_at != nullptr ? std::abs(bond.half[j][i]) : 0.0;
       const double own = model.own_modulus(k) * bond.effective[j][i];
       const double part = bond.present[j][i] * shared;
-      // Damage may weaken the shared part as well.
+      // Damage may also reduce the shared part.
       const double excess = model.own_modulus(k) * plastic;
       pull += half_length * std::max(0.0, std::max(own, own + part) + excess);
       size += half_length * (std::max(std::abs(own), std::abs(own + part)) + excess);
@@ -157,7 +159,7 @@ bool is_scan_due(const ExplicitModel& model, ExplicitState& state, Index row) {
   const Index last = std::min<Index>(rows - 1, row + reach);
   const double fastest =
       *std::max_element(state.fastest.begin() + first, state.fastest.begin() + last + 1);
-  // Rates are those along the present directions, a hair more than the changes of stretches.
+  // Rates along the present directions slightly exceed the changes of stretches.
   constexpr double margin = 1.01;
   state.slack[row] -= margin * fastest;
   state.path[row] += margin * fastest;
@@ -182,7 +184,7 @@ void scan_row(const ExplicitModel& model, ExplicitState& state, Index r, DuePart
   left.flow.assign(row.size, never);
   const std::uint8_t bond_changes = changes_of_bonds(model.lattice, state, r);
   const double least = scan_stress(model, state, r, bond_changes, left);
-  // LatticeDamage::watch moves crack_at by the consistent rules only.
+  // LatticeDamage::watch sets crack_at by the consistent rules only.
   const bool cracked =
       (state.row_changes[r] & RowChanges::cracked) != 0 && model.rules != LatticeRules::consistent;
   due.damage.clear();
@@ -192,7 +194,7 @@ void scan_row(const ExplicitModel& model, ExplicitState& state, Index r, DuePart
     if (left.damage[i] < 0.0 || grows) due.damage.push_back(row.first + i);
     if (left.flow[i] < 0.0) due.flow.push_back(row.first + i);
   }
-  // Factors change with the sign of a stretch, at no distance that could be counted.
+  // Factors change with the sign of a stretch, so weakened rows have no slack.
   const bool weakened = (bond_changes & BondChanges::weakened) != 0;
   state.slack[r] = weakened ? 0.0 : least / stress_stiffness(model);
 }

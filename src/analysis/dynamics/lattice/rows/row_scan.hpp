@@ -5,35 +5,34 @@
 #include "analysis/dynamics/lattice/body/lattice_state.hpp"
 
 /// \file
-/// Which particles of a row have to be looked at. Damage and flow cost nothing until stretches
-/// have changed by as much as the particle nearest to a threshold had left when the row was last
-/// scanned.
+/// Selection of particles of a row to check. A row is scanned only when stretches have changed by
+/// the least margin found in its last scan.
 
 namespace perilink {
 
-/// Whether a row has to be scanned in this step; takes the change of the stretches of its particles
-/// and their neighbours off its slack.
+/// Returns whether a row must be scanned in this step. Reduces its slack by the change of the
+/// stretches of its particles and their neighbours.
 bool is_scan_due(const ExplicitModel& model, ExplicitState& state, Index row);
 
-/// Duties of the rows that own bonds of the particles of a row: bits of BondChanges.
+/// Returns bits of BondChanges of the rows that own bonds of a row's particles.
 std::uint8_t changes_of_bonds(const LatticeRows& lattice, const ExplicitState& state, Index row);
 
-/// Whether bonds of the particles of a row or of their neighbours have factors of damage.
+/// Returns whether bonds of a row's particles or of their neighbours have damage factors.
 bool has_weakened_rows(const ExplicitModel& model, const ExplicitState& state, Index row);
 
-/// Change of the stress of a particle times its volume per change of its stretches, from above
-/// [force length].
+/// Returns an upper bound of the change of a particle's stress times volume per change of its
+/// stretches [force length].
 double stress_stiffness(const ExplicitModel& model);
 
-/// Slots of a row that have to be looked at.
+/// Slots of a row to check.
 struct DueParticles {
-  std::vector<Index> damage;  ///< first principal stress above crack_at; by the rules of the papers
-                              ///< also all particles with a crack
-  std::vector<Index> flow;    ///< von Mises stress above flow.look_at
+  /// first principal stress above crack_at; by the papers' rules also all particles with a crack
+  std::vector<Index> damage;
+  std::vector<Index> flow;  ///< von Mises stress above flow.look_at
 };
 
-/// Finds the particles that have reached the thresholds that the state has for them, exact in the
-/// plane, on the safe side in space; and the row's slack. Stretches and sums must be up to date.
+/// Finds the particles that have reached their thresholds, exactly in the plane, on the safe side
+/// in space. Updates the row's slack. Stretches and sums must be up to date.
 void scan_row(const ExplicitModel& model, ExplicitState& state, Index row, DueParticles& due);
 
 }  // namespace perilink

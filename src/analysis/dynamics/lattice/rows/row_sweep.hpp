@@ -9,8 +9,8 @@
 
 namespace perilink {
 
-/// A stage of a sweep over rows: what it does with a row, after the stages before it have done
-/// theirs with that row, with `behind` rows before it and with `ahead` rows after it.
+/// Stage of a sweep over rows. `work` runs on a row after the preceding stages have finished that
+/// row, `behind` rows before it and `ahead` rows after it.
 template <class Work>
 struct RowStage {
   Index behind = 0;
@@ -20,13 +20,14 @@ struct RowStage {
 template <class Work>
 RowStage(Index, Index, Work) -> RowStage<Work>;
 
-/// How far apart the stages of a sweep work.
+/// Distances between the stages of a sweep.
 struct SweepReach {
-  Index ahead = 0, behind = 0;  ///< sums over the stages: rows by which the last follows the first,
-                                ///< and those that an edge leaves to it
-  Index widest = 0;             ///< largest of either of any stage
+  /// sums over the stages: `ahead`, rows by which the last stage follows the first; `behind`, rows
+  /// that an edge leaves to the last stage
+  Index ahead = 0, behind = 0;
+  Index widest = 0;  ///< largest `ahead` or `behind` of a stage
 
-  /// Least number of rows of a block.
+  /// Returns the least number of rows of a block.
   Index shortest() const { return ahead + behind; }
 };
 template <class... Work>
@@ -39,12 +40,12 @@ SweepReach reach_of(const std::tuple<RowStage<Work>...>& all) {
       all);
 }
 
-/// Rows that some stages do among themselves: stage by stage each a range, which follows from the
-/// one before.
+/// Runs stages over ranges of rows, where each range follows from the preceding stage.
 namespace row_sweep {
 
-/// Each stage follows the one before by as many rows as it needs, and leaves out those at edges of
-/// the block that need rows of others. `first` and `last` say whether the block has no such edge.
+/// Runs the stages over a block. Each stage follows the preceding one by the rows it needs, and
+/// omits rows at edges of the block that need rows of other blocks. `first` and `last`: the block
+/// is the first or the last one.
 template <class... Work>
 void sweep_block(Index begin, Index end, bool first, bool last, const RowStage<Work>&... stages) {
   const Index longest = (0 + ... + stages.ahead);
@@ -60,7 +61,7 @@ void sweep_block(Index begin, Index end, bool first, bool last, const RowStage<W
   }
 }
 
-/// What the blocks before and after an edge left out.
+/// Runs the stages on rows that the blocks before and after an edge omitted.
 template <class... Work>
 void sweep_edge(Index edge, const RowStage<Work>&... stages) {
   Index lower = edge, upper = edge;
@@ -80,10 +81,10 @@ void run_stage(Index rows, const RowStage<Work>& stage) {
 
 }  // namespace row_sweep
 
-/// Runs every stage once on each row, in an order that finds in the cache what the stages before
-/// wrote: each thread takes all stages together through a block of rows, row after row; the rows at
-/// the edges of blocks come after a barrier. Too few rows for that are done stage by stage. To be
-/// called by all threads of a parallel region; ends in a barrier.
+/// Runs every stage once on each row, ordered so that values of earlier stages are still in the
+/// cache. Each thread runs all stages through a block of rows, row after row. Rows at edges of
+/// blocks follow after a barrier. With too few rows the stages run one after the other. Called by
+/// all threads of a parallel region; ends in a barrier.
 template <class... Work>
 void sweep_rows(Index count, const std::tuple<RowStage<Work>...>& all) {
   const Index shortest = reach_of(all).shortest();

@@ -132,7 +132,8 @@ INSTANTIATE_TEST_SUITE_P(
         BlockCase{{"space", Pattern::cubic, Surface::none}, false, false, 4, 0.1, true}),
     [](const auto& body) { return to_string(body.param) + std::to_string(body.index); });
 
-/// At once to the tooth on which they hold, with what they lose counted; compression does nothing.
+/// Bars fall at once to the segment that resists the demand, and the lost energy is counted;
+/// compression changes nothing.
 TEST(ExplicitBonds, FallToTheToothOnWhichTheyHold) {
   const AnalysisBody body = make_block(
       {{"plane", Pattern::rectangular, Surface::none}, false, false, 6, 0.0, false, true});
@@ -180,7 +181,7 @@ TEST(ExplicitBonds, BarsYieldEitherWay) {
     const Forces found = all_forces(body, *bonds, motion, 0.1);
     const std::vector<double> secants = bonds->secants();
     for (Index e = network.first_bar_element; e < network.num_elements(); ++e) {
-      // Teeth lie within a factor sqrt(1.05) of the plateau.
+      // Segments lie within a factor sqrt(1.05) of the plateau.
       EXPECT_NEAR(secants[e] * 7.0, 1.0, 0.025);
     }
     EXPECT_EQ(found.losses.broken_halves(), 0);

@@ -70,7 +70,7 @@ TEST(BondStencil, CloudsHaveNone) {
   EXPECT_EQ(stencil.rest.size(), static_cast<std::size_t>(network.num_elements()));
 }
 
-/// Also where there are too many different bonds to tell which ones recur.
+/// The stencil is empty also where too many bonds differ to find recurring ones.
 TEST(BondStencil, BodiesWithoutOrderHaveNone) {
   Network network = make_network({"", Pattern::rectangular, Surface::none}, 90);
   for (Index e = 0; e < network.num_elements(); ++e) network.stiffness[e] *= 1.0 + 1e-5 * e;

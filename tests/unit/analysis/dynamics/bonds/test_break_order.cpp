@@ -28,7 +28,7 @@ TEST(BreakOrder, CountsBothHalvesOfABondOnce) {
   order.add(0, 6, std::vector<Index>{8});
   order.add(1, 6, std::vector<Index>{8});
   EXPECT_THAT(order.so_far(), ElementsAre(4, 8));
-  order.add(1, 7, std::vector<Index>{4, 2});  // a step later, after somebody looked
+  order.add(1, 7, std::vector<Index>{4, 2});  // a step later, after a call of so_far()
   EXPECT_THAT(order.so_far(), ElementsAre(4, 8, 2));
 }
 

@@ -41,7 +41,7 @@ BondMotion motion_of(const Network& network, double size, double speed) {
   return motion;
 }
 
-/// What the implicit analysis finds, anchors and all.
+/// Compares with the implicit analysis, embedded points included.
 InternalForce expected_of(const Network& network, const std::vector<double>& secants,
                           std::vector<double> motion) {
   follow_particles(network, motion);

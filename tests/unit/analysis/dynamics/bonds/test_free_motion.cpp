@@ -19,7 +19,7 @@ TEST(FreeMotion, FollowsNewton) {
   EXPECT_EQ(work.damping, 0.0);
 }
 
-/// Whatever the step, kinetic energy changes by the work of all forces over the mean velocity.
+/// For any step, kinetic energy changes by the work of all forces over the mean velocity.
 TEST(FreeMotion, KeepsEnergy) {
   constexpr int count = 37;  // no multiple of a processor's vectors
   const MotionStep step{0.3, 0.7, 0.9};

@@ -42,7 +42,7 @@ class StencilBodies : public testing::TestWithParam<StencilCase> {
   double size_ = 0.0;
 };
 
-/// Against every half of a bond by itself, while more and more of them break.
+/// Compares with directed bonds stored one by one, while more and more break.
 TEST_P(StencilBodies, DoWhatSingleHalvesDo) {
   const auto stencil = make_explicit_bonds(network_), halves = make_explicit_halves(network_);
   Index broken = 0;
@@ -79,7 +79,7 @@ TEST_P(StencilBodies, PartsMakeTheWhole) {
   EXPECT_EQ(parts->secants(), whole->secants());
 }
 
-/// Also where every bond is at its limit but for the last bits.
+/// Results agree also where every bond is at its limit up to the last bits.
 TEST_P(StencilBodies, BothHalvesBreakInTheSameStep) {
   const double strain = network_.critical_stretch[0];
   const int dim = network_.dim();
@@ -104,7 +104,7 @@ TEST_P(StencilBodies, BothHalvesBreakInTheSameStep) {
   }
 }
 
-/// What can yield or cannot break is not taken out, whatever its stretch.
+/// Bonds that can yield or cannot break are kept, whatever their stretch.
 TEST_P(StencilBodies, UnbreakableBondsHold) {
   std::fill(network_.critical_stretch.begin(), network_.critical_stretch.end(), INFINITY);
   const auto stencil = make_explicit_bonds(network_), halves = make_explicit_halves(network_);
@@ -117,7 +117,7 @@ TEST_P(StencilBodies, UnbreakableBondsHold) {
 INSTANTIATE_TEST_SUITE_P(Bodies, StencilBodies, testing::ValuesIn(stencil_cases()),
                          [](const auto& tested) { return tested.param.name; });
 
-/// Bars and their ties are moved by others, the rest of the bonds by the stencil.
+/// Bars and their slip springs are off the stencil, all other bonds on it.
 TEST(StencilBonds, WorkBesideBars) {
   const AnalysisBody body =
       make_block({{"plane", Pattern::rectangular, Surface::none}, false, true, 12, 0.0});
@@ -134,7 +134,7 @@ TEST(StencilBonds, WorkBesideBars) {
   EXPECT_EQ(stencil->secants(), halves->secants());
 }
 
-/// A plate of 2 601 particles, as many as two threads want, is pulled apart.
+/// Pulls a plate of 2 601 particles apart, enough for two threads.
 class PulledPlate : public testing::Test {
  protected:
   class Recorder final : public BondRunObserver {

@@ -213,7 +213,7 @@ TEST(ExplicitAnalysis, EnergyIsBalancedWhileASpecimenTears) {
   const ExplicitResult result = run_lattice(model, state, options);
   EXPECT_LT(result.largest_surplus, 1e-4);
   EXPECT_GT(result.last.energy.fractured, 0.5 * result.last.energy.external_work);
-  // It has come apart: almost nothing is left of the peak, which is near f_t times the section.
+  // The body has separated: little remains of the peak, which is near f_t times the section.
   EXPECT_LT(std::abs(result.last.support_reaction), 0.02 * std::abs(result.peak_load));
   EXPECT_NEAR(std::abs(result.peak_load), 2.62e6 * 0.15 * 0.15, 0.1 * 2.62e6 * 0.15 * 0.15);
 }

@@ -125,7 +125,8 @@ TEST(LatticeChanges, EnergyOfCracksInSpaceIsCounted) {
   }
 }
 
-// Along the jagged sides of a column under pressure, outer particles alone seem to be pulled apart.
+// Along the jagged sides of a column under pressure, the own stresses of outer particles are
+// tensile.
 TEST(LatticeChanges, SidesOfAPressedColumnDoNotSplit) {
   const ExplicitModel model =
       plane_model(rectangle(0.0776, 0.1658, 0.01, 0.0), changing_concrete());

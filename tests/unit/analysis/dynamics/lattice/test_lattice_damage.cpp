@@ -113,7 +113,7 @@ TEST(LatticeDamage, LeavesABodyThatIsDamagedEvenlyThatPartOfItsStressAndEnergy) 
   }
 }
 
-/// Pressed, it loses what damage in compression takes: nothing below the threshold.
+/// Under compression it loses the energy of compressive damage: zero below the threshold.
 TEST(LatticeDamage, LeavesAPressedBodyWhatDamageInCompressionLeaves) {
   const ExplicitModel model = breakable(LatticeRules::consistent);
   ExplicitState state(model);
@@ -165,8 +165,8 @@ TEST(LatticeDamage, LeavesABandTheStressOfTheBodyAroundIt) {
   }
 }
 
-/// Whatever presses along the crack and how the rows lie, what the particle carries across it is
-/// what the law says of its opening.
+/// The stress across a crack is the law's stress for its opening, for any pressure along it and any
+/// direction of rows.
 TEST(LatticeDamage, FollowsTheStress) {
   LatticeMaterial material = paper_concrete();
   material.breakable = true;
@@ -177,7 +177,7 @@ TEST(LatticeDamage, FollowsTheStress) {
     const Index middle = middle_slot(model.lattice);
     for (const double lateral : {0.0, -3.0, -5.5}) {
       ExplicitState state(model);
-      // As slowly as damage needs that never shrinks and whose own growth changes the stress.
+      // Small steps, because damage never shrinks and its own growth changes the stress.
       const double increment = 4e-3;
       for (double pull = 0.99; pull < 2.2; pull += increment) {
         strain_by(model, state,
@@ -235,7 +235,7 @@ TEST(LatticeDamage, StoredEnergyThatIsLostIsCountedAsFractured) {
   for (const RowSums& row : state.sums) fractured += row.fractured;
   EXPECT_GT(fractured, 0.01 * before);
   EXPECT_NEAR(fractured, before - stored_energy(state), 1e-12 * before);
-  // What was brought up to date is what a fresh evaluation gives.
+  // Updated values equal a fresh evaluation.
   const double updated = stored_energy(state);
   evaluate(model, state);
   EXPECT_NEAR(stored_energy(state), updated, 1e-12 * before);

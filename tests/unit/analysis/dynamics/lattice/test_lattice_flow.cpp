@@ -41,7 +41,7 @@ TEST(LatticeYielding, ReturnsInteriorParticlesToTheYieldSurface) {
         EXPECT_GT(yield, 22.98e6);
         EXPECT_NEAR(state.flow.yield[slot], yield, 1e-15 * yield);
         // Bonds stretch by their true lengths, squares of 2e-3, which plastic strains do not have;
-        // a whole family's fit of them is the strain that the return saw.
+        // a whole neighbourhood's fit of them is the strain that the return saw.
         EXPECT_NEAR(mises_stress(particles.stress(state, neighbourhood)), yield, 1e-9 * yield);
       });
       EXPECT_GT(interior, 20);
@@ -67,14 +67,14 @@ TEST(LatticeYielding, StoredEnergyThatIsLostIsPlastic) {
   }
 }
 
-// Also where a body could break: nothing of it is counted as fractured.
+// Also in a breakable body: no energy counts as fractured.
 TEST(LatticeYielding, WorkOfTheForcesAgainstTheFlowIsTheEnergyLost) {
   LatticeMaterial material = yielding_concrete();
   material.breakable = true;
   const ExplicitModel model = plane_model(rectangle(0.05, 0.05, 0.01, 23.0), material);
   const LatticeChanges changes(model);
   ExplicitState state(model);
-  strain_body(model, state, -1.5e-3, -2.5e-3, 1e-4);  // no tension: nothing cracks
+  strain_body(model, state, -1.5e-3, -2.5e-3, 1e-4);  // no tension: no cracks
   const double before = stored_energy(state);
   change(model, changes, state);
   for (const double damage : state.damage) EXPECT_EQ(damage, 0.0);

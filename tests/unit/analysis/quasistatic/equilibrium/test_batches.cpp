@@ -25,7 +25,7 @@ constexpr double batch_closeness = 1e-9;
 struct BatchBody {
   BlockCase block;
   FactorRoute route = FactorRoute::in_place;
-  bool in_stages = false;  ///< a load that grows beside constant ones
+  bool in_stages = false;  ///< a growing load with constant loads
   LinearSolver solver = LinearSolver::direct;
 };
 
@@ -37,7 +37,7 @@ std::string name_of(const BatchBody& body) {
 
 std::ostream& operator<<(std::ostream& out, const BatchBody& body) { return out << name_of(body); }
 
-/// A body whose equilibrium follows batches of random elements, beside dense solutions.
+/// A body whose equilibrium follows batches of random elements, compared with dense solutions.
 class FollowedBody {
  public:
   explicit FollowedBody(const BatchBody& kind)
@@ -59,8 +59,8 @@ class FollowedBody {
     equilibrium->move_to(stage_load_factor);
   }
 
-  /// Elements that may fail, are not broken and do not bear on closed cracks; some break, others go
-  /// on with less than they have.
+  /// Elements that may fail, are not broken and do not carry on closed cracks; some break, others
+  /// go on with less than they have.
   std::vector<Weakening> random_batch(std::size_t count, unsigned seed) const {
     const Secants secants = equilibrium->secants();
     std::vector<Weakening> all, batch;
@@ -99,7 +99,7 @@ class FollowedBody {
     EXPECT_LE(balance.residual, 1e-10);
   }
 
-  /// Lets a batch fail and looks at everything that it tells and leaves.
+  /// Applies a batch and checks everything that it returns and changes.
   void expect_followed(const std::vector<Weakening>& batch) {
     const Eigen::MatrixXd before = stiffness();
     const Eigen::VectorXd u = grown();
@@ -210,8 +210,8 @@ std::vector<BatchBody> batch_bodies() {
 INSTANTIATE_TEST_SUITE_P(Blocks, TogetherFailing, testing::ValuesIn(batch_bodies()),
                          [](const auto& test) { return name_of(test.param); });
 
-// Which way a batch takes shows in the number of factors, and in that the next single event needs a
-// new one where the factor was left behind.
+// The method of a batch shows in the number of factors, and in whether the next single event needs
+// a new factor.
 
 enum class Took { change, renewal, gradients };
 
@@ -224,7 +224,7 @@ Took way_of(FollowedBody& body, const std::vector<Weakening>& batch) {
   return body.equilibrium->factor().factorizations() > before ? Took::gradients : Took::change;
 }
 
-/// In space a factor is dear beside a solution.
+/// In space a factor costs much more than a solve.
 TEST(Batches, AFactorInSpaceIsLeftBehind) {
   for (const bool closing : {false, true}) {
     for (const bool in_stages : {false, true}) {

@@ -10,9 +10,9 @@ namespace {
 
 using namespace test;
 
-/// Displacement over load of two chains of two bonds, of stiffness 2 and three teeth from the
-/// stretch 0.01 on, that are stretched by 0.021 and then let go, and pushed by 0.1. A bond of each
-/// chain passes one tooth and keeps 0.6 of its stiffness.
+/// Displacement over load of two chains of two bonds, of stiffness 2 and three segments from the
+/// stretch 0.01 on. They are stretched by 0.021, released, and pushed by 0.1. A bond of each chain
+/// passes one segment and keeps 0.6 of its stiffness.
 std::pair<double, double> pull_and_push(bool closes) {
   AnalysisBody body = make_chains(2, 2, true, 2.0, 0.01);
   body.network.laws.front() = closes ? three_segments().closing() : three_segments();

@@ -89,7 +89,7 @@ TEST_P(ConstantLoads, FollowTheSameEvents) {
     const EventOutcome outcome = equilibrium_->weaken(e, secant);
     ASSERT_FALSE(outcome.mechanism);
     ++events;
-    // The compliance f_c'u_c - R_c'd_c grows by what the event says.
+    // The compliance f_c'u_c - R_c'd_c grows by the value in the outcome.
     const ConstantWork after = equilibrium_->constant_work();
     const double grown = (after.forces - after.supports) - (before.forces - before.supports);
     EXPECT_NEAR(outcome.permanent_growth.constant, grown, load_tolerance * std::abs(after.forces));

@@ -53,7 +53,7 @@ force = [0, 10]
                                 "strip.toml"));
 }
 
-/// Bonds are broken one after the other beside the left edge. 1e-10: round-off of the factor.
+/// Breaks bonds one after the other next to the left edge. 1e-10: round-off of the factor.
 void expect_current(const Model& model) {
   Equilibrium equilibrium(model, {});
   const Network& network = model.network;

@@ -58,8 +58,8 @@ TEST(Equilibrium, UnbreakablePartsAreBroughtUpToDateWhenAsked) {
   }
 }
 
-/// A glance measures the forces where bonds can break, and leaves the other displacements as they
-/// are; where these are out of balance it becomes a look at the whole body.
+/// A cheap residual check measures forces where bonds can break, and keeps the other displacements.
+/// If these are out of balance, a full check of the body follows.
 TEST(Equilibrium, AGlanceCostsNoSolve) {
   AnalysisBody body = make_partly_unbreakable(rectangular, 0.7);
   body.network.support_stiffness.assign(body.unknowns.number.size(), 0.05);
@@ -116,7 +116,8 @@ TEST(Equilibrium, UnknownsThatHoldNothingAreNotTaken) {
   }
 }
 
-/// The reactions of a driven body follow the events; they are those of the elements at any of them.
+/// The reactions of a displacement-controlled body follow the events and equal those of the
+/// elements at any event.
 TEST(Equilibrium, WorkOfADrivenBodyFollowsItsEvents) {
   for (const bool micropolar : {false, true}) {
     BlockCase block{rectangular, true};
@@ -153,8 +154,8 @@ TEST(Equilibrium, PartialDisplacementsFindTheSameEvents) {
   }
 }
 
-/// A tolerance that no arithmetic meets: each look factorises at most once, and not again as long
-/// as the residual stays near what the fresh factor left.
+/// With a tolerance below round-off, each check factorises at most once, and not again while the
+/// residual stays near that of the fresh factor.
 TEST(Equilibrium, FactorizesAtMostOncePerLook) {
   const AnalysisBody body = make_block({rectangular, false, false, 8});
   EquilibriumOptions options;
@@ -174,8 +175,7 @@ TEST(Equilibrium, FactorizesAtMostOncePerLook) {
 }
 
 /// Removing an element 1e4 times as stiff as the others costs four of sixteen digits. One step of
-/// refinement brings them back to where the tolerance wants them; without need nothing is
-/// factorised.
+/// refinement restores the tolerance; without need there is no factorisation.
 TEST(Equilibrium, RefinementRestoresLostDigits) {
   AnalysisBody body = make_block({rectangular, false, false, 8});
   Network& network = body.network;

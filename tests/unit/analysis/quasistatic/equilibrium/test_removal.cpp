@@ -38,7 +38,7 @@ TEST(Removal, HasAPartOfItsOwnOfTheAxialMode) {
 
 class MicropolarRemoval : public testing::TestWithParam<BlockCase> {};
 
-/// Every bond of a body of which some ends are held and driven.
+/// Every bond of a body with fixed and displacement-controlled ends.
 TEST_P(MicropolarRemoval, DecoupledModesAreTheSameRemovalAndDoNotInteract) {
   const AnalysisBody body = make_block(GetParam());
   const Network& network = body.network;

@@ -43,7 +43,7 @@ AnalysisBody make_pair(double rest, double bending = 0.0) {
   return body;
 }
 
-/// The pivot is rest / (1 + rest), however small: what remains bears the load at u = 1 / rest.
+/// The pivot is rest / (1 + rest), however small: what remains carries the load at u = 1 / rest.
 TEST(Separation, WhatIsWeakStillHolds) {
   for (const double bending : {0.0, 2.0}) {
     for (const double rest : {1e-3, 1e-8, 1e-13, 1e-20}) {
@@ -56,7 +56,7 @@ TEST(Separation, WhatIsWeakStillHolds) {
         const EventOutcome outcome = engine.apply(event);
         ASSERT_FALSE(outcome.mechanism);
         EXPECT_NEAR(outcome.pivot, rest / (1.0 + rest), 1e-14 * rest);
-        // The analysis looks at the equilibrium after every pivot this small.
+        // The analysis checks the equilibrium after every pivot this small.
         const Balance balance = engine.check_equilibrium();
         EXPECT_NEAR(balance.stored_energy, 0.5 / rest, 1e-9 / rest);  // the tolerance is 1e-10
         EXPECT_NEAR(engine.displacement()[0], 1.0 / rest, 1e-9 / rest);
@@ -81,9 +81,9 @@ TEST(Separation, WhatIsNotThereHoldsNothing) {
   }
 }
 
-/// Particle 0 at the origin, pulled or driven by 1 along x and held by a bond of stiffness 1; two
-/// across it, as those along a row of a mesh, are parallel but for `tilt` and hold it by twice the
-/// square of that. Driven, it moves nothing that is free.
+/// Particle 0 at the origin is pulled or displaced by 1 along x and held by a bond of stiffness 1.
+/// Two bonds across it, as along a row of a mesh, are parallel except for `tilt` and hold it by
+/// twice the square of that. Displaced, it moves no free particle.
 AnalysisBody make_row(double tilt, bool driven) {
   Network network;
   network.particles.dim = network.bonds.dim = 2;
@@ -127,7 +127,7 @@ TEST(Separation, WhatHoldsByATiltStillHolds) {
   }
 }
 
-/// A thousandth of what held the particle is the least that elastic supports alone may give.
+/// Elastic supports alone must have at least a thousandth of the stiffness that held the particle.
 TEST(Separation, WeakSupportsHoldNothing) {
   for (const double bending : {0.0, 2.0}) {
     for (const double spring : {1e-10, 0.9e-3, 1.1e-3, 1.0}) {
@@ -143,7 +143,8 @@ TEST(Separation, WeakSupportsHoldNothing) {
   }
 }
 
-/// Round-off leaves 1e-16 times stiffness times displacement of a driven body's reactions.
+/// Round-off of reactions in a displacement-controlled body is 1e-16 times stiffness times
+/// displacement.
 TEST(Separation, DrivenBodiesThatNothingHoldsDoNoWork) {
   AnalysisBody body = make_slender({150, 3, SlenderLoad::driven_across});
   SingleEventEngine engine = make_engine(body, FactorRoute::in_place);
@@ -163,7 +164,7 @@ TEST(Separation, DrivenBodiesThatNothingHoldsDoNoWork) {
 TEST(Separation, RefinedDisplacementsOfSlenderBodiesBalance) {
   const AnalysisBody body = make_slender({600, 2, SlenderLoad::force_across});
   SingleEventEngine engine = make_engine(body, FactorRoute::in_place);
-  // Double precision alone leaves 1e-16 times stiffness times deflection: 1e-6 of the load.
+  // Double precision leaves 1e-16 times stiffness times deflection: 1e-6 of the load.
   const Balance balance = engine.check_equilibrium();
   EXPECT_LT(balance.residual, 1e-10);
   EXPECT_NEAR(2.0 * balance.stored_energy, engine.load_work().forces,

@@ -57,7 +57,7 @@ TEST(Weakening, ABondThatAloneTurnedAParticleMayBreak) {
   }
 }
 
-/// The same joint with a moment on it: the rotation carries load.
+/// Joint with a moment on it: the rotation carries load.
 TEST(Weakening, ABondThatAloneCarriesAMomentLeavesAMechanism) {
   AnalysisBody body = make_joint();
   body.loads.forces[2] = 0.01;
@@ -74,7 +74,7 @@ TEST(Weakening, ABondThatAloneCarriesAMomentLeavesAMechanism) {
   }
 }
 
-/// A chain of two: what hangs on the broken bond carries the load.
+/// A chain of two: the part beyond the broken bond carries the load.
 TEST(Weakening, TheLastBondOfALoadedPartLeavesAMechanism) {
   Network network = single_frame(3, {1.0, 2.0, 2.0}, 1.0, 2.0);
   AnalysisBody body = free_body(std::move(network));
@@ -90,15 +90,14 @@ TEST(Weakening, TheLastBondOfALoadedPartLeavesAMechanism) {
 }
 
 /// Two prescribed particles stretch (1), shear (0.5 - 0.2 / 2 = 0.4) and bend (0.2) the bond
-/// between them: nothing unknown is held by it, and all that it takes along is its share of the
-/// reactions.
+/// between them. It holds no unknown, so breaking it changes only the reactions.
 TEST(Weakening, ABondBetweenPrescribedParticlesBreaksAndNothingMoves) {
   Network network = single_frame(2, {1.0, 0.0}, 1.0, 3.0);
   network.particles.positions.insert(network.particles.positions.end(), {0.0, 1.0});
   network.particles.volumes.push_back(1.0);
   network.particles.material.push_back(0);
   network.particles.kind.push_back(ParticleKind::solid);
-  network.bonds.append(network.particles, 1, 2);  // to a particle that moves with the driven one
+  network.bonds.append(network.particles, 1, 2);  // its end moves with the controlled one
   network.stiffness.push_back(1.0);
   network.bending.push_back(3.0);
   network.critical_stretch.push_back(1e-3);

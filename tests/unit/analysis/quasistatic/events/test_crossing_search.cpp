@@ -77,7 +77,7 @@ TEST_P(Crossings, AheadIsWhereTheFirstElementBeginsToFail) {
   }
 }
 
-/// A body that moves as a whole, but for the last digits, stretches no bond.
+/// A body that moves as a whole, except for the last digits, stretches no bond.
 TEST_P(Crossings, RoundOffOfARigidMotionNeverFails) {
   CrossingSearch search(network_);
   const std::vector<double> now(slots_, 0.0);
@@ -145,7 +145,7 @@ TEST(CrossingSearch, BreaksTiesByNumberAndForgetsWhatIsBroken) {
   found = search.ahead(now, growing, 1, tie_tolerance, 1);
   EXPECT_EQ(found.element, second);
   EXPECT_NEAR(found.distance, 0.005, 1e-16);
-  // Shortened bonds never fail: nothing happens on the way back.
+  // Shortened bonds never fail: unloading has no event.
   EXPECT_EQ(search.ahead(now, growing, -1, tie_tolerance, 1).element, no_index);
 }
 

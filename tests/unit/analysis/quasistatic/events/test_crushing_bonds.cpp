@@ -23,7 +23,7 @@ TEST(CrushingBonds, WakeAtBothEndsOfWhatIsStretched) {
   ASSERT_EQ(network.num_elements(), 6);
   CrushingBonds bonds(network);
   EXPECT_THAT(bonds.wake(0), UnorderedElementsAre(0, 1, 2, 0, 3, 4));
-  EXPECT_TRUE(bonds.wake(0).empty()) << "they are awake";
+  EXPECT_TRUE(bonds.wake(0).empty()) << "they are active";
   EXPECT_THAT(bonds.wake(1), UnorderedElementsAre(1, 3, 5)) << "those at particle 2";
   EXPECT_THAT(bonds.wake(5), UnorderedElementsAre(2, 4, 5)) << "those at particle 3";
 }

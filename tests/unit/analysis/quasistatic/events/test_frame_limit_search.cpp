@@ -86,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(Lattices, FramesOf,
                                          LatticeCase{"space", Pattern::cubic, Surface::none}),
                          [](const auto& test) { return test.param.name; });
 
-/// Bending alone, and shear of a bond that becomes shorter, break nothing.
+/// Pure bending, and shear of a shortened bond, cause no event.
 TEST(FrameLimitSearch, BondsBreakInTensionOnly) {
   const Network network = single_frame(2, {1.0, 0.0}, 2.0, 3.0);
   FrameLimitSearch search(network);
@@ -102,7 +102,7 @@ TEST(FrameLimitSearch, BondsBreakInTensionOnly) {
   EXPECT_NEAR(hit.ratio, 1e3 * std::sqrt(1e-6 + 1.5 * 0.04 + 1.5 * 0.04 / 12.0), 1e-10);
 }
 
-/// By their axial stretch alone, whatever their shear; in compression once they are awake.
+/// Events follow from the axial stretch, whatever the shear; in compression only when active.
 TEST(FrameLimitSearch, BondsThatCrushHaveALimitInEachSense) {
   Network network = single_frame(2, {1.0, 0.0}, 2.0, 3.0);
   network.laws = {BondLaw::brittle().crushing({{1.0, 1.0}}, 7.0, true)};
@@ -110,7 +110,7 @@ TEST(FrameLimitSearch, BondsThatCrushHaveALimitInEachSense) {
   const std::vector<double> pushed = {0, 0, 0.1, -1e-3, 0.2, -0.1};
   FrameLimitSearch search(network);
   EXPECT_NEAR(search.find(pulled, 0.0, 1).ratio, 1.0, 1e-12);
-  EXPECT_EQ(search.find(pushed, 0.0, 1).element, no_index) << "asleep";
+  EXPECT_EQ(search.find(pushed, 0.0, 1).element, no_index) << "inactive";
   search.set_limits(0, 2e-3, 5e-4);
   EXPECT_NEAR(search.find(pulled, 0.0, 1).ratio, 0.5, 1e-12);
   EXPECT_NEAR(search.find(pushed, 0.0, 1).ratio, 2.0, 1e-12);
@@ -120,7 +120,7 @@ TEST(FrameLimitSearch, BondsThatCrushHaveALimitInEachSense) {
   EXPECT_EQ(search.find(pushed, 0.0, 1).element, no_index) << "broken";
 }
 
-/// What a calibration left of a bond's stiffness does not decide how shear and bending count.
+/// The calibrated stiffness of a bond does not change the weights of shear and bending.
 TEST(FrameLimitSearch, BendingOfCalibratedBondsCountsByItsOwnRatio) {
   Network network = single_frame(2, {1.0, 0.0}, 0.02 * 2.0, 1.7 * 3.0);
   network.bending_ratio = {1.5};
@@ -133,7 +133,7 @@ TEST(FrameLimitSearch, BendingOfCalibratedBondsCountsByItsOwnRatio) {
               1e3 * std::sqrt(1e-6 + own * 0.04 + own * 0.04 / 12.0), 1e-10);
 }
 
-/// Not even where nothing is stretched: the other bonds of the particle may be as well.
+/// Round-off selects no bond in an unstretched body either.
 TEST(FrameLimitSearch, RefusesWhatIsNotFinite) {
   const Network network = single_frame(2, {1.0, 0.0}, 2.0, 3.0);
   for (const double extension : {1e-3, -1e-3}) {
@@ -155,7 +155,7 @@ TEST(FrameLimitSearch, RefusesWhatIsNotFinite) {
   }
 }
 
-/// Among bonds that symmetry makes equal the lowest breaks, whatever round-off says.
+/// Among bonds equal by symmetry the lowest number breaks, whatever the round-off.
 TEST(FrameLimitSearch, TiesGoToTheLowestElement) {
   Network network = single_frame(2, {1.0, 0.0}, 2.0, 3.0);
   network.bonds.append(network.particles, 0, 1);

@@ -52,7 +52,7 @@ TEST_P(EveryDimension, FindsTheLargestRatioAgainAndAgain) {
 /// Also elements that have events in compression.
 TEST_P(EveryDimension, ListsAllThatReachARatio) {
   Network network = make_network(GetParam(), 4);
-  network.laws.push_back(BondLaw::plateau(1.44));  // the first tooth ends at 1.2
+  network.laws.push_back(BondLaw::plateau(1.44));  // the first segment ends at 1.2
   network.law_of.assign(static_cast<std::size_t>(network.num_elements()), 0);
   for (Index e = 0; e < network.num_elements(); e += 3) network.law_of[e] = 1;
   LimitSearch search(network);
@@ -76,11 +76,11 @@ TEST_P(EveryDimension, ListsAllThatReachARatio) {
   EXPECT_GT(hits.size(), 0U);
 }
 
-/// An element of either sense may be the first of a tie.
+/// An element of either sense may be the first of equal ratios.
 TEST(LimitSearch, TiesAcrossSensesGoToTheLowestNumber) {
   for (const Index yielding : {0, 1}) {
     Network network = make_network({"", Pattern::rectangular, Surface::none}, 2);
-    network.laws.push_back(BondLaw::plateau(1.21));  // the first tooth ends at 1.1
+    network.laws.push_back(BondLaw::plateau(1.21));  // the first segment ends at 1.1
     network.law_of.assign(static_cast<std::size_t>(network.num_elements()), 0);
     network.law_of[yielding] = 1;
     network.critical_stretch.assign(network.law_of.size(), INFINITY);
@@ -126,8 +126,8 @@ TEST_P(EveryDimension, NegativeStretchNeverBreaks) {
 INSTANTIATE_TEST_SUITE_P(LimitSearch, EveryDimension, testing::Values(plane, space),
                          [](const auto& test) { return test.param.name; });
 
-/// Bonds of one length in a row have equal ratios under a uniform strain; then one is changed by
-/// less, or more, than the width of a tie.
+/// Bonds of one length in a row have equal ratios under a uniform strain. Then one is changed by
+/// less, or more, than the tolerance of equal ratios.
 TEST(LimitSearch, TiesWithinTheToleranceGoToTheLowestNumber) {
   AnalysisBody body = make_chains(6, 1 + 1, false, 1.0, 0.01);
   Network& network = body.network;
@@ -157,15 +157,14 @@ TEST(LimitSearch, LeavesOutWhatCannotBreak) {
   const Index first = bonds_of_row(network, 0.0)[0];
   network.critical_stretch[first] = std::numeric_limits<double>::infinity();
   LimitSearch search(network);
-  search.set_limit(first, INFINITY);  // not in the table: nothing happens
+  search.set_limit(first, INFINITY);  // not in the table: no effect
   EXPECT_EQ(search.find(u, tie_tolerance, 1).element, bonds_of_row(network, 0.0)[1]);
 
   for (double& limit : network.critical_stretch) limit = std::numeric_limits<double>::infinity();
   EXPECT_EQ(LimitSearch(network).find(u, tie_tolerance, 1).element, no_index);
 }
 
-/// A measure that is not a number is no bond that holds, wherever in a block it stands and whatever
-/// the others say; nor is a limit.
+/// A NaN measure or limit is reported, at any position in a block and for any other measures.
 TEST(LimitSearch, RefusesWhatIsNotFinite) {
   for (const LatticeCase& lattice : {plane, space}) {
     Network network = make_network(lattice, 4);
@@ -205,7 +204,7 @@ TEST(LimitSearch, ThreadsDoNotChangeTheResult) {
       EXPECT_EQ(hit.ratio, expected.ratio) << "to the last bit";
     }
   }
-  // A uniform strain: a tie of all bonds along x, decided by the number.
+  // Under a uniform strain all bonds along x have equal ratios; the number decides.
   const auto pull = linear_field(network.particles, {{{1, 0, 0}, {0, -1, 0}, {0, 0, 0}}});
   for (int threads = 1; threads <= 3; ++threads) {
     EXPECT_EQ(searches[threads - 1].find(pull, tie_tolerance, threads).element, 0);

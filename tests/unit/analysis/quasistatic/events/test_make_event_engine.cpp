@@ -45,8 +45,8 @@ TEST(EventEngine, TwoEventsByHand) {
   }
 }
 
-/// Two bonds in series between a held and a driven particle: when one breaks, the particle between
-/// them stays with the other, wherever that leads.
+/// Two bonds in series between a fixed and a displaced particle. When one breaks, the particle
+/// between them stays with the other.
 TEST(EventEngine, BrokenBondToADrivenParticleChangesTheLoad) {
   for (const FactorRoute route : routes) {
     for (const int broken : {0, 1}) {
@@ -68,7 +68,7 @@ TEST(EventEngine, BrokenBondToADrivenParticleChangesTheLoad) {
   }
 }
 
-/// A bond between two driven or held particles holds no unknown: it breaks and nothing moves.
+/// A bond between two prescribed particles holds no unknown: it breaks without motion.
 TEST(EventEngine, BondBetweenPrescribedParticles) {
   AnalysisBody body = make_chains(1, 2, true, 3.0, 0.01);
   number(body, [&](Index i, int axis) { return axis == 0 || i != 0; });  // one idle unknown
@@ -124,7 +124,8 @@ class FollowedBlock : public testing::TestWithParam<BlockCase> {
 };
 
 TEST_P(FollowedBlock, FollowsADenseSolutionThroughTheEvents) {
-  // Bonds to driven particles break among the first, so that the load changes with them.
+  // Bonds to displacement-controlled particles break among the first, so that the load changes with
+  // them.
   const Bonds& bonds = body_.network.bonds;
   for (Index e = 0; e < body_.network.first_slip_spring; e += 7) {
     const bool driven = body_.unknowns.prescribed[slot(body_, bonds.first[e], 0)] != 0.0 ||

@@ -11,13 +11,14 @@ namespace {
 using namespace test;
 
 /// A spring of stiffness 1 and a bar of stiffness 2, both of unit length, in parallel between a
-/// held particle and a free one, which a spring of stiffness 1 ties to a particle moved by 1.
+/// fixed particle and a free one. A spring of stiffness 1 joins the free particle to one moved by
+/// 1.
 AnalysisBody make_yielding_bar(double yield_strain) {
   const BarMaterial bar{2.0, 1.0, 2.0 * yield_strain, false};
   return make_chains(2, 2, true, 1.0, infinity, {{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}}}, bar);
 }
 
-/// With secant a the free particle moves by 1 / (2 + 2 a). Tooth k ends at s_k = s_y sqrt(r) r^k,
+/// With secant a the free particle moves by 1 / (2 + 2 a). Segment k ends at s_k = s_y sqrt(r) r^k,
 /// where the bar carries sqrt(r) times its yield force; there the secant falls to r^-(k+1).
 TEST(SingleEventEngine, BarYieldsAlongTheSawTooth) {
   constexpr double strain = 0.01, r = 1.05;
@@ -42,10 +43,10 @@ TEST(SingleEventEngine, BarYieldsAlongTheSawTooth) {
   }
 }
 
-/// Two bonds of unit stiffness and length in series, beside a row that stays elastic, whose end is
-/// moved by lambda, with secants a of the first and 1 of the second: the first stretches by lambda
-/// / (1 + a). Its teeth end at 0.01, 0.014 and 0.03 (lambda = 0.02, 0.0224, 0.036) before the
-/// second reaches 0.01.
+/// Two bonds of unit stiffness and length in series, parallel to an elastic row, whose end is moved
+/// by lambda. With secants a of the first and 1 of the second, the first stretches by lambda / (1 +
+/// a). Its segments end at 0.01, 0.014 and 0.03 (lambda = 0.02, 0.0224, 0.036) before the second
+/// reaches 0.01.
 TEST(SingleEventEngine, BondsLoseTheirStiffnessToothByTooth) {
   AnalysisBody body = make_chains(2, 2, true, 1.0, 0.01);
   for (const Index e : bonds_of_row(body.network, 1.0)) body.network.critical_stretch[e] = infinity;
@@ -85,9 +86,9 @@ TEST(SingleEventEngine, BarThatWasCutDoesNotYield) {
   EXPECT_EQ(engine.next_event().element, no_index);
 }
 
-/// A body that moves as a whole strains nothing: what its bonds stretch by is round-off, and names
-/// none of them. On weak springs it hides which of them breaks, and "none" was the answer. (Springs
-/// followed by a factor are compared with the motion of their ends alone.)
+/// In a rigid motion the stretches of bonds are round-off and give no event. On weak springs
+/// round-off must not hide the bond that breaks. (Springs followed by a factor are compared with
+/// the motion of their ends.)
 TEST(SingleEventEngine, TellsNoEventOfWhatOnlyMoves) {
   for (const bool micropolar : {false, true}) {
     for (const LinearSolver solver : {LinearSolver::direct, LinearSolver::iterative}) {
@@ -108,7 +109,7 @@ TEST(SingleEventEngine, TellsNoEventOfWhatOnlyMoves) {
   }
 }
 
-/// What is only compressed has no event either, and this is an answer.
+/// Bodies under pure compression have no event, and the search returns that.
 TEST(SingleEventEngine, TellsThatNothingIsInTension) {
   AnalysisBody body = make_chains(2, 3, true, 1.0, 0.1);
   for (double& motion : body.unknowns.prescribed) motion = -motion;

@@ -37,8 +37,8 @@ TEST(StagedEngine, StartsFromTheConstantLoad) {
   EXPECT_EQ(engine.load_factor(), 0.01) << "it was left there";
 }
 
-/// Without its bond an end moves by twice the load, and the diagonal bears 0.02: the load falls to
-/// 0.01, or the diagonal breaks at once.
+/// Without its bond an end moves by twice the load, and the diagonal carries 0.02: the load falls
+/// to 0.01, or the diagonal breaks at once.
 TEST(StagedEngine, FollowsTheLoadDownUnlessItIsGiven) {
   const AnalysisBody body = twice_loaded_square();
   StagedEngine engine(body, {});

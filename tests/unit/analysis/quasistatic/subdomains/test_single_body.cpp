@@ -16,7 +16,7 @@ namespace {
 
 using namespace test;
 
-/// A body in boxes, and what a solver would have of it.
+/// A body in subdomains, with the inputs of its solver.
 struct Boxed {
   explicit Boxed(const LatticeCase& lattice, int columns = 6)
       : body(make_block({.lattice = lattice, .columns = columns})) {

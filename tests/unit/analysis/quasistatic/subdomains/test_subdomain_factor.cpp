@@ -191,7 +191,7 @@ TEST(SubdomainFactor, HoldsWhatOthersMakeUp) {
             closeness);
   EXPECT_NEAR((1.0 - subdomains.pivot(sum)) / (1.0 - by_itself.pivot(sum)), 1.0, closeness);
   EXPECT_EQ(subdomains.columns_solved(), 2);
-  // Nor does one that would be made up of what is solved for beside it.
+  // A column that combines other columns of the request is not solved for either.
   by_itself.clear();
   by_itself.hold(std::vector{first, second, sum});
   EXPECT_EQ(by_itself.columns_solved(), 1 + 2);
@@ -225,7 +225,8 @@ TEST(SubdomainFactor, ColumnsThatNobodyAsksForGoFirst) {
     const std::size_t block = k / block_width;
     const bool waits = k % block_width < waiting;
     if (waits || block > 2) {
-      EXPECT_TRUE(subdomains.holds(held[k])) << k;  // what waits, and the latest of what was let go
+      EXPECT_TRUE(subdomains.holds(held[k]))
+          << k;  // pending columns, and the latest of the evicted ones
     } else if (block < 2) {
       EXPECT_FALSE(subdomains.holds(held[k])) << k;
     }
@@ -268,8 +269,8 @@ TEST(SubdomainFactor, UnknownsSayWhatVectorsSay) {
   EXPECT_GT(unknowns.columns_solved(), vectors.columns_solved());
 }
 
-/// The particle at a corner is left on a two hundredth of its elements, one after the other: the
-/// last of them hold it by themselves.
+/// The elements of a corner particle are reduced one by one to a two hundredth; the last of them
+/// hold it.
 TEST(SubdomainFactor, FollowsSmallPivots) {
   const AnalysisBody body = make_block({{"cubic", Pattern::cubic, Surface::none}, false, false, 5});
   std::vector<double> secants = intact(body.network);

@@ -27,7 +27,7 @@ TEST(SubdomainSolver, CountsIterationsAndTheErrorItLeaves) {
   EXPECT_LT(difference(body.unknowns.expand(solution), expected), 1e-6);
 }
 
-/// What is left of a solution is small already: the second search ends at once.
+/// The remaining correction is small: the second solve ends at once.
 TEST(SubdomainSolver, ACorrectionCountsByTheSolutionThatItCorrects) {
   const AnalysisBody body = make_block({cubic});
   const std::vector<double> secants = intact(body.network);

@@ -67,7 +67,7 @@ TEST(HorizonLimits, CountNoNeighboursBesideSlenderBodies) {
   EXPECT_THAT(answer(reach), HasSubstr("would have 484 neighbours"));
 }
 
-/// All bonds of 10 000 particles with each other took 7.7 GB.
+/// All bonds among 10 000 particles took 7.7 GB.
 TEST(HorizonLimits, RefuseHorizonsLongerThanTheBody) {
   const Box square{{0, 0, 0}, {100, 100, 0}};
   EXPECT_THAT(answer(reach_of(square, 2, 142, 1)), HasSubstr("the body's diagonal is 141.421"));

@@ -54,7 +54,7 @@ TEST(HostModel, WholeEdgesThatAreHeldStayInElements) {
 
 TEST(HostModel, RegionsOfParticlesHaveNoElements) {
   EXPECT_EQ(whole(plate("", "particles = [\"corner\"]\n")), 7);
-  EXPECT_THROW(plate("", "regions = [\"corner\", \"left\"]\n"), InputError) << "none is whole";
+  EXPECT_THROW(plate("", "regions = [\"corner\", \"left\"]\n"), InputError) << "no active host";
 }
 
 TEST(HostModel, PreCracksHaveFreeParticlesAroundThem) {
@@ -114,7 +114,7 @@ order = )";
     return whole(build_model(parse_case(text + order, (work / "plate.toml").string())));
   };
   EXPECT_GT(elements("1\n"), 0);
-  EXPECT_THROW(elements("2\n"), InputError) << "none is whole";
+  EXPECT_THROW(elements("2\n"), InputError) << "no active host";
 }
 
 /// The crack lies where the mesh of the body is three times as coarse as on average.

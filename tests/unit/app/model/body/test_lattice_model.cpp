@@ -63,7 +63,7 @@ TEST(LatticeModel, HasTheParticlesOfTheExplicitBody) {
   EXPECT_EQ(model.reference.value, 0.04);
 }
 
-/// One that falls between particles, or beside them, would otherwise go unseen.
+/// Regions between or outside the particles are refused.
 TEST(LatticeModel, TellsWhatHolesTake) {
   const std::string whole = elastic(test::lattice_strip_case());
   const std::string holed =
@@ -154,7 +154,7 @@ TEST(LatticeModel, TakesLoadsAndGauges) {
 TEST(LatticeModel, SolvesBodiesInSpace) {
   const CaseFile input = parse_case(elastic(test::lattice_bar_case()), "");
   const ElasticAnswer result = elastic_answer(input);
-  // 1 by 1 of modulus 100 over about 1.6 between its grips.
+  // 1 by 1 of modulus 100 over about 1.6 between its clamps.
   EXPECT_NEAR(result.row.load, 100.0 * 0.02 / 1.6, 0.25 * 1.25);
   EXPECT_LT(result.solution.residual, 1e-12);
 }

@@ -57,7 +57,7 @@ TEST(LatticeShape, DiscsAreFilled) {
   EXPECT_NEAR(shape.box().upper[0], 1.3, 1.1e-7) << "a millionth of the spacing 0.1";
 }
 
-/// Particles of a lattice cut to a disc fill its area, cell by cell, but for the rim.
+/// Particles of a lattice cut to a disc fill its area, cell by cell, except for the rim.
 TEST(LatticeShape, TheLatticeOfADiscHasItsArea) {
   std::string text = replaced(test::lattice_strip_case(0.02), "x = [0, 2]\ny = [0, 1]",
                               "center = [0.5, 0.5]\nradius = 0.5");

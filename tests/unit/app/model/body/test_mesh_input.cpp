@@ -279,7 +279,7 @@ TEST_F(MeshInput, IsFoundFromTheFolderOfTheResults) {
   EXPECT_EQ(seen_from(absolute, results).body.mesh, absolute.body.mesh);
 }
 
-/// Regions and interfaces would lose what lies beside the mesh.
+/// Regions and interfaces would lose their parts outside the mesh.
 TEST_F(MeshInput, LinesBesideTheMeshAreNoneOfAGroup) {
   const CaseFile input = parse();
   Body body;

@@ -68,8 +68,8 @@ TEST(ParticleModel, HasTheParticlesOfTheLatticeAndSaysHowTheyFit) {
 TEST(ParticleModel, StretchesAboutAsMuchAsTheSolid) {
   const Model model = build_model(parse_case(bar_case("type = \"elastic\"\n"), ""));
   const ElasticResult result = run_elastic_analysis(model);
-  // E A / L of the bar; constants that fit a family are not those of its neighbours, which costs
-  // some percent at the sides (verification/studies/irregular_particles).
+  // E A / L of the bar; constants that fit a neighbourhood are not those of its neighbours, which
+  // costs some percent at the sides (verification/studies/irregular_particles).
   const double exact = 0.5 * 30.0 * 0.5 / 2.0 * 0.002 * 0.002;
   EXPECT_NEAR(result.strain_energy, exact, 0.06 * exact);
 }
@@ -123,7 +123,7 @@ class Rows final : public BondRunObserver {
     }
   }
   std::vector<ExplicitRecord> records;
-  std::vector<Index> cracked;  ///< in the order that the run tells
+  std::vector<Index> cracked;  ///< in the order of the run
   std::vector<Index> seen;     ///< to be damaged, row after row, in a row by their numbers
 };
 
@@ -157,11 +157,11 @@ TEST(ParticleModel, CracksInTensionAndKeepsItsEnergy) {
   EXPECT_EQ(last.broken_bonds, 0);
   // The strength times the section; faces crack a little earlier or later than the inside.
   EXPECT_NEAR(peak, 0.003 * 0.5, 0.08 * 0.003 * 0.5);
-  // Exact but for bonds that change sign while their factors differ, a matter of the step.
+  // Exact except for bonds that change sign while their factors differ, a matter of the step.
   EXPECT_LT(surplus, 1e-3 * work);
 }
 
-/// A run of which every step is a row shows which particle cracked in which step.
+/// A run with a row at every step shows which particle cracked in which step.
 TEST(ParticleModel, KnowsInWhichOrderParticlesCracked) {
   const Rows all = run_bar(1, "0.1", "30", 1000000), few = run_bar(1, "0.1", "30", 1);
   ASSERT_GT(all.seen.size(), 5U);

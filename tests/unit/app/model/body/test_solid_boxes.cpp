@@ -30,13 +30,13 @@ TEST(SolidBoxes, AreTheRegionsWithoutTheHoles) {
   input.regions[3].box = {{30, 30, 0}, {90, 50, 0}};  // a notch from the right
   EXPECT_EQ(boxes_of(input, 0).size(), 3u);
   EXPECT_DOUBLE_EQ(area(boxes_of(input, 0)), 40.0 * 80.0 - 10.0 * 20.0);
-  input.regions[3].box = {{40, 30, 0}, {90, 50, 0}};  // beside the strip
+  input.regions[3].box = {{40, 30, 0}, {90, 50, 0}};  // outside the strip
   EXPECT_EQ(boxes_of(input, 0).size(), 1u);
   input.materials[0].holes = {"strip"};
   test::expect_refused(input, "materials[1].holes", "remove all of the material");
 }
 
-/// A hole is what four boxes around it leave out.
+/// Four boxes around a hole leave it open.
 TEST(SolidBoxes, BodiesWithHolesAreThoseOfBoxesAroundThem) {
   std::string text = test::strip_text;
   const auto replace = [&text](const std::string& from, const std::string& to) {

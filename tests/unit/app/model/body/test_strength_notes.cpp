@@ -39,7 +39,7 @@ TEST(StrengthNotes, SayNothingOfConcreteOnLaboratoryBodies) {
   EXPECT_THAT(strength_notes(MaterialStrength{}, modulus, 15.0, 100.0), IsEmpty()) << "unbreakable";
 }
 
-/// A strength in Pa beside a modulus in MPa is a million times too large, and the other way round.
+/// A strength in Pa with a modulus in MPa is a million times too large, and vice versa.
 TEST(StrengthNotes, DoubtUnitsOfDifferentSystems) {
   EXPECT_THAT(strength_notes(softening(3e6, 1e11), modulus, 15.0, 100.0),
               ElementsAre(HasSubstr("is 1e+02 of Young's modulus, above 0.01: are the numbers")));

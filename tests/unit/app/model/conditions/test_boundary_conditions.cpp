@@ -121,7 +121,8 @@ TEST(BoundaryConditions, DrivenDisplacementsArePrescribed) {
   EXPECT_DOUBLE_EQ(model.reference.value, 0.2);
 }
 
-/// The load of strip_case() acts on the end that is driven; that of the whole strip reaches it too.
+/// The load of strip_case() acts on the displacement-controlled end; so does that of the whole
+/// strip.
 TEST(BoundaryConditions, ForcesOnWhatIsDrivenAreNoted) {
   CaseFile input = strip_case();
   DisplacementSection driven;
@@ -205,7 +206,7 @@ TEST(BoundaryConditions, FreeBodiesAreRefusedUnlessTheyMayBePinned) {
   expect_refused(input, "analysis.rigid_body_modes", "partly supported");
 }
 
-/// In motion nothing holds a free body but its inertia, and pins would hold particles.
+/// In motion a free body needs no supports, and pins would fix particles.
 TEST(BoundaryConditions, BodiesInMotionAreHeldByTheirInertia) {
   CaseFile input = free_strip_case();
   input.analysis.type = AnalysisType::explicit_;
@@ -270,7 +271,7 @@ TEST(BoundaryConditions, LooseParticlesAreRefused) {
   CaseFile input = strip_case();
   input.body.surface = Surface::none;
   input.body.horizon = 14.2;
-  RebarSection bar;  // its outer node, off the corner of the body, hangs on one line
+  RebarSection bar;  // its outer node, off the corner of the body, has a single element
   bar.points = {{40.0, 80.0, 0.0}, {47.0, 87.0, 0.0}};
   bar.bond = RebarBond::concrete;
   bar.across_gaps = true;
@@ -320,7 +321,7 @@ TEST(BoundaryConditions, RotationsInSpaceGoAboutTheAxesThatAreNamed) {
   }
 }
 
-/// The strip under its load, then gripped and driven at its upper end.
+/// The strip under its load, then clamped and displaced at its upper end.
 TEST(BoundaryConditions, StagesHaveTheirOwnLoadsAndGrips) {
   CaseFile input = strip_case();
   input.loads[0].stage = "weight";

@@ -170,7 +170,7 @@ TEST(Loads, FormulasThatAreZeroEverywhereAreRefused) {
   expect_refused(input, "tractions[1]", "the case has no load");
 }
 
-/// A body of triangles or tetrahedra, 5 by 3 cells in the plane, whose region "loaded" bears 10
+/// A body of triangles or tetrahedra, 5 by 3 cells in the plane, whose region "loaded" carries 10
 /// along x. \return the first moments of the force over the force: where it acts, z last
 Vector3 place_of_force(bool in_space, const std::string& loaded) {
   const auto region = [&](const std::string& name, const std::string& box) {
@@ -257,7 +257,7 @@ TEST(Loads, PointLoadsGoToTheNearestParticle) {
   expect_refused(input, "point_loads[1].at", "is (20, 91), 11 from the nearest particle");
 }
 
-/// Two forces side by side bear their sum over the mean of their deflections; a force and a
+/// Two forces side by side carry their sum over the mean of their deflections; a force and a
 /// traction on one region are one place.
 TEST(Loads, PlacesSideBySideAddUpAndEntriesOfOneRegionAreOnePlace) {
   CaseFile input = strip_with_top();

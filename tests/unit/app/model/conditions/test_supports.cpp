@@ -34,7 +34,7 @@ TEST(Supports, DisplacementsFollowTheirFormula) {
   EXPECT_DOUBLE_EQ(model.reference.value, std::hypot(0.001 * 3200.0, 0.002 * 6400.0));
 }
 
-/// What a velocity comes to at the end of the duration.
+/// Displacement of a velocity at the end of the duration.
 TEST(Supports, VelocitiesArePrescribedAsTheWayTheyGo) {
   CaseFile input = strip_case();
   input.loads.clear();

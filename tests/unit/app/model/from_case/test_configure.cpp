@@ -139,7 +139,7 @@ TEST_P(HexagonalColumns, ARatioOfThreeHas36Neighbours) {
   input.body.columns = GetParam();
   input.body.horizon_ratio = 3.0;
   EXPECT_EQ(interior_neighbours(build_model(input), box), std::set<Index>{36});
-  // The same family as a level of the paper: level 5 encloses 36 neighbours.
+  // Neighbourhood of a level of the paper: level 5 encloses 36 neighbours.
   input.body.horizon_ratio.reset();
   input.body.horizon_level = 5;
   EXPECT_EQ(interior_neighbours(build_model(input), box), std::set<Index>{36});

@@ -125,7 +125,7 @@ TEST(ExplicitCase, FindsThePeriodThatExternalDampingRefersTo) {
       built(replaced(damped, "internal_damping", "fundamental_period = 0.5\ninternal_damping"));
   EXPECT_EQ(given.fundamental_period, 0.5);
   EXPECT_EQ(given.model.mass_damping, mass_damping_rate(0.3, 0.5));
-  EXPECT_EQ(built(test::lattice_strip_case()).fundamental_period, 0.0) << "nobody asks";
+  EXPECT_EQ(built(test::lattice_strip_case()).fundamental_period, 0.0) << "not requested";
   EXPECT_EQ(factors_made(), before) << "a few iterations do";
 }
 

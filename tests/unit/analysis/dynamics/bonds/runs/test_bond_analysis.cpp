@@ -73,7 +73,7 @@ AnalysisBody scaled(AnalysisBody body, double factor) {
   return body;
 }
 
-/// Loaded twice as much as the first bond bears in static equilibrium.
+/// Loaded twice as much as the first bond carries in static equilibrium.
 AnalysisBody overloaded(const AnalysisBody& body) {
   const Network& network = body.network;
   const Eigen::VectorXd motion = dense_displacement(body, intact(network));
@@ -96,7 +96,7 @@ const LatticeCase cube{"cube", Pattern::cubic, Surface::none};
 
 class BondRuns : public testing::TestWithParam<BlockCase> {};
 
-/// The balance is exact but for round-off, elastic or breaking, damped or not.
+/// The balance is exact except for round-off, elastic or breaking, damped or not.
 TEST_P(BondRuns, EnergyIsAccountedFor) {
   const AnalysisBody body = overloaded(make_block(GetParam()));
   for (const double rate : {0.0, 3.0}) {
@@ -105,7 +105,7 @@ TEST_P(BondRuns, EnergyIsAccountedFor) {
     EXPECT_GT(outcome.result.last.broken_bonds, 0);
     EXPECT_GT(outcome.result.last.energy.fractured, 0.0);
     EXPECT_EQ(outcome.result.last.energy.external_damping > 0.0, rate > 0.0);
-    // Some thousand steps with round-off of the energies, which pass through one another.
+    // Round-off of energies over some thousand steps.
     EXPECT_LT(outcome.result.largest_surplus, 1e-11);
   }
 }
@@ -124,8 +124,8 @@ TEST_P(BondRuns, ThreadsChangeNothing) {
   }
 }
 
-/// A run of which every step is a row shows which bond broke in which step; one with next to no
-/// rows has to know it as well.
+/// A run with a row at every step shows which bond broke in which step. A run with almost no rows
+/// reports this order too.
 TEST_P(BondRuns, KnowInWhichOrderBondsBroke) {
   AnalysisBody body = overloaded(make_block(GetParam()));
   ExplicitOptions options = slow_options(body, 1.0, body.reference.value);
@@ -141,7 +141,7 @@ TEST_P(BondRuns, KnowInWhichOrderBondsBroke) {
   EXPECT_EQ(few.result.last.broken_bonds, static_cast<Index>(few.recorder.broken.size()));
 }
 
-/// An elastic body that is loaded slowly and damped comes to rest in static equilibrium.
+/// An elastic body loaded slowly and damped reaches static equilibrium.
 TEST_P(BondRuns, ComeToRestInEquilibrium) {
   AnalysisBody body = make_block(GetParam());
   std::fill(body.network.critical_stretch.begin(), body.network.critical_stretch.end(), INFINITY);
@@ -164,15 +164,15 @@ INSTANTIATE_TEST_SUITE_P(
                     BlockCase{{"space", Pattern::cubic, Surface::none}, true, false, 4, 0.1, true}),
     [](const auto& body) { return to_string(body.param) + std::to_string(body.index); });
 
-/// Springs behind one another break at the force k xi s_c wherever; slowly loaded the support
-/// feels it, and the chain holds until then.
+/// Springs in series break at the force k xi s_c. Under slow loading the support carries this force
+/// before they break.
 TEST(ExplicitBondAnalysis, AChainBreaksAtItsStrength) {
   const double stiffness = 10.0, limit = 0.01;
   const AnalysisBody body = scaled(make_chains(6, 2, true, stiffness, limit), 0.1);
   const Outcome outcome = run(body, slow_options(body, 300.0, 0.1), {});
   EXPECT_EQ(outcome.result.termination, Termination::completed);
   EXPECT_GE(outcome.result.last.broken_bonds, 2);  // the waves of the first break others
-  // What the ramp excites in a chain of this length, less for longer ramps.
+  // Vibration excited by the ramp in a chain of this length; longer ramps excite less.
   EXPECT_NEAR(std::abs(outcome.result.peak_load), 2.0 * stiffness * limit,
               0.02 * stiffness * limit);
   EXPECT_NEAR(outcome.result.peak_displacement, 6.0 * limit, 0.02 * 6.0 * limit);
@@ -192,8 +192,8 @@ TEST(ExplicitBondAnalysis, StepsBeyondTheCriticalOneAreRefused) {
   EXPECT_THROW(run(body, options, {}), std::invalid_argument);
 }
 
-/// The bound of a chain is that of an endless one: a little beyond it the motion grows, and the run
-/// says so instead of filling up with numbers that are none.
+/// The bound of a chain is that of an endless one. Slightly beyond it the motion grows, and the run
+/// fails with a message instead of NaN.
 TEST(ExplicitBondAnalysis, UnstableRunsEnd) {
   const AnalysisBody body = make_chains(40, 2, true, 10.0, INFINITY);
   const Inertia inertia = lumped_inertia(body.network, std::vector{1.0});
@@ -329,7 +329,7 @@ INSTANTIATE_TEST_SUITE_P(
       return to_string(std::get<0>(instance.param)) + std::to_string(instance.index);
     });
 
-/// A square or cube held and driven at opposite faces, of two materials that crack differently.
+/// A square or cube of two materials that crack differently, fixed and displaced at opposite faces.
 TEST(ExplicitBondAnalysis, ParticlesCrackOnTheWay) {
   for (const int dim : {2, 3}) {
     AnalysisBody body = free_body(unstructured_particles(dim, dim == 2 ? 30 : 9).network);

@@ -97,7 +97,8 @@ INSTANTIATE_TEST_SUITE_P(
                     BlockCase{{"space", Pattern::cubic, Surface::none}, true, false, 4, 0.1, true}),
     [](const auto& body) { return to_string(body.param) + std::to_string(body.index); });
 
-/// What is an equilibrium in proportion needs no further iteration.
+/// A load step starts from the scaled last equilibrium. If that is an equilibrium, it needs no
+/// further iteration.
 TEST(DynamicRelaxation, LoadStepsStartWhereTheyEnd) {
   const AnalysisBody body = make_chains(6, 2, true, 10.0, INFINITY);
   RelaxationOptions options;
@@ -125,8 +126,8 @@ TEST(DynamicRelaxation, GreenStrainsOfAChain) {
   EXPECT_NEAR(outcome.result.last.energy.stored, 2.0 * 6.0 * 0.5 * 10.0 * 0.625 * 0.625, 1e-7);
 }
 
-/// Springs in series hold to their limit and carry nothing behind it, which ends the run; all that
-/// they had stored is fractured or damped.
+/// Springs in series hold up to their limit and break, which ends the run; all their stored energy
+/// is fractured or damped.
 TEST(DynamicRelaxation, BondsBreakBetweenLoadSteps) {
   const double stiffness = 10.0, limit = 0.01;
   const AnalysisBody body = make_chains(6, 2, true, stiffness, limit);
@@ -140,7 +141,7 @@ TEST(DynamicRelaxation, BondsBreakBetweenLoadSteps) {
   EXPECT_EQ(outcome.recorder.ends, 1);
   double peak = 0.0;
   for (const ExplicitRecord& row : outcome.recorder.rows) peak = std::max(peak, row.load);
-  // Load steps of a sixtieth of what the chain bears; the motion between them overshoots.
+  // Load steps of a sixtieth of the chain's strength; the motion between them overshoots.
   EXPECT_NEAR(peak, 2.0 * stiffness * limit, 0.05 * 2.0 * stiffness * limit);
   EXPECT_GE(outcome.result.last.broken_bonds, 2);
   EXPECT_NEAR(outcome.result.last.load, 0.0, 1e-6);
@@ -167,7 +168,7 @@ TEST(DynamicRelaxation, AnIterationLimitIsNoSuccess) {
   options.most_iterations = 20;
   const Relaxed outcome = relax(body, options);
   EXPECT_EQ(outcome.result.termination, Termination::failed);
-  EXPECT_THAT(outcome.result.reason, testing::HasSubstr("not at rest after 20 iterations"));
+  EXPECT_THAT(outcome.result.reason, testing::HasSubstr("not converged after 20 iterations"));
   EXPECT_TRUE(outcome.recorder.rows.empty());
   EXPECT_EQ(outcome.recorder.ends, 0);
 }

@@ -102,7 +102,7 @@ TEST(ExplicitLoads, ComeToTheElasticAnswer) {
     apart = std::max(apart, std::abs(u - still.displacement[k]));
   }
   EXPECT_LT(apart, 1e-4 * largest);  // strains of 1e-6, and what still moves
-  // Twice the energy over the load; supports bear what is not on themselves.
+  // Twice the energy over the load; supports carry what is not on themselves.
   EXPECT_NEAR(moving.last.displacement, 2.0 * still.strain_energy / 100.0,
               1e-3 * moving.last.displacement);
   EXPECT_NEAR(moving.last.support_reaction, -100.0, 0.1);

@@ -136,7 +136,7 @@ TEST(LatticePeriod, OfAColumnTendsToThatOfABar) {
   }
 }
 
-/// Concrete of Nikravesh & Gerstle (2018), 0.15 x 0.30, ends gripped: they print 0.00035.
+/// Concrete of Nikravesh & Gerstle (2018), 0.15 x 0.30, ends clamped: they print 0.00035.
 TEST(LatticePeriod, OfAGrippedSpecimenIsThePrintedOne) {
   ExplicitModel model =
       plane_model(rectangle(0.075, 0.5 * height + 1e-9, height / (40 * std::sqrt(0.75)), 0.0),

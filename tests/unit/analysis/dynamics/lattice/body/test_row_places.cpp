@@ -56,7 +56,7 @@ class PassingPlaces : public testing::TestWithParam<int> {
       EXPECT_EQ(to - places.first[other], wanted);
       return;
     }
-    // No bond leads there: nobody may write it, or the other row has to clear it.
+    // No bond leads there: the values must stay zero, or the other row must clear them.
     if (users(places, to).empty()) return;
     ASSERT_NE(other, no_index);
     EXPECT_GE(wanted, size);

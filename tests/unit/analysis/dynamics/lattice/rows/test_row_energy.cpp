@@ -12,7 +12,7 @@ namespace {
 
 using namespace testing_support;
 
-/// In proportion to both stretches; a step that moved nothing has the same twice.
+/// The energy is proportional to both stretches; without motion in a step they are equal.
 class HalfSteps : public testing::TestWithParam<bool> {};
 
 TEST_P(HalfSteps, LieBetweenTheTwoSteps) {

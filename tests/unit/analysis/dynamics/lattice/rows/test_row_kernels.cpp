@@ -166,7 +166,7 @@ struct StepResult {
   double stored = 0.0, damped = 0.0;
 };
 
-/// Two steps, of which the second pays for the drag of the first.
+/// Two steps: the second counts the drag of the first.
 StepResult two_steps(const ExplicitModel& model, ExplicitState& state, double dt) {
   const auto rows = static_cast<Index>(model.lattice.rows.size());
   StepResult result;
@@ -183,7 +183,7 @@ StepResult two_steps(const ExplicitModel& model, ExplicitState& state, double dt
   return result;
 }
 
-/// Rows that nothing has cracked do not read factors: those of whole bonds, one, say the same.
+/// Uncracked rows do not read factors; with factors of one, the result is equal.
 TEST(ExplicitKernels, FactorsOfOneChangeNothing) {
   for (const LatticeRules rules :
        {LatticeRules::consistent, LatticeRules::mean_2017, LatticeRules::least_2018}) {

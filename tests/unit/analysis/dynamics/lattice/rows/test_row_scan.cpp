@@ -40,7 +40,7 @@ void shake_and_evaluate(const ExplicitModel& model, ExplicitState& state, double
   evaluate(model, state);
 }
 
-/// What has happened to a body before it is scanned.
+/// State of a body before it is scanned.
 enum class Past { none, flowed, cracked };
 
 void alter(const ExplicitModel& model, ExplicitState& state, Past past) {
@@ -114,8 +114,8 @@ TEST(ExplicitScan, FindsTheParticlesAboveTheirThresholds) {
   }
 }
 
-// What the slack promises: no particle of the row reaches a threshold before its stretches have
-// changed by so much.
+// Meaning of the slack: no particle of the row reaches a threshold before its stretches have
+// changed by this amount.
 TEST(ExplicitScan, NothingIsDueBeforeTheSlackIsUsedUp) {
   for (const Problem problem : {Problem::plane_stress, Problem::three_dimensional}) {
     const ExplicitModel model = scanned_block(problem, LatticeRules::consistent);
