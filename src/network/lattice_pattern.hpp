@@ -8,8 +8,8 @@
 
 namespace perilink {
 
-/// The bonds of a box of a lattice, however large, by those of a smaller one: bonds at places that
-/// lie alike under the faces are alike, as calibration makes them (calibration/bond_orbits.hpp).
+/// Bonds of a large box of a lattice, given by those of a smaller template box. Bonds at the same
+/// distance from the faces are equal (calibration/bond_orbits.hpp).
 struct LatticePattern {
   LatticeGrid grid;              ///< the box
   LatticeGrid small;             ///< template box

@@ -31,8 +31,8 @@ inline Eigen::VectorXd apply_system(const PointEquations& equations,
   return result;
 }
 
-/// Variables between points in space at random, every sixth at a bound. The last five act at one end
-/// only in the rows that are not odd.
+/// Returns random variables between points in space, every sixth at a bound. The last five act at
+/// one end only in the rows that are not odd.
 /// \param grouped        the last row holds for groups of points
 /// \param active_weight  of the variables, appended
 inline PointEquations random_equations(Index points, int rows, int odd, bool grouped,

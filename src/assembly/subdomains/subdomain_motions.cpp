@@ -52,9 +52,8 @@ SubdomainMotions::SubdomainMotions(const Network& network, Secants secants,
                                    const Unknowns& unknowns, Index most)
     : dim_(network.dim()),
       unknowns_(unknowns),
-      subdomains_(
-          split_by_cracks(split_into_boxes(network.particles.positions, network.dim(), most),
-                          network, secants)),
+      subdomains_(split_by_cracks(
+          split_into_boxes(network.particles.positions, network.dim(), most), network, secants)),
       subdomain_of_(numbers_of_subdomains(subdomains_, network.particles.size())) {
   find_centres(network.particles);
 }

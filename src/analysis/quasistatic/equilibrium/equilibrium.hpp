@@ -138,7 +138,7 @@ class Equilibrium {
   bool is_prepared(Index element) const;
   /// Solves for the columns of an element's event and of expected events, and removes errors that
   /// earlier events left.
-  /// \param expected  elements that are likely to have events next, the likeliest first
+  /// \param expected  elements that are expected to have events next, in order of load factor
   void prepare(Index element, std::span<const Index> expected);
 
   // Constant and growing loads: constant_loads.cpp.

@@ -40,7 +40,7 @@ class SubdomainFactor final : public Factor {
   /// \return whether the residual was replaced: blocks may have no room for it
   bool hold_and_correct(std::span<const SparseVector> x, std::vector<double>& residual,
                         double energy);
-  /// Sets vectors that are likely to be needed next, the likeliest first. They are loaded where
+  /// Sets vectors that are expected to be needed next, in that order. They are loaded where
   /// blocks have room.
   void expect(std::vector<SparseVector> x) { expected_ = std::move(x); }
   /// Replaces a residual by K^-1 residual, as accurate as a solution of this energy.

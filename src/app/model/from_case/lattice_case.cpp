@@ -64,7 +64,7 @@ void load_body(const CaseFile& input, const LatticeShape& shape, ExplicitCase& b
   built.options.reference = built.options.driven ? driven : loaded;
   if (!(built.options.reference >= smallest_load)) {
     throw InputError(input.where(input.displacements.empty() ? "loads[1]" : "displacements[1]"),
-                     "the body has no load: all formulas are zero on their particles, or "
+                     "the case has no load: all formulas are zero on their particles, or "
                      "too small for double precision",
                      "change a formula or its region");
   }

@@ -144,7 +144,7 @@ TEST(ExplicitCase, RefusesWhatOnlyTheBodyKnows) {
               HasSubstr("sets the displacement along x of the particle at (0.1, 0) to 0.04, where "
                         "another entry sets it to 0"));
   EXPECT_THAT(lattice_message(replaced(strip, "x = 0.04", "x = \"0*x\"")),
-              HasSubstr("the body has no load"));
+              HasSubstr("the case has no load"));
   EXPECT_THAT(lattice_message(replaced(strip, "x = 0.04", "x = \"1/(x - x)\"")),
               HasSubstr("displacements[1].x"));
 }
