@@ -104,10 +104,10 @@ void Svg::path(const SvgPath& path, std::string_view attributes) {
   body_ += fmt::format("<path {} d=\"{}\"/>\n", attributes, path.data());
 }
 
-void Svg::text(SvgPoint at, std::string_view text, std::string_view embedded_point,
+void Svg::text(SvgPoint at, std::string_view text, std::string_view anchor,
                std::string_view attributes) {
   body_ += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"{}\" {}>{}</text>\n", number(at.x),
-                       number(at.y), embedded_point, attributes, escape(text));
+                       number(at.y), anchor, attributes, escape(text));
 }
 
 void Svg::open_group(std::string_view attributes) { body_ += fmt::format("<g {}>\n", attributes); }

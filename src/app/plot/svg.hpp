@@ -50,7 +50,7 @@ class Svg {
   /// Draws nothing when the path is empty.
   void path(const SvgPath& path, std::string_view attributes);
   /// Escapes the text. `anchor` is start, middle or end.
-  void text(SvgPoint at, std::string_view text, std::string_view embedded_point,
+  void text(SvgPoint at, std::string_view text, std::string_view anchor,
             std::string_view attributes);
   void open_group(std::string_view attributes);
   void close_group();
