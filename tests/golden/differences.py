@@ -16,6 +16,8 @@ NOT_COMPARED = {
     "version",
     "commit",
 }
+# Texts of summary.json that the program prints too: they are compared as messages.
+TEXTS = {"reason", "notes", "doubts"}
 # Files that hold wall time or messages.
 SKIPPED = {"timing.csv", "log.txt"}
 # Numbers that are round-off themselves or count steps to a tolerance. A tolerance passes over them,
@@ -40,13 +42,20 @@ class Difference:
 
 
 def summary_bytes(data):
-    """Returns summary.json without the entries of NOT_COMPARED, or the data if it is no JSON."""
+    """Returns summary.json without NOT_COMPARED and TEXTS, or the data if it is no JSON."""
     try:
         summary = json.loads(data)
     except ValueError:
         return data
     kept = {key: value for key, value in summary.items() if key not in NOT_COMPARED}
-    return json.dumps(kept, indent=1).encode()
+    return json.dumps(without_texts(kept), indent=1).encode()
+
+
+def without_texts(value):
+    """Returns a JSON value without the entries of TEXTS at any depth."""
+    if isinstance(value, dict):
+        return {key: without_texts(v) for key, v in value.items() if key not in TEXTS}
+    return [without_texts(v) for v in value] if isinstance(value, list) else value
 
 
 def files_of(folder):
