@@ -31,9 +31,10 @@ struct BondPart {
 BondPart cut_part(const LoadedNetwork& body, const std::vector<double>& mass,
                   const BondStencil& stencil, const Partition& partition, int rank);
 
-/// Share of a rank in an explicit run of bonds. A rank moves its own blocks and exchanges the
-/// motion of ghosts in every step. Ranks synchronise every few steps: the root collects the sums of
-/// all blocks and the broken bonds, may request more, and ends the synchronisation.
+/// Part of the body that a rank computes in an explicit run of bonds. A rank moves its own blocks
+/// and exchanges the motion of ghosts in every step. Ranks synchronise every few steps: the root
+/// collects the sums of all blocks and the broken bonds, may request more, and ends the
+/// synchronisation.
 class RunShare {
  public:
   /// \param unknowns  unknowns of the particles that the rank numbers
@@ -105,7 +106,8 @@ class FollowingShare final : public RunShare {
   const BodyPart& part_;
 };
 
-/// Share of this process in a run; both null: one process.
+/// Part of the body that this process computes. One pointer is set if there are several processes,
+/// else none.
 struct Shares {
   LeadingShare* leading = nullptr;
   FollowingShare* following = nullptr;
