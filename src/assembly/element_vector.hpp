@@ -15,7 +15,7 @@ namespace perilink {
 SparseVector element_vector(const Network& network, const Unknowns& unknowns, Index element,
                             double stiffness);
 
-/// Contribution of an element to the stiffness matrix as a sum of x x'.
+/// Contribution of an element to the stiffness matrix, the sum of x x' over `count` vectors x.
 struct ElementVectors {
   static constexpr int capacity = 6;
   int count = 0;

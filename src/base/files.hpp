@@ -28,11 +28,10 @@ void write_whole_file(const std::string& path, std::string_view bytes);
 /// Returns whether `temporary` is a temporary name of write_whole_file() for a file `name`.
 bool is_temporary_of(std::string_view name, std::string_view temporary);
 
-/// Reads a regular file. Refuses pipes, devices and directories without waiting for them.
+/// Reads a regular file. Refuses pipes, devices and directories without opening them.
 /// \param most    largest number of bytes to read; the rest of a longer file is skipped
-/// \param memory  bytes that the caller needs per byte of the file, including that byte. Larger
-///     files than memory allows are refused unread.
-/// \throws FileError
+/// \param memory  bytes of memory that the caller needs per byte of the file, at least one
+/// \throws FileError  also before reading, where the free memory is too small
 std::string read_regular_file(const std::string& path,
                               std::size_t most = std::numeric_limits<std::size_t>::max(),
                               double memory = 1.0);

@@ -36,25 +36,26 @@ class BondLaw {
   /// micro-elastic damage, Gerstle, Sau & Silling 2005, Fig. 2 with s0 = s1).
   static BondLaw brittle();
 
+  static constexpr double usual_ratio = 1.05;
   /// Returns an elastic, perfectly plastic law that yields at the critical stretch s_y, as a
   /// saw-tooth about the plateau. With the ratio r of neighbouring segments a_k = r^-k and
   /// s_k = s_y sqrt(r) r^k. The force stays between sqrt(r) and 1/sqrt(r) times the yield force, an
   /// overshoot of about (r - 1) / 2. Every segment dissipates exactly the energy of its part of the
   /// plateau. The law yields in tension and compression and unloads along the secant.
   /// \throws std::invalid_argument unless ratio > 1
-  static constexpr double usual_ratio = 1.05;
   static BondLaw plateau(double ratio = usual_ratio);
 
   /// Returns a law with given segments in tension; the bond breaks at the end of the last one.
   /// \param segments  the first secant is 1; secants fall and limits rise
-  /// \throws std::invalid_argument for other segments
+  /// \throws std::invalid_argument for segments that break these rules
   static BondLaw saw_tooth(std::vector<Segment> segments);
 
   /// Returns a law with the same segments in tension and compression.
   /// \param segments  as in saw_tooth()
   /// \param ratio     above one: after the last segment the force stays constant, with more
   ///                  segments of this ratio as in plateau(); zero: the element breaks
-  /// \throws std::invalid_argument as saw_tooth() and plateau()
+  /// \throws std::invalid_argument for segments that saw_tooth() refuses, or a ratio that plateau()
+  ///     refuses
   static BondLaw both_ways(std::vector<Segment> segments, double ratio);
 
   /// Returns this law with crack closure: damaged bonds resist compression like intact ones. Shear
@@ -67,8 +68,8 @@ class BondLaw {
   /// \param segments     as in saw_tooth()
   /// \param scale        reference stretch of the branch over the critical stretch [-]
   /// \param keeps_shear  shear retention: only the axial stiffness falls until the bond breaks
-  /// \throws std::invalid_argument as saw_tooth(), for a scale that is not positive, and for laws
-  ///     that are endless or close
+  /// \throws std::invalid_argument for segments that saw_tooth() refuses, a scale that is not
+  ///     positive, a law that never breaks, or a law with crack closure
   BondLaw crushing(std::vector<Segment> segments, double scale, bool keeps_shear) const;
 
   /// Returns segment k; after the last one it has no stiffness.

@@ -33,9 +33,9 @@ double band_damage(const CrackOpeningLaw& law, double youngs_modulus, double str
 /// Returns the width of a band above which its stress would fall faster than it unloads [length].
 double max_band_width(const CrackOpeningLaw& law, double youngs_modulus);
 
-/// Returns the damage as printed by Nikravesh & Gerstle (2018, Eq. 39), not below zero. It has the
-/// total elongation of the band instead of the opening, so that damage begins with a jump. It
-/// serves for comparison with the papers of 2017 and 2018.
+/// Returns the damage as printed by Nikravesh & Gerstle (2018, Eq. 39), not below zero. The printed
+/// equation has the total elongation of the band instead of the opening, so that damage begins with
+/// a jump. It serves for comparison with Nikravesh (2017) and Nikravesh & Gerstle (2018).
 /// \param strain   in the band [-]
 /// \param opening  equivalent crack opening [length]
 double printed_damage(const CrackOpeningLaw& law, double youngs_modulus, double strain,

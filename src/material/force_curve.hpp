@@ -32,12 +32,12 @@ ForceCurve curve_behind(const ForceCurve& curve, double flow);
 ///     zero, negative forces, a first force of zero, or rising secants
 void check_curve(const ForceCurve& curve);
 
-/// Returns the curve as saw-tooth segments, with stretches relative to its first deformation.
-/// Between the deformations at which two neighbouring secants leave the curve, a segment dissipates
-/// exactly the area of the curve (docs/theory/softening.md).
-/// \param ratio  ratio of neighbouring secants, above one; the overshoot on a plateau is about
+/// Returns the curve as saw-tooth segments, with stretches relative to the deformation of its first
+/// point. Two successive secants meet the curve at two points. A segment dissipates the energy that
+/// the curve dissipates between these points, with unloading along secants.
+/// \param ratio  ratio of successive secants, above one; the overshoot on a plateau is about
 ///               (ratio - 1) / 2
-/// \throws std::invalid_argument as check_curve(), or for a ratio of one or less
+/// \throws std::invalid_argument if check_curve() does, or for a ratio of one or less
 BondLaw law_of(const ForceCurve& curve, double ratio);
 
 }  // namespace perilink

@@ -2,8 +2,9 @@
 
 namespace perilink {
 
-/// Rules for the force of a bond from the force states of its two particles, and all other rules
-/// that differ between the papers. The rules of 2017 and 2018 serve for comparison with the papers.
+/// Rules for the force of a bond from the force states of its two particles. They also select the
+/// other rules that differ between Nikravesh (2017) and Nikravesh & Gerstle (2018). Both papers'
+/// rules serve for comparison only.
 enum class LatticeRules {
   consistent,  ///< derivative of an energy; tributary volumes; cohesive band with the true opening
   least_2018,  ///< the smaller one if both have one sign, else the mean (Nikravesh & Gerstle 2018,

@@ -10,7 +10,7 @@
 /// \file
 /// Limits of calibrated bonds. Calibration changes single bond stiffnesses, not the strength of the
 /// material. So all bonds of a pair of materials have the limit of its interior bonds. A straight
-/// crack then releases G_F in the mean.
+/// crack then releases G_F on average.
 
 namespace perilink {
 

@@ -29,7 +29,8 @@ struct Unknowns {
     double weight;
   };
 
-  /// Embeds a prescribed slot as a combination of unknowns: at least one, each once.
+  /// Makes a prescribed slot an embedded one, a weighted sum of unknowns.
+  /// \param shares  at least one; an unknown appears at most once
   void carry(std::size_t slot, std::span<const Share> shares) {
     number[slot] = no_index - static_cast<Index>(rows_.size());
     shares_.insert(shares_.end(), shares.begin(), shares.end());

@@ -27,13 +27,13 @@ void CholmodUpdownFactor::refactorize(const SparseMatrix& matrix) {
   factor_ = CholmodFactorPtr(cholmod_copy_factor(symbolic_.get(), session_.get()),
                              CholmodFactorDeleter{session_.get()});
   if (!factor_) {
-    throw SolverError("out of memory while copying the analysis of the stiffness matrix");
+    throw SolverError("out of memory while copying the symbolic factor of the stiffness matrix");
   }
   compute(matrix);
   // CHOLMOD would convert at the first downdate; converting here keeps the time out of the events.
   if (!cholmod_change_factor(CHOLMOD_REAL, false, false, false, true, factor_.get(),
                              session_.get())) {
-    throw SolverError("out of memory while turning the factor into a simplicial one");
+    throw SolverError("out of memory while converting the factor to a simplicial one");
   }
 }
 
@@ -48,7 +48,7 @@ std::vector<double> CholmodUpdownFactor::forward(const SparseVector& x) {
   cholmod_dense b = view_column(rhs);
   if (!cholmod_solve2(CHOLMOD_L, factor_.get(), &b, column.get(), &solved_, &solved_set_,
                       &workspace_y_, &workspace_e_, session_.get())) {
-    throw SolverError("out of memory while solving along a path");
+    throw SolverError("out of memory while solving with a sparse right side");
   }
   const Index* rows = static_cast<const Index*>(solved_set_->i);
   const Index count = static_cast<const Index*>(solved_set_->p)[1];

@@ -94,7 +94,8 @@ class ExplicitLoop {
   void check_growth(Index step, const EnergyBalance& energy);
   void note_row(const ExplicitRecord& record);
 
-  /// Stores exceptions, which must not leave a parallel region.
+  /// Calls action(). An exception must not leave a parallel region: its message is stored and the
+  /// run ends.
   template <class Action>
   void guarded(const Action& action) {
     try {

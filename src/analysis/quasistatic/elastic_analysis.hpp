@@ -57,7 +57,7 @@ ElasticResult run_elastic_analysis(const LoadedNetwork& problem,
 
 /// Finds which bonds across pre-cracks are closed at load factor 1.
 /// \return secant stiffness ratios of all elements, and ratios of their axial stiffness
-/// \throws CracksSeparate as run_elastic_analysis()
+/// \throws CracksSeparate if only closed bonds could hold a piece that is pulled away
 std::pair<std::vector<double>, std::vector<double>> find_closed_cracks(
     const LoadedNetwork& problem, const ElasticOptions& options);
 

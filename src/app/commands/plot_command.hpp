@@ -4,7 +4,7 @@
 
 namespace perilink {
 
-/// perilink plot
+/// Options of `perilink plot`.
 struct PlotOptions {
   std::string directory;  ///< folder of the results
   std::string out;        ///< folder of the pictures; empty: `directory`

@@ -77,7 +77,7 @@ std::string text_of_ranks(const FactorStatistics& factor) {
 std::string solver_text(const FactorStatistics& factor) {
   std::string work =
       factor.subdomains > 0
-          ? fmt::format("conjugate gradients with {} subdomains, factorised {} time{}",
+          ? fmt::format("conjugate gradients, {} subdomains, preconditioner made {} time{}",
                         factor.subdomains, factor.factorizations,
                         factor.factorizations == 1 ? "" : "s")
           : fmt::format("{} factorisations", factor.factorizations);
@@ -149,7 +149,7 @@ void tell_equilibria(Summary& summary, const CaseFile& input, const Equilibria& 
   summary.add("energy_error", found.energy_error);
   if (last.step > 0) {
     const double energy = found.has_events ? last.dissipated_energy : last.strain_energy;
-    summary.line("energy", "{:.6g} {}, balance to {:.1e}", energy,
+    summary.line("energy", "{:.6g} {}, balance error {:.1e}", energy,
                  found.has_events ? "dissipated" : "stored", found.energy_error);
   }
   summary.add("largest_residual", found.largest_residual);

@@ -41,7 +41,8 @@ class RunFiles {
   /// Writes KIND_STEP.csv next to the field file; KIND is one of `tables`.
   void write_table(const char* kind, Index step, const std::string& text);
   static constexpr std::array<const char*, 2> tables = {"bars", "reactions"};
-  /// Draws the progress of a run in steps, if due.
+  /// Updates the progress bar, unless it was drawn a moment ago.
+  /// \param steps  number of steps of the whole run
   void show_steps(const ExplicitRecord& record, Index steps);
   ProgressBar& bar() { return bar_; }
   bool has_fields() const { return !series_.empty(); }

@@ -85,12 +85,12 @@ void tell_motion(Summary& summary, const CaseFile& input, const RunFiles& files,
   }
   summary.add("energy_error", result.largest_surplus);
   summary.line("energy",
-               "{:.6g} work, {:.6g} kinetic at the end, {:.6g} dissipated by {}{}, balance to "
-               "{:.1e}",
+               "{:.6g} work, {:.6g} kinetic at the end, {:.6g} dissipated by {}{}, balance "
+               "error {:.1e}",
                last.energy.external_work, last.energy.kinetic, last.energy.fractured, cracks, flow,
                result.largest_surplus);
-  summary.outcome = fmt::format("{} steps, {}, energy to {:.2e} of the work", result.steps, cracks,
-                                result.largest_surplus);
+  summary.outcome = fmt::format("{} steps, {}, energy error {:.2e} of the work", result.steps,
+                                cracks, result.largest_surplus);
 }
 
 namespace {

@@ -28,13 +28,17 @@ struct StressInput {
 };
 
 /// Returns the stress at a particle by Hooke's law for its strain [force/length^2]
-/// (docs/theory/stress.md). Where all its bonds are intact, the strain is the gradient of a
-/// quadratic polynomial through the particle's own displacement. The polynomial fits the neighbours
-/// of the same material, weighted with 1/distance^2; it is exact for quadratic fields, also at the
-/// surface. Where the neighbours do not determine it, a linear field is fitted; where they do not
-/// determine that either, the stress is zero. Where bonds are damaged, the strain is bond_strain(),
-/// so that they count with the forces that they still carry. In plane strain zz = lambda
-/// (e_xx + e_yy).
+/// (docs/theory/stress.md).
+///
+/// Where all bonds of the particle are intact, the strain is the gradient of a quadratic polynomial
+/// that has the particle's own displacement at the particle. Least squares with weights
+/// 1/distance^2 fit the polynomial to the displacements of the neighbours of the same material. The
+/// strain is exact for quadratic fields, also at the surface. Where the neighbours do not determine
+/// a quadratic polynomial, a linear one is fitted. Where they do not determine a linear one, the
+/// stress is zero.
+///
+/// Where a bond of the particle is damaged, the strain is bond_strain(), from the forces that its
+/// bonds still carry. In plane strain zz = lambda (e_xx + e_yy).
 /// \param motion  shape (particles, width)
 Stress stress_at(const StressInput& input, std::span<const double> motion, Index particle);
 

@@ -48,8 +48,8 @@ class PackedProduct {
   void for_each_row(Index variable, Visit visit) const;
 
   const PointEquations& equations_;
-  /// Scales of the rows of points: scales of the equations times a power of two, so that
-  /// coefficients stay in the range of single precision in any units.
+  /// Scale of every row: the scale of its equation times a power of two. The power of two keeps
+  /// the coefficients in the range of single precision in any units.
   std::vector<double> scale_;
   double unit_ = 1.0;
   std::vector<Index> place_, point_;   // position of a point in the order, and its inverse

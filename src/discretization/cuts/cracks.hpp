@@ -47,7 +47,7 @@ class CrackCutter {
   };
 
   /// \param spacing  distance of neighbouring particles [length]
-  /// \throws std::invalid_argument as check_crack()
+  /// \throws std::invalid_argument for a crack that check_crack() refuses
   CrackCutter(std::span<const Crack> cracks, int dim, double spacing);
 
   /// Returns whether the bond between two particles is cut.
@@ -67,7 +67,7 @@ class CrackCutter {
 
 /// Returns bonds of a body that cracks cut.
 /// \param spacing  distance of neighbouring particles [length]
-/// \throws std::invalid_argument as check_crack()
+/// \throws std::invalid_argument for a crack that check_crack() refuses
 CutBonds find_cut_bonds(const Particles& particles, const Bonds& bonds,
                         std::span<const Crack> cracks, double spacing);
 

@@ -17,8 +17,8 @@ struct GridWindow {
   GridPoint first{}, last{};
 };
 
-/// Box filled with one rectangular, cubic or face-centred lattice, described by few numbers. Its
-/// particles are numbered as in make_body(): x runs fastest.
+/// Box filled with one rectangular, cubic or face-centred lattice. Positions and numbers of its
+/// particles are computed, not stored. The numbers are as in make_body(): x runs fastest.
 struct LatticeGrid {
   int dim = 3;
   Vector3 lower{}, upper{};      ///< corners [length]

@@ -7,7 +7,8 @@
 
 namespace perilink {
 
-/// Reads a file. Of a file that is too large it reads only as much as refuse_large_input() needs.
+/// Reads a file. Where the file is too large, only the bytes that refuse_large_input() needs are
+/// read.
 /// \throws FileError when the file cannot be read
 std::string read_input_text(const std::string& path);
 

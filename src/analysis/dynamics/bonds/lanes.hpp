@@ -48,7 +48,8 @@ inline Doubles component(const Doubles& a, const Doubles& b, const Doubles& c,
   return __builtin_shufflevector(of_two, c, (at(Lane) < two ? Lane : at(Lane) - num_lanes)...);
 }
 
-/// Loads vectors of `Dim` components, consecutive in memory, and separates the components.
+/// Loads `num_lanes` vectors of `Dim` components that lie one after the other in memory.
+/// \param to  one register per component, size Dim
 template <int Dim>
 inline void load_vectors(const double* from, Doubles* to) {
   static_assert(1 <= Dim && Dim <= 3);

@@ -40,8 +40,8 @@ class BreakSearch {
   virtual void set_limits(Index element, double tension, double compression) = 0;
 };
 
-/// Returns the ratio of an element's stretch to its limit. Comparisons would treat not-a-number as
-/// an element that never fails.
+/// Returns `ratio`, the stretch of an element over its limit, after a check. Unchecked, an element
+/// whose ratio is not a number would never fail.
 /// \throws SolverError if the ratio is not finite
 inline double finite_ratio(Index element, double ratio) {
   if (std::isfinite(ratio)) return ratio;

@@ -16,7 +16,7 @@ namespace perilink {
 /// s_eq reaches the critical stretch in tension, s > 0; bars yield either way. A bond with its own
 /// kb/k then stores k xi^2 s_c^2 / 2, whatever its direction across a crack. The fracture energy
 /// thus needs the axial stiffness only. Calibrated bonds are measured with the ratio before
-/// calibration and store this energy in the mean (docs/theory/micropolar.md, section 5). s_eq is
+/// calibration and store this energy on average (docs/theory/micropolar.md, section 5). s_eq is
 /// proportional to the load factor, which is therefore 1 / ratio, as for trusses. Bonds without
 /// bending stiffness (slip springs, bars) and bonds with their own segments in compression have
 /// s_eq = s. These segments are inactive at first; set_limits() activates them.

@@ -45,8 +45,9 @@ class SubdomainFactor final : public Factor {
   void expect(std::vector<SparseVector> x) { expected_ = std::move(x); }
   /// Replaces a residual by K^-1 residual, as accurate as a solution of this energy.
   void correct(std::vector<double>& residual, double energy);
-  /// Replaces a residual as correct() after elements have lost stiffness, and clears the cache. The
-  /// subdomains are made anew if the number of iterations has grown much.
+  /// Replaces a residual by K^-1 residual after elements have lost stiffness, and clears the cache.
+  /// The accuracy is as in correct(). The subdomains are made anew if the number of iterations has
+  /// grown much.
   void follow(std::vector<double>& residual, double energy);
   /// Marks vectors of failed elements: they are evicted first when the cache is full.
   void evict(std::span<const SparseVector> x);

@@ -35,9 +35,10 @@ Box room_of(const CaseFile& input, std::size_t k, int dim) {
       std::find_if(input.regions.begin(), input.regions.end(),
                    [&](const Region& candidate) { return candidate.name == layout.region; });
   if (!region->group.empty() || region->round) {
-    throw InputError(input.where(item_key("rebar", k, "inside")),
-                     fmt::format("is \"{}\", not a box", layout.region),
-                     "name a region of intervals, or give the `points` of each bar");
+    throw InputError(
+        input.where(item_key("rebar", k, "inside")),
+        fmt::format("is \"{}\", not a box", layout.region),
+        "name a region that is a box (`x`, `y`, `z`), or give the `points` of each bar");
   }
   Box room = region->box;
   for (int a = 0; a < dim; ++a) {

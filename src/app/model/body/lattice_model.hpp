@@ -29,7 +29,7 @@ Model lattice_places(const CaseFile& input, const LatticeShape& shape, const Exp
                      std::span<const Index> slots);
 
 /// Builds particles and bonds of an elastic analysis, with notes on particles left out.
-/// \throws InputError as build_lattice() and lattice_places()
+/// \throws InputError if build_lattice() or lattice_places() does
 Model build_lattice_model(const CaseFile& input);
 
 }  // namespace perilink

@@ -13,6 +13,7 @@ namespace perilink {
 /// \throws InputError  for invalid lines, planes and groups
 std::vector<WeakInterface> weak_interfaces(const CaseFile& input, const Body& body);
 
+/// Refuses an interface that crosses no bond of the network.
 /// \throws InputError
 void refuse_interfaces_without_bonds(const CaseFile& input, const Network& network);
 

@@ -141,7 +141,7 @@ void add_point_load(const CaseFile& input, const Model& model, std::size_t k, Ap
       throw InputError(input.where(item_key("point_loads", k, "moment")),
                        "acts on a particle without rotation: it lies in the interface of two "
                        "layers",
-                       "move the moment to the next row of particles");
+                       "move the moment to a particle beside the interface");
     }
     throw InputError(input.where(item_key("point_loads", k, "moment")),
                      "acts on a particle whose bonds have no rotational stiffness",

@@ -73,7 +73,7 @@ void refuse_idle_rotation(const CaseFile& input, const Model& model,
     throw InputError(input.where(key),
                      "prescribes rotations of particles without rotation: they lie in the "
                      "interface of two layers",
-                     "prescribe those of the next row of particles");
+                     "prescribe rotations of the particles beside the interface");
   }
   throw InputError(input.where(key),
                    "prescribes rotations of particles whose bonds have no rotational "

@@ -27,21 +27,22 @@ inline bool is_quasistatic(AnalysisType type) {
   return type == AnalysisType::damage || type == AnalysisType::elastic;
 }
 
-/// Whether [body] says model = "lattice".
+/// Whether the case has model = "lattice" in [body].
 bool is_lattice(const BodySection& body);
 
-/// Whether [body] says model = "particles".
+/// Whether the case has model = "particles" in [body].
 bool is_particles(const BodySection& body);
 
-/// Whether [body] says model = "lattice" or "particles".
+/// Whether the case has model = "lattice" or "particles" in [body].
 bool has_state_based_particles(const BodySection& body);
 
 /// Returns the event tolerance of a damage analysis: the given one, else 0.01 where a material or
 /// an interface softens, else 0.
 double event_tolerance_of(const CaseFile& input);
 
-/// Return parts of refusals: why particles have no rotations, and which model has rotations.
+/// Returns the reason why particles have no rotations, for messages.
 std::string why_nothing_rotates(const BodySection& body);
+/// Returns a model whose particles have rotations, for the suggestion of a message.
 std::string what_rotates(const BodySection& body);
 
 /// Reads `mesh` and `mesh_size`, where a table has them.

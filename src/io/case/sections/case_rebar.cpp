@@ -116,14 +116,15 @@ void read_place(const CaseTable& table, int dim, RebarSection& bar) {
   assign(bar.steps, table.vectors("steps", dim));
   if (bar.copies.size() != bar.steps.size()) {
     table.refuse(table.has("steps") ? "steps" : "copies",
-                 "has not as many entries as the other of `copies` and `steps`",
+                 fmt::format("`copies` has {} entries and `steps` has {}, but they must be equal",
+                             bar.copies.size(), bar.steps.size()),
                  "give a number and a step for each direction: copies = [3], steps = [[0, 50]]");
   }
   for (std::size_t k = 0; k < bar.steps.size(); ++k) {
     if (bar.steps[k] != Vector3{}) continue;
     table.refuse("steps",
-                 fmt::format("has a step {} of zero, which lays bars upon each other", k + 1),
-                 "give the way from bar to bar");
+                 fmt::format("has a step {} of zero, which puts bars at the same place", k + 1),
+                 "give the vector from one bar to the next");
   }
   assign(bar.across_gaps, table.boolean("across_gaps"));
 }

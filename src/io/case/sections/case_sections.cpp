@@ -189,7 +189,7 @@ OutputSection read_output(const CaseTable& table, AnalysisType type) {
     table.refuse("fields_at",
                  fmt::format("has {} after {}, but the numbers must ascend", output.fields_at[i],
                              output.fields_at[i - 1]),
-                 "sort the numbers of broken bonds, each once");
+                 "sort the numbers of broken bonds and delete repeated ones");
   }
   output.fields_every = table.integer("fields_every", 1, largest_count);
   output.fields_every_rows = table.integer("fields_every_rows", 1, largest_count);
@@ -200,7 +200,7 @@ OutputSection read_output(const CaseTable& table, AnalysisType type) {
     table.refuse(
         "fields_times",
         fmt::format("has {} after {}, but times must ascend", output.fields_times[i], before),
-        "sort the times, each once; the fields at time 0 are always written");
+        "sort the positive times and delete repeated ones; fields at time 0 are always written");
   }
   // Keys of other types are checked but not used.
   if (type != AnalysisType::damage) {

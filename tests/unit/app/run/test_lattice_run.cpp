@@ -71,7 +71,7 @@ TEST(LatticeRun, TellsWhatItWas) {
   EXPECT_FALSE(json.contains("fundamental_period")) << "nothing asks for it";
   const double steps = static_cast<double>(built.options.steps()) * built.model.lattice.particles();
   EXPECT_EQ(json["particle_steps_per_second"], 0.5 * steps) << "in two seconds";
-  for (const char* part : {"completed", "peak load", "particle-steps/s", "balance to",
+  for (const char* part : {"completed", "peak load", "particle-steps/s", "balance error",
                            "cracked particles", "216 particles"}) {
     EXPECT_THAT(run.summary.text, HasSubstr(part));
   }

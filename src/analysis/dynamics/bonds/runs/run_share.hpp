@@ -31,9 +31,10 @@ struct BondPart {
 BondPart cut_part(const LoadedNetwork& body, const std::vector<double>& mass,
                   const BondStencil& stencil, const Partition& partition, int rank);
 
-/// Share of a rank in an explicit run of bonds. A rank moves its own blocks and exchanges the
-/// motion of ghosts in every step. Ranks synchronise every few steps: the root collects the sums of
-/// all blocks and the broken bonds, may request more, and ends the synchronisation.
+/// Part of the body that a rank computes in an explicit run of bonds. A rank moves its own blocks
+/// and exchanges the motion of ghosts in every step. Ranks synchronise every few steps: the root
+/// collects the sums of all blocks and the broken bonds, may request more, and ends the
+/// synchronisation.
 class RunShare {
  public:
   /// \param unknowns  unknowns of the particles that the rank numbers
@@ -67,28 +68,30 @@ class RunShare {
   GhostLayer layer_;
 };
 
-/// Share of the root, with the numbers of the whole body.
+/// Part of the body that the root computes. The root also collects the results of the workers.
 class LeadingShare final : public RunShare {
  public:
   LeadingShare(Ranks& ranks, const LoadedNetwork& body, const Partition& partition);
 
-  /// Begins a synchronisation, or comes after the last step. Writes sums and broken bonds of all
-  /// ranks into `body`.
+  /// Begins a synchronisation and writes the sums and broken bonds of all ranks into `body`. The
+  /// last call follows the last step.
   /// \return reactions of supports in each step since the last synchronisation [force], summed over
   ///         blocks in the order of one process
   std::vector<double> collect(MovingBonds& body);
   /// Collects the motion of all particles and the forces on them, during a synchronisation.
   void collect_motion(MovingBonds& body);
-  /// Collects secants during a synchronisation. \param secants  all elements; values of other ranks
-  /// are overwritten
+  /// Collects the secants of the workers, during a synchronisation.
+  /// \param secants  all elements; the workers' elements are overwritten
   void collect_secants(std::span<double> secants);
+  /// Ends a synchronisation.
+  /// \param goes_on  the workers take further steps; false: they leave the run
   void end_meeting(bool goes_on);
 
  private:
   Partition partition_;
 };
 
-/// Share of a worker.
+/// Part of the body that a worker computes.
 class FollowingShare final : public RunShare {
  public:
   /// \param part  must outlive this object
@@ -103,7 +106,8 @@ class FollowingShare final : public RunShare {
   const BodyPart& part_;
 };
 
-/// Share of this process in a run; both null: one process.
+/// Part of the body that this process computes. One pointer is set if there are several processes,
+/// else none.
 struct Shares {
   LeadingShare* leading = nullptr;
   FollowingShare* following = nullptr;

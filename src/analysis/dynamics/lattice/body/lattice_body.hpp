@@ -22,8 +22,8 @@ struct LatticeMaterial {
   /// Tensile damage at which damage in compression begins.
   double compressive_threshold = 1.0 / 3.0;
   bool yields = false;
-  /// Yield stress over plastic strain. Consistent rules: failure_strain follows from
-  /// crushing_energy. Rules of the papers: softening of their own.
+  /// Yield stress over plastic strain. With LatticeRules::consistent, failure_strain follows from
+  /// crushing_energy; the other rules soften as their papers state.
   YieldCurve yielding;
   double crushing_energy = 0.0;   ///< dissipated by softening per area; infinite: none
                                   ///< [force/length]

@@ -44,14 +44,14 @@ class LatticeParticles {
   Halves shared(const ExplicitState& state, const Neighbourhood& neighbourhood) const;
   /// Returns the damage factor of a bond by the sign of its stretch.
   static double factor(const ExplicitState& state, const Neighbourhood& neighbourhood, int bond);
-  /// Returns the square root of the damage factor of the particle's half of a bond; one by the
-  /// papers' rules.
+  /// Returns the square root of the damage factor of the particle's half of a bond; one
+  /// unless the rules are LatticeRules::consistent.
   static double root(const ExplicitState& state, const Neighbourhood& neighbourhood, int bond);
   /// Returns the force states of the particle [force]: own modulus times stretch times damage
   /// factor, plus its part of the sum times `root`.
   Halves forces(const ExplicitState& state, const Neighbourhood& neighbourhood) const;
   /// Returns the force states of the particles at the other ends, each in the bond to the particle,
-  /// by the papers' rules [force].
+  /// by LatticeRules::least_2018 or mean_2017 [force].
   Halves partner_forces(const ExplicitState& state, const Neighbourhood& neighbourhood) const;
   /// Returns (1 / 2V) sum_j L n n' F_j, with the stress out of the plane in plane strain
   /// [force/length^2].

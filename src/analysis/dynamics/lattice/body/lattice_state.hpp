@@ -96,8 +96,8 @@ struct ExplicitState {
   StepNumbers now;                     ///< complete when observers are called
   std::vector<double> in_tension;      ///< factor of own bonds that stretch, (own bonds, slots)
   std::vector<double> in_compression;  ///< factor of own bonds that shorten
-  /// square root of the damage factor of a particle's halves that stretch; one by the papers'
-  /// rules
+  /// square root of the damage factor of a particle's halves that stretch; one unless the rules are
+  /// LatticeRules::consistent
   std::vector<double> root_tension;
   /// square root of the damage factor of a particle's halves that shorten
   std::vector<double> root_compression;

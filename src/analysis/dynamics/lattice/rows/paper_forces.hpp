@@ -4,8 +4,9 @@
 
 namespace perilink {
 
-/// Computes bond forces as bond_forces() does, by the rules of the papers of 2017 and 2018, bond by
-/// bond. These rules are not conservative and are kept for comparison with the papers.
+/// Computes the bond forces of a row as bond_forces() does, with LatticeRules::least_2018 or
+/// mean_2017 (Nikravesh 2017; Nikravesh & Gerstle 2018). These rules are not conservative. They
+/// serve for comparison with the papers.
 void paper_forces(const ExplicitModel& model, ExplicitState& state, Index row);
 
 }  // namespace perilink

@@ -26,7 +26,8 @@ double stress_stiffness(const ExplicitModel& model);
 
 /// Slots of a row to check.
 struct DueParticles {
-  /// first principal stress above crack_at; by the papers' rules also all particles with a crack
+  /// first principal stress above crack_at; also all particles with a crack, unless the rules are
+  /// LatticeRules::consistent
   std::vector<Index> damage;
   std::vector<Index> flow;  ///< von Mises stress above flow.look_at
 };
