@@ -309,8 +309,7 @@ void refuse_bars_outside(const CaseFile& input, const Body& body, const LaidBars
     const std::size_t k = bars.sections[bar];
     const RebarSection& section = input.rebar[k];
     // Nodes outside the body are connected only to their bar.
-    const bool stays_in_line = section.bends || section.bond == RebarBond::concrete;
-    if (section.across_gaps && stays_in_line) continue;
+    if (section.across_gaps && section.bends) continue;
     const auto point = first_outside(bars.lines[bar], look_step * body.lattice.spacing, inside);
     if (!point) continue;
     throw InputError(
@@ -318,8 +317,9 @@ void refuse_bars_outside(const CaseFile& input, const Body& body, const LaidBars
         fmt::format("leaves the body at ({})",
                     joined({point->data(), static_cast<std::size_t>(body.particles.dim)})),
         section.across_gaps
-            ? "set bends = true: outside the body a bar without bending stiffness is "
-              "a mechanism"
+            ? "set bends = true: outside the body a bar without bending stiffness is a mechanism"
+        : section.bond == RebarBond::concrete
+            ? "move the bar into the body; a bar that runs through air needs another bond"
             : "move the bar into the body, or set across_gaps = true for one that runs through "
               "air");
   }
