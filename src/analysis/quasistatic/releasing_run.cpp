@@ -57,14 +57,14 @@ void EventRun::take_over(const Unknowns& unknowns, double load_factor) {
 /// its limit by more than the release threshold allows.
 /// \throws MissedRelease if DamageOptions::begins_again
 void EventRun::note_missed_releases(const Event& event, double sense) {
-  for (const auto& [bonds, release_threshold] : freed_) {
+  for (const auto& [bonds, released_at] : freed_) {
     const auto is_freed = [&](Index element) {
       return std::binary_search(bonds.begin(), bonds.end(), element);
     };
     const bool freed = is_freed(event.element) || std::ranges::any_of(event.others, is_freed);
     const double near = std::max(tie_tolerance, options_.engine.event_tolerance);
-    const bool earlier = event.at_constant_load || sense * (release_threshold - event.load_factor) >
-                                                       near * std::abs(release_threshold);
+    const bool earlier = event.at_constant_load ||
+                         sense * (released_at - event.load_factor) > near * std::abs(released_at);
     const bool begins = row_.step == 0 && events_ == 0;  // no event by then
     if (begins || !freed || !earlier) continue;
     if (options_.begins_again) throw MissedRelease{host_release_->whole()};

@@ -22,22 +22,26 @@ namespace fs = std::filesystem;
 constexpr std::string_view geometry_commands = R"(
  Affine All Alternate AlternateLeft AlternateRight BSpline Background Bezier Block
  BooleanDifference BooleanFragments BooleanIntersection BooleanUnion Boundary BoundingBox Box Bump
- Call Chamfer Characteristic Choices Circle ClassifySurfaces Closed Coherence Color
- CombinedBoundary Compound Cone Crack CreateGeometry CreateTopology Curve Cylinder DefineConstant
- Delete Dilate Disk Duplicata Ellipse Else ElseIf EndFor EndIf Error Exists Extrude Field Fillet
- For Function General Geometry HealShapes Help Hide If In Include Intersect Knots Layers Left
- Length Line List Loop Loops Macro Max Merge Mesh MeshSize MeshSizeFromBoundary Min Name Nurbs
- OptimizeMesh Order Parametric Periodic Physical Physicals Plane Plugin Point PointsOf Printf
- Progression QuadTriAddVerts QuadTriNoNewVerts Range ReadOnly Recombine RecombineMesh Rectangle
- Recursive RefineMesh ReorientMesh Return Reverse ReverseMesh Right Rotate Ruled SH SI SL SP SQ SS
- ST ScaleLastLayer SetFactory SetOrder ShapeFromFile Show Smoother Sphere Spline Split Sprintf Step
- Str StrCat Surface Symmetry ThickSolid ThruSections Torus TransfQuadTri Transfinite Translate
- Using View Visible Volume Warning Wedge Wire
+ Chamfer Characteristic Choices Circle ClassifySurfaces Closed Coherence Color CombinedBoundary
+ Compound Cone Crack CreateGeometry CreateTopology Curve Cylinder DefineConstant Delete Dilate Disk
+ Duplicata Ellipse Error Exists Extrude Field Fillet General Geometry HealShapes Help Hide In
+ Include Intersect Knots Layers Left Length Line List Loop Loops Max Merge Mesh MeshSize
+ MeshSizeFromBoundary Min Name Nurbs OptimizeMesh Order Parametric Periodic Physical Physicals
+ Plane Plugin Point PointsOf Printf Progression QuadTriAddVerts QuadTriNoNewVerts Range ReadOnly
+ Recombine RecombineMesh Rectangle Recursive RefineMesh ReorientMesh Reverse ReverseMesh Right
+ Rotate Ruled SH SI SL SP SQ SS ST ScaleLastLayer SetFactory SetOrder Show Smoother Sphere Spline
+ Split Sprintf Step Str StrCat Surface Symmetry ThickSolid ThruSections Torus TransfQuadTri
+ Transfinite Translate Using View Visible Volume Warning Wedge Wire
 )";
-/// Commands that act outside of gmsh, refused even where they look like variables.
+/// Commands that act outside of gmsh or read other files, refused even where they look like
+/// variables. Loops, branches and macros are among them: gmsh jumps by lines there and may join the
+/// rest of one line with another.
 constexpr std::string_view outside_commands =
     " SystemCall NonBlockingSystemCall System OnelabRun OnelabAction ExternalProcess Solver Save "
-    "Print CreateDir SendToServer Exit S2N StringToName GetEnv ListFromFile Slide Open ";
+    "Print CreateDir SendToServer Exit S2N StringToName GetEnv ListFromFile Slide Open "
+    "MergeWithBoundingBox FileName ShapeFromFile "
+    "For EndFor If ElseIf Else EndIf Macro Function Return Call ";
+constexpr std::size_t most_scripts = 200;
 constexpr std::string_view letters =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZ_abcdefghijklmnopqrstuvwxyz0123456789";
 
@@ -61,16 +65,27 @@ struct Token {
                    "the .msh file, or give --trust-geometry if you trust whoever wrote it");
 }
 
-/// Whether gmsh may run a text or comment: branches can end within them, and gmsh continues at the
-/// beginning of a line after loops, macros and included files.
+/// Whether gmsh may run part of a text or comment: it continues at the beginning of a line after an
+/// included file.
 bool may_run(const std::string& hidden, bool behind_code) {
-  const auto holds = [&](std::string_view part) { return hidden.find(part) != hidden.npos; };
-  return holds("EndIf") || holds("EndFor") || holds("Else") || holds("Return") ||
-         holds({"\0", 1}) || (behind_code && (holds("\n") || holds("\r") || hidden.size() > 1000));
+  return behind_code && (hidden.find('\n') != hidden.npos || hidden.size() > 1000);
+}
+
+/// Refuses bytes that gmsh counts as blanks or ends of texts and this check does not.
+void refuse_controls(const std::string& script, const fs::path& path) {
+  int line = 0;
+  for (std::size_t at = 0; at < script.size(); ++at) {
+    const char sign = script[at];
+    line += sign == '\n';
+    const bool ends_line = sign == '\n' || (sign == '\r' && script[at + 1] == '\n');
+    if (ends_line || sign == '\t' || static_cast<unsigned char>(sign) >= ' ') continue;
+    refuse_script(path, line, "has a control character");
+  }
 }
 
 /// Splits a script into tokens as gmsh does, with two empty tokens before it and five after it.
 std::vector<Token> cut_script(const std::string& script, const fs::path& path) {
+  refuse_controls(script, path);
   std::vector<Token> tokens(2, {";", 0});
   int line = 0;
   for (std::size_t at = 0, end = 1; at < script.size(); at = end, end = at + 1) {
@@ -86,7 +101,7 @@ std::vector<Token> cut_script(const std::string& script, const fs::path& path) {
     const bool behind_code = token.is_text() || tokens.back().line == line;
     if ((comment || token.is_text()) && may_run(token.text, behind_code)) {
       refuse_script(path, line,
-                    "has Else, Return, EndIf, EndFor or a line break in a text or comment");
+                    "has a text or comment behind code that is long or has a line break");
     }
     line += static_cast<int>(std::count(token.text.begin(), token.text.end(), '\n'));
     if (!comment && !token.begins(" \t\r\n")) tokens.push_back(token);
@@ -98,7 +113,7 @@ std::vector<Token> cut_script(const std::string& script, const fs::path& path) {
 /// Whether a word is a command and not a variable or function.
 bool is_command(const Token* word) {
   const Token &before = word[-1], &next = word[1];
-  if (!word->is_word() || before.is(" Macro Function ")) return word->is(outside_commands);
+  if (!word->is_word()) return false;
   return word->is(outside_commands) || next.is_text() || next.is_number() ||
          (next.is_word() && !next.is(" In Using ")) || next.begins("{.") ||
          (next.begins("([") && word[2].is_text()) || (before.begins(";}") && next.begins(";"));
@@ -110,8 +125,10 @@ void check_script(const fs::path& path, bool included, std::set<std::string>& se
   static const std::regex name_within("[\"'][\\w-][\\w+/-]*(\\.[\\w+/-]+)*[\"']");
   const bool is_data = !included && std::regex_match(path.filename().string(), data);
   if (is_data || !seen.insert(path.string()).second) return;
+  if (seen.size() > most_scripts) refuse_script(path, 1, "is one of too many files");
   const std::string text = read_input_text(path.string());
   refuse_large_input(text, path.string());
+  if (!included && seen.size() > 1 && text.starts_with("$MeshFormat")) return;  // a mesh to merge
   const std::vector<Token> tokens = cut_script('\n' + text + '\n', path);
   const auto end = std::find(text.rbegin(), text.rend(), '\n');
   const bool cuts = std::count(text.rbegin(), end, ';') > 1;  // gmsh 4.8 allows only one of them
@@ -133,6 +150,9 @@ void check_script(const fs::path& path, bool included, std::set<std::string>& se
     const fs::path file = path.parent_path() / name.substr(1, name.size() - 2);
     const bool within = std::regex_match(name, name_within) && token[2].begins(";");
     refuse_if(!within || !fs::exists(file), "has {} of no file in its folder or below");
+    refuse_if(token[2].line != token->line ||
+                  (token[3].line == token->line && token + 3 != &tokens.end()[-5]),
+              "has {} that does not end its line");
     check_script(file, token->is(" Include "), seen);
   }
 }

@@ -171,7 +171,7 @@ TEST(ModelRegions, EmptyOnesAreRefusedAtTheKeyThatAsks) {
   test::expect_refused(input, "loads[1].region", "the nearest one is 1.414 outside, at (10, 30)");
   input.loads[0].region = "upper end";
   input.supports[0].region = "middle";
-  test::expect_refused(input, "supports[1].region", "10 apart");
+  test::expect_refused(input, "supports[1].region", "the spacing is 10");
   input.supports[0].region = "lower end";
   DisplacementSection driven;
   driven.region = "middle";

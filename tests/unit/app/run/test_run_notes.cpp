@@ -70,8 +70,10 @@ TEST(PeakWarning, CountsLaterBondsAtGrips) {
   result.broken_as_gave_way = 2;
   const std::vector<Index> torn = {at_clamp[0], elsewhere[0], at_clamp[1], at_clamp[2],
                                    elsewhere[1]};
-  EXPECT_THAT(text_of_peaks(result, model, torn).value(),
-              HasSubstr("2 of the 3 bonds that broke since then end at particles of [[supports]]"));
+  EXPECT_THAT(
+      text_of_peaks(result, model, torn).value(),
+      HasSubstr(
+          "2 of the 3 bonds that broke after the first peak end at particles of [[supports]]"));
   const std::vector<Index> sound = {at_clamp[0], at_clamp[1], elsewhere[0]};
   EXPECT_THAT(text_of_peaks(result, model, sound).value(), Not(HasSubstr("supports")));
   EXPECT_FALSE(text_of_peaks(result_of({{0.1, 3320}}), model, torn));

@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(
         StudyRefusal{"aCase", head + "[body]\nspacing = 0.1\n", "body", "perilink run"},
         StudyRefusal{"noMeasure", head + vary + "[error]\nreference = 1\n", "error", "has none of"},
         StudyRefusal{"twoMeasures", head + vary + energy_error + "gauge = \"mouth\"\n",
-                     "error.quantity", "beside `gauge`"},
+                     "error.quantity", "together with `gauge`"},
         StudyRefusal{"emptyGauge", head + vary + "[error]\ngauge = \"\"\nreference = \"finest\"\n",
                      "error.gauge", "is empty"},
         StudyRefusal{"noReference", head + vary + "[error]\nquantity = \"peak_load\"\n",

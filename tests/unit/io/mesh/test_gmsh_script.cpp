@@ -71,6 +71,15 @@ TEST_F(GmshScript, RefusesWhatRunsCommandsOrWritesFiles) {
            "Later 1;",
            "Include StrCat(\"a\", \".geo\");",
            "x = \"a\"; Merge x;",
+           "For i In {1:3} x = i; EndFor",
+           "For (1:3)\nx = 1;\nEndFor",
+           "If (1)\nx = 1;\nEndIf",
+           "Macro Foo\nx = 1;\nReturn\n",
+           "Function Foo\nReturn\n",
+           "Call Foo;",
+           "Field[1].FileName = \"/tmp/secret\";",
+           "ShapeFromFile(\"x.brep\");",
+           "MergeWithBoundingBox \"inner.txt\";",
        }) {
     EXPECT_THAT(answer(script + std::string("\n")),
                 AllOf(HasSubstr("body.geo:"), HasSubstr("--trust-geometry")))
@@ -89,12 +98,14 @@ TEST_F(GmshScript, NamesLineAndCommand) {
 /// Each of these ran a command or an unread file with gmsh 4.8, or comes close to one that did.
 TEST_F(GmshScript, RefusesTextsAndCommentsThatMayBecomeCommands) {
   for (const std::string& script : {
-           std::string("If (0)\nx = 'Else Foo ';\nEndIf\n"),
-           std::string("If (0)\nx = 'x_ElseIf (1) Foo ';\nEndIf\n"),
-           std::string("For i In {1:0}\nx = 'EndFor Foo';\nEndFor\n"),
-           std::string("Macro Foo\n// Return Foo\nReturn\n"),
-           std::string("For i In {0:1} x = \"\nFoo 'x';\n\";\nEndFor\n"),
-           std::string("For i In {0:1} /*\nFoo 'x';\n*/\nEndFor\n"),
+           std::string("MergeWithBoundingBox\f\"inner.txt\";\n"),
+           std::string("SystemCall\v\"x\";\n"),
+           std::string(
+               "For i In {1:2} Macro\nMergeWithBoundingBox \"inner.txt\";\nReturn\nEndFor\n"),
+           std::string("For i In {1:2} x =\n\"inner.txt\";\nEndFor Merge\n\"ok.geo\";\n"),
+           std::string(
+               "For i In {1:2} If (0)\n> \"/tmp/out.txt\";\nEndIf\nEndFor Printf(\"evil\")\n;\n"),
+           std::string("x = 1; /*\nFoo 'x';\n*/\n"),
            std::string("// a\rSystemCall \"x\";\n"),
            std::string("// a\0b\n", 7),
            std::string("a = \"") + std::string(2000, 'b') + "\";",
@@ -112,10 +123,8 @@ TEST_F(GmshScript, AcceptsWhatDrawsAndMeshes) {
            "Physical Surface(\"SystemCall\") = {1};",
            "SetFactory(\"OpenCASCADE\"); Box(1) = {0, 0, 0, 1, 1, 1};\n"
            "BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };",
-           "lc = 0.1; p[] = {}; For i In {1:3} p[] += newp; Point(p[i - 1]) = {i, 0, 0, lc}; "
-           "EndFor",
+           "lc = 0.1; p[] = {}; p[] += newp; Point(p[0]) = {1, 0, 0, lc};",
            "DefineConstant[ h = {0.1, Name \"Parameters/h\", Min 0.01, Max 1, Step 0.1} ];",
-           "Macro Foo\n p1 = newp; Point(p1) = {x, 0, 0}; Return\n x = 1; Call Foo;",
            "a~{1} = 2; b = a~{1} + Sqrt(2) > 1 ? Pi : -1;",
            "n = 10; Transfinite Curve {1} = n Using Progression 1.1; Transfinite Surface {1} Left;",
            "Field[1] = MathEval; Field[1].F = \"0.1 + x\"; Background Field = 1;",
@@ -125,8 +134,7 @@ TEST_F(GmshScript, AcceptsWhatDrawsAndMeshes) {
            "Printf(\"%g points\", 3); Mesh 2; Plugin(Crack).Dimension = 1; Plugin(Crack).Run;",
            "Extrude {0, 0, 1} { Surface{1}; Layers{ {8, 2}, {0.5, 1} }; Recombine; }",
            "Physical Curve(\"rim\") = Boundary{ Surface{1}; };\nCoherence;\n",
-           "If (Exists(h))\n a = 1; // 5 system parts (print)\nElseIf (1 >= 2)\n a = 2;\nElse\n"
-           " a = 3;\nEndIf",
+           "a = Exists(h) ? 1 : 2; // 5 system parts (print)",
        }) {
     EXPECT_EQ(answer(script + std::string("\n")), "accepted") << script;
   }
@@ -138,7 +146,7 @@ TEST_F(GmshScript, AcceptsWhatDrawsAndMeshes) {
 
 /// Merge takes some files for data, Include runs any file.
 TEST_F(GmshScript, LooksIntoFilesOfItsFolder) {
-  write("parts/b.geo", "Merge \"c.txt\"; Merge \"d.step\";\n");
+  write("parts/b.geo", "Merge \"c.txt\";\nMerge \"d.step\";\n");
   write("parts/c.txt", "y = x;\nSave \"d.msh\";\n");
   write("parts/d.step", "SystemCall \"touch x\";\n");
   EXPECT_THAT(answer("Include \"parts/b.geo\";\nx = 1;\n"),
@@ -146,6 +154,9 @@ TEST_F(GmshScript, LooksIntoFilesOfItsFolder) {
   write("parts/c.txt", "y = x; Merge \"b.geo\";\n");
   EXPECT_EQ(answer("Include \"parts/b.geo\";\n"), "accepted") << "circles end";
   EXPECT_THAT(answer("Include \"parts/d.step\";\n"), HasSubstr("d.step:1: names the command"));
+  write("parts/e.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n");
+  EXPECT_EQ(answer("Merge \"parts/e.msh\";\n"), "accepted");
+  EXPECT_THAT(answer("Include \"parts/b.geo\"; x = 1;\n"), HasSubstr("does not end its line"));
   write("body.geo.opt", "Mesh.Algorithm = 6;\nNonBlockingSystemCall \"touch x\";\n");
   EXPECT_THAT(answer("x = 1;\n"), HasSubstr("body.geo.opt:2: names the command NonBlocking"));
 }

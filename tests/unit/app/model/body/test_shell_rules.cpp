@@ -27,7 +27,7 @@ CaseFile mid_surface(const std::string& radius, double ratio, const std::string&
 
 TEST(ShellRules, SheetsMayReachAlmostAroundTheirCylinder) {
   EXPECT_NO_THROW(build_model(mid_surface("radius = 1.3\n", 0.1)));
-  expect_refused(mid_surface("radius = 1.27\n", 0.1), "body.radius", "7.97965 around");
+  expect_refused(mid_surface("radius = 1.27\n", 0.1), "body.radius", "the cylinder is 7.97965");
 }
 
 TEST(ShellRules, ParticlesMustBeHeldAgainstTurningWithinTheSheet) {

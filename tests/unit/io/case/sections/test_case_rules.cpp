@@ -36,7 +36,7 @@ TEST(CaseRules, LetDisplacementsRepeatWhatSupportsHold) {
   EXPECT_EQ(message_of(text + driven + "x = 0\n"), "accepted");
   EXPECT_EQ(message_of(text + driven + "y = 1\n"), "accepted");
   EXPECT_EQ(message_of(text + driven + "y = 1\n" + driven + "y = 1\n"), "accepted");
-  EXPECT_THAT(message_of(text + driven + "x = 1\n"), HasSubstr("holds it in x"));
+  EXPECT_THAT(message_of(text + driven + "x = 1\n"), HasSubstr("hold it in x"));
   EXPECT_THAT(message_of(text + driven + "y = 1\n" + driven + "y = 2\n"), HasSubstr("another"));
 }
 
