@@ -38,7 +38,7 @@ void Equilibrium::choose_current_unknowns() {
   const auto width = static_cast<std::size_t>(network_.width());
   for (std::size_t slot = 0; slot < displacement_.size(); ++slot) {
     if (current[slot / width] == 0) continue;
-    if (unknowns_->number[slot] != no_index) current_slots_.push_back(slot);
+    if (unknowns_->carries() && unknowns_->number[slot] != no_index) current_slots_.push_back(slot);
     unknowns_->for_each(slot, [&](Index unknown, double) { wanted[unknown] = 1; });
   }
   partial_ = std::any_of(wanted.begin(), wanted.end(), [](std::uint8_t flag) { return flag == 0; });

@@ -26,7 +26,7 @@ constexpr double most_to_refine = 10.0;
 constexpr double cancelled_work = 1e-7;
 
 /// Number of events at which the work of prescribed displacements is updated by the growth of the
-/// compliance. It is then summed over the elements again, once displacements are exact.
+/// compliance. It is then summed over the elements again.
 constexpr int most_events_to_follow = 16;
 
 }  // namespace
