@@ -309,7 +309,8 @@ void refuse_bars_outside(const CaseFile& input, const Body& body, const LaidBars
     const std::size_t k = bars.sections[bar];
     const RebarSection& section = input.rebar[k];
     // Nodes outside the body are connected only to their bar.
-    if (section.across_gaps && section.bends) continue;
+    const bool stays_in_line = section.bends || section.bond == RebarBond::concrete;
+    if (section.across_gaps && stays_in_line) continue;
     const auto point = first_outside(bars.lines[bar], look_step * body.lattice.spacing, inside);
     if (!point) continue;
     throw InputError(
