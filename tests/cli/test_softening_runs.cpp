@@ -78,7 +78,7 @@ TEST_F(SofteningRuns, CheckTellsTheirStrengthAndTeeth) {
   ASSERT_EQ(end.exit_status, 0) << end.err;
   // E G / f^2 = 30000 * 0.02 / 3^2.
   EXPECT_THAT(end.out, testing::HasSubstr("tensile strength   3, process zone E G/f^2 = 66.6"));
-  EXPECT_THAT(end.out, testing::HasSubstr(" in 3 teeth"));
+  EXPECT_THAT(end.out, testing::HasSubstr(" in 3 segments"));
   EXPECT_THAT(end.out, testing::HasSubstr("fracture energy    0.02\n"));
   EXPECT_THAT(end.out, testing::ContainsRegex("breakable bonds    [0-9]+, which soften\n"));
   EXPECT_THAT(end.out, testing::Not(testing::HasSubstr("critical stretch ")));
