@@ -137,7 +137,7 @@ TEST_F(Comparisons, WhatIsNoResultIsRefused) {
        "perilink run"},
       {"empty", "empty: is not a result of a run: it has no history.csv"},
       {"study", "it holds a study of perilink converge"},
-      {"started", "started/history.csv: has no row yet"}};
+      {"started", "started/history.csv: has no row"}};
   for (const auto& [directory, message] : messages) {
     for (const bool first : {true, false}) {
       const ProcessEnd end = first ? run({"compare", directory, "results/a"})
