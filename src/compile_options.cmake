@@ -21,7 +21,9 @@ target_compile_options(perilink_options INTERFACE
   $<$<BOOL:${PERILINK_WARNINGS_ARE_ERRORS}>:-Werror>
   # The same source gives the same rounding whatever the optimisation decides to fuse: a*b+c is
   # always fused where the processor can.
-  -ffp-contract=fast)
+  -ffp-contract=fast
+  # No other library replaces a function of ours: position-independent code inlines as the program.
+  -fno-semantic-interposition -fvisibility-inlines-hidden)
 if(PERILINK_SANITIZE)
   # Together with the checks of the standard library and of Eigen: an element past the end of a vector
   # is no error to the sanitizers where the memory behind it is the vector's own.

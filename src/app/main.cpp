@@ -1,5 +1,5 @@
 #include "app/commands/commands.hpp"
-#include "app/process/ranks.hpp"
+#include "app/process/rank_start.hpp"
 #include "app/program.hpp"
 
 /// The program. As one of several MPI processes it continues as perilink-mpi, so that serial runs

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "app/process/ranks.hpp"
 #include "app/process/serve.hpp"
 #include "app/program.hpp"
 #include "solver/ranks/mpi_ranks.hpp"
+#include "solver/ranks/process_ranks.hpp"
 
 namespace perilink {
 namespace {

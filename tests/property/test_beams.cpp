@@ -8,10 +8,10 @@
 
 #include "analysis/quasistatic/damage_analysis.hpp"
 #include "analysis/quasistatic/elastic_analysis.hpp"
-#include "app/model/from_case/analysis_options.hpp"
-#include "app/model/from_case/configure.hpp"
-#include "app/model/gauges.hpp"
 #include "io/case/case_file.hpp"
+#include "model/from_case/analysis_options.hpp"
+#include "model/from_case/configure.hpp"
+#include "model/gauges.hpp"
 
 namespace perilink {
 namespace {

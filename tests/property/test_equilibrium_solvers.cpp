@@ -7,9 +7,9 @@
 #include <fstream>
 
 #include "analysis/quasistatic/elastic_analysis.hpp"
-#include "app/model/from_case/configure.hpp"
 #include "base/error.hpp"
 #include "io/case/case_file.hpp"
+#include "model/from_case/configure.hpp"
 #include "support/gmsh_texts.hpp"
 #include "support/lattice_networks.hpp"
 #include "support/simplex_meshes.hpp"

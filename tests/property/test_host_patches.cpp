@@ -7,8 +7,8 @@
 #include <fstream>
 #include <string>
 
-#include "app/model/from_case/configure.hpp"
 #include "app/run/quasistatic.hpp"
+#include "model/from_case/configure.hpp"
 #include "support/simplex_meshes.hpp"
 #include "support/temporary_directory.hpp"
 

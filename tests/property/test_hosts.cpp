@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "app/model/from_case/configure.hpp"
 #include "app/run/damage_run.hpp"
 #include "app/run/quasistatic.hpp"
 #include "io/fields/vtu.hpp"
 #include "io/text/csv.hpp"
+#include "model/from_case/configure.hpp"
 #include "support/temporary_directory.hpp"
 
 namespace perilink {

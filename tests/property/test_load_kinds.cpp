@@ -5,8 +5,8 @@
 
 #include "analysis/quasistatic/damage_analysis.hpp"
 #include "analysis/quasistatic/elastic_analysis.hpp"
-#include "app/model/from_case/configure.hpp"
 #include "io/case/case_file.hpp"
+#include "model/from_case/configure.hpp"
 
 /// \file
 /// Invariants for every kind of load: forces, prescribed displacements, both together, yielding

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "app/model/from_case/configure.hpp"
 #include "io/case/case_file.hpp"
+#include "model/from_case/configure.hpp"
 
 namespace perilink {
 namespace {

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "analysis/quasistatic/elastic_analysis.hpp"
-#include "app/model/from_case/configure.hpp"
-#include "app/model/gauges.hpp"
 #include "discretization/bonds.hpp"
 #include "io/case/case_file.hpp"
+#include "model/from_case/configure.hpp"
+#include "model/gauges.hpp"
 
 namespace perilink {
 namespace {

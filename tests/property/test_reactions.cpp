@@ -11,9 +11,9 @@
 #include <random>
 #include <string>
 
-#include "app/model/from_case/configure.hpp"
-#include "app/model/reactions.hpp"
 #include "app/run/quasistatic.hpp"
+#include "model/from_case/configure.hpp"
+#include "model/reactions.hpp"
 #include "support/whole_run.hpp"
 
 namespace perilink {

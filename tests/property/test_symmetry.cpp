@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "analysis/quasistatic/elastic_analysis.hpp"
-#include "app/model/from_case/configure.hpp"
 #include "io/case/case_file.hpp"
+#include "model/from_case/configure.hpp"
 
 /// \file
 /// Symmetry planes of calibrated bodies. Bonds near the plane act as in a body that ends there, and

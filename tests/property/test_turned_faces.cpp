@@ -11,7 +11,7 @@
 #include <ostream>
 #include <string>
 
-#include "app/model/from_case/configure.hpp"
+#include "model/from_case/configure.hpp"
 #include "support/halved_meshes.hpp"
 #include "support/strip_case.hpp"
 #include "support/whole_run.hpp"

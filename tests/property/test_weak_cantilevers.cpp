@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/model/from_case/configure.hpp"
+#include "model/from_case/configure.hpp"
 #include "support/whole_run.hpp"
 
 namespace perilink {

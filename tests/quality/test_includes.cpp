@@ -28,32 +28,36 @@ const std::map<std::string, std::set<std::string>>& allowed_modules() {
       {"assembly", {"base", "material", "discretization", "network"}},
       {"analysis", {"base", "material", "solver", "discretization", "network", "assembly"}},
       {"io", {"base", "material", "solver", "discretization"}},
+      {"results", {"base", "material", "discretization", "network", "assembly", "analysis", "io"}},
+      {"model",
+       {"base", "material", "solver", "discretization", "calibration", "network", "assembly",
+        "analysis", "io", "results"}},
       {"app",
        {"base", "material", "solver", "discretization", "calibration", "network", "assembly",
-        "analysis", "io"}},
+        "analysis", "io", "results", "model"}},
   };
   return table;
 }
 
 struct Confinement {
   std::regex header;
-  std::string place;  // files below which it may be included, from src/
+  std::set<std::string> places;  // files below which it may be included, from src/
 };
 
 const std::vector<Confinement>& confined_headers() {
   static const std::vector<Confinement> table = {
-      {std::regex("^(suitesparse/)?cholmod.*\\.h$"), "solver/"},
-      {std::regex("^metis\\.h$"), "solver/"},
-      {std::regex("^(cblas|lapacke?)\\.h$"), "solver/"},
-      {std::regex("^mpi.*\\.h$"), "solver/ranks/"},
-      {std::regex("^nanoflann\\.hpp$"), "discretization/neighbor_search.cpp"},
-      {std::regex("^toml\\+\\+/.*"), "io/"},
-      {std::regex("^pugi(xml|config)\\.hpp$"), "io/"},
-      {std::regex("^muParser.*\\.h$"), "io/text/formula.cpp"},
-      {std::regex("^zlib\\.h$"), "io/"},
-      {std::regex("^gmshc?\\.h(_cwrap)?$"), "io/"},
-      {std::regex("^CLI/.*"), "app/"},
-      {std::regex("^nlohmann/.*"), "app/"},
+      {std::regex("^(suitesparse/)?cholmod.*\\.h$"), {"solver/"}},
+      {std::regex("^metis\\.h$"), {"solver/"}},
+      {std::regex("^(cblas|lapacke?)\\.h$"), {"solver/"}},
+      {std::regex("^mpi.*\\.h$"), {"solver/ranks/"}},
+      {std::regex("^nanoflann\\.hpp$"), {"discretization/neighbor_search.cpp"}},
+      {std::regex("^toml\\+\\+/.*"), {"io/"}},
+      {std::regex("^pugi(xml|config)\\.hpp$"), {"io/"}},
+      {std::regex("^muParser.*\\.h$"), {"io/text/formula.cpp"}},
+      {std::regex("^zlib\\.h$"), {"io/"}},
+      {std::regex("^gmshc?\\.h(_cwrap)?$"), {"io/"}},
+      {std::regex("^CLI/.*"), {"app/"}},
+      {std::regex("^nlohmann/.*"), {"app/", "model/", "results/"}},
   };
   return table;
 }
@@ -175,8 +179,11 @@ TEST(Includes, LibrariesStayBehindTheirModule) {
   for (const Include& include : all_includes()) {
     for (const Confinement& rule : confined_headers()) {
       if (!std::regex_match(include.header, rule.header)) continue;
-      EXPECT_EQ(include.place_in_src().rfind(rule.place, 0), 0u)
-          << include.place() << ": " << include.header << " belongs in src/" << rule.place;
+      EXPECT_TRUE(std::any_of(
+          rule.places.begin(), rule.places.end(),
+          [&](const std::string& place) { return include.place_in_src().starts_with(place); }))
+          << include.place() << ": " << include.header << " belongs in src/"
+          << *rule.places.begin();
     }
   }
 }

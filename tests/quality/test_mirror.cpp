@@ -27,7 +27,7 @@ const std::map<std::string, std::string>& tested_elsewhere() {
       {"analysis/quasistatic/ranks/part_solver.cpp", "a part of a team: test_team.cpp"},
       {"app/main.cpp", "only starts the program; tests/cli runs it"},
       {"app/memory_at_start.cpp", "runs before main: tests/cli/test_memory.cpp"},
-      {"app/process/ranks.cpp", "what mpiexec starts: tests/cli/test_ranks.cpp"},
+      {"app/process/rank_start.cpp", "what mpiexec starts: tests/cli/test_ranks.cpp"},
       {"app/process/serve.cpp", "what ranks wait in: test_team.cpp, test_bond_analysis.cpp"},
       {"app/program.cpp", "only calls the commands; tests/cli runs the program"},
       {"app/rank_main.cpp", "only starts ranks: tests/cli/test_ranks.cpp"},
@@ -43,6 +43,7 @@ const std::map<std::string, std::string>& tested_elsewhere() {
       {"solver/cholmod_support.cpp", "what the routes share: test_factor_routes.cpp runs them"},
       {"solver/cholmod_updown_factor.cpp", "a route: test_factor_routes.cpp runs every route"},
       {"solver/factor.cpp", "what routes share: test_factor_routes.cpp runs every route"},
+      {"solver/ranks/process_ranks.cpp", "what ranks share: tests/cli/test_ranks.cpp"},
       {"solver/ranks/mpi_ranks.cpp", "needs mpiexec: tests/cli/test_ranks.cpp"},
       {"solver/refactorizing_factor.cpp", "a route: test_factor_routes.cpp runs every route"},
   };

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "app/model/from_case/lattice_case.hpp"
+#include "model/from_case/lattice_case.hpp"
 
 namespace perilink {
 namespace {

@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "app/model/from_case/configure.hpp"
 #include "io/case/case_file.hpp"
+#include "model/from_case/configure.hpp"
 
 namespace perilink {
 namespace {

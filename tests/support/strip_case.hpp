@@ -4,9 +4,9 @@
 
 #include <string>
 
-#include "app/model/from_case/configure.hpp"
 #include "base/error.hpp"
 #include "io/case/case_file.hpp"
+#include "model/from_case/configure.hpp"
 
 namespace perilink::test {
 

@@ -3,9 +3,9 @@
 #include <ostream>
 #include <string>
 
-#include "app/model/from_case/configure.hpp"
 #include "compare.hpp"
 #include "io/case/case_file.hpp"
+#include "model/from_case/configure.hpp"
 #include "problems/block.hpp"
 #include "support/softening_strips.hpp"
 

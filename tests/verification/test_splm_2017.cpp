@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/model/from_case/lattice_case.hpp"
+#include "model/from_case/lattice_case.hpp"
 #include "tests.hpp"
 
 namespace perilink::verification {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "app/model/from_case/lattice_case.hpp"
+#include "model/from_case/lattice_case.hpp"
 #include "tests.hpp"
 
 namespace perilink::verification {

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "app/model/from_case/configure.hpp"
+#include "model/from_case/configure.hpp"
 
 namespace perilink::verification {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "analysis/quasistatic/damage_analysis.hpp"
-#include "app/model/from_case/configure.hpp"
 #include "discretization/region.hpp"
+#include "model/from_case/configure.hpp"
 
 /// \file
 /// The tension block that studies and benchmarks share: the plain concrete block of Gerstle, Sau &

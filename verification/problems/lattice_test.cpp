@@ -11,10 +11,10 @@
 #include <mutex>
 #include <thread>
 
-#include "app/model/from_case/lattice_case.hpp"
 #include "base/error.hpp"
 #include "base/timer.hpp"
 #include "io/case/case_overrides.hpp"
+#include "model/from_case/lattice_case.hpp"
 
 namespace perilink::verification {
 namespace {

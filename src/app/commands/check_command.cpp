@@ -8,8 +8,6 @@
 #include "analysis/quasistatic/subdomains/subdomain_factor.hpp"
 #include "app/commands/check_sizes.hpp"
 #include "app/commands/commands.hpp"
-#include "app/model/from_case/configure.hpp"
-#include "app/model/from_case/lattice_case.hpp"
 #include "app/process/progress.hpp"
 #include "app/process/threads.hpp"
 #include "app/run/bond_run.hpp"
@@ -19,6 +17,8 @@
 #include "base/error.hpp"
 #include "base/timer.hpp"
 #include "io/case/sections/case_kinds.hpp"
+#include "model/from_case/configure.hpp"
+#include "model/from_case/lattice_case.hpp"
 #include "network/builder/free_bodies.hpp"
 #include "solver/factor_routes.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/model/model.hpp"
+#include "model/model.hpp"
 
 namespace perilink {
 

@@ -11,13 +11,13 @@
 #include "app/process/progress.hpp"
 #include "app/process/signals.hpp"
 #include "app/process/threads.hpp"
-#include "app/results/result_directory.hpp"
 #include "app/study/study_pictures.hpp"
 #include "app/study/study_run.hpp"
 #include "app/study/study_table.hpp"
 #include "base/error.hpp"
 #include "base/files.hpp"
 #include "base/plain_text.hpp"
+#include "results/result_directory.hpp"
 
 namespace perilink {
 namespace {

@@ -13,12 +13,12 @@
 #include "app/plot/plot_curve.hpp"
 #include "app/plot/plot_fields.hpp"
 #include "app/process/console.hpp"
-#include "app/results/history_file.hpp"
-#include "app/results/result_directory.hpp"
-#include "app/results/summary_file.hpp"
 #include "base/error.hpp"
 #include "io/fields/vtu.hpp"
 #include "io/text/csv.hpp"
+#include "results/history_file.hpp"
+#include "results/result_directory.hpp"
+#include "results/summary_file.hpp"
 
 namespace perilink {
 namespace {

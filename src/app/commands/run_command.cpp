@@ -7,18 +7,18 @@
 #include <memory>
 
 #include "app/commands/commands.hpp"
-#include "app/model/body/mesh_input.hpp"
 #include "app/process/console.hpp"
 #include "app/process/signals.hpp"
 #include "app/process/threads.hpp"
-#include "app/results/result_directory.hpp"
-#include "app/results/summary_file.hpp"
 #include "app/run/run_kind.hpp"
 #include "base/error.hpp"
 #include "base/files.hpp"
 #include "base/memory.hpp"
 #include "base/plain_text.hpp"
 #include "base/timer.hpp"
+#include "model/body/mesh_input.hpp"
+#include "results/result_directory.hpp"
+#include "results/summary_file.hpp"
 
 namespace perilink {
 namespace {

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "app/plot/plot_axes.hpp"
-#include "app/results/field_file.hpp"
 #include "base/error.hpp"
+#include "results/field_file.hpp"
 
 namespace perilink {
 namespace {

@@ -1,7 +1,7 @@
 #include "app/plot/plot_labels.hpp"
 
-#include "app/results/summary_file.hpp"
 #include "io/text/input_text.hpp"
+#include "results/summary_file.hpp"
 
 namespace perilink {
 namespace {

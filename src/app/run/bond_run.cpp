@@ -6,16 +6,16 @@
 #include <cmath>
 #include <utility>
 
-#include "app/model/body/particle_model.hpp"
-#include "app/model/from_case/lattice_case.hpp"
-#include "app/model/gauges.hpp"
-#include "app/model/reactions.hpp"
 #include "app/process/signals.hpp"
-#include "app/results/bar_file.hpp"
 #include "app/run/run_warnings.hpp"
 #include "base/error.hpp"
 #include "discretization/bonds.hpp"
+#include "model/body/particle_model.hpp"
+#include "model/from_case/lattice_case.hpp"
+#include "model/gauges.hpp"
+#include "model/reactions.hpp"
 #include "network/builder/free_bodies.hpp"
+#include "results/bar_file.hpp"
 
 namespace perilink {
 namespace {

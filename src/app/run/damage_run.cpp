@@ -6,13 +6,13 @@
 #include <cmath>
 #include <utility>
 
-#include "app/model/gauges.hpp"
 #include "app/process/signals.hpp"
-#include "app/results/bar_file.hpp"
 #include "app/run/run_notes.hpp"
 #include "app/run/run_warnings.hpp"
 #include "app/run/separated_body.hpp"
 #include "discretization/bonds.hpp"
+#include "model/gauges.hpp"
+#include "results/bar_file.hpp"
 
 namespace perilink {
 

@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <optional>
 
-#include "app/model/gauges.hpp"
-#include "app/results/bar_file.hpp"
 #include "app/run/quasistatic.hpp"
 #include "app/run/run_kind.hpp"
 #include "app/run/run_warnings.hpp"
 #include "app/run/separated_body.hpp"
 #include "discretization/bonds.hpp"
+#include "model/gauges.hpp"
+#include "results/bar_file.hpp"
 
 namespace perilink {
 namespace {

@@ -1,12 +1,12 @@
 #include <algorithm>
 
-#include "app/model/from_case/lattice_case.hpp"
-#include "app/model/gauges.hpp"
-#include "app/model/reactions.hpp"
 #include "app/process/signals.hpp"
-#include "app/results/lattice_fields.hpp"
 #include "app/run/run_kind.hpp"
 #include "app/run/run_warnings.hpp"
+#include "model/from_case/lattice_case.hpp"
+#include "model/gauges.hpp"
+#include "model/reactions.hpp"
+#include "results/lattice_fields.hpp"
 
 namespace perilink {
 namespace {

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
-#include "app/process/ranks.hpp"
 #include "app/run/damage_run.hpp"
 #include "base/error.hpp"
 #include "io/case/sections/case_kinds.hpp"
+#include "solver/ranks/process_ranks.hpp"
 
 namespace perilink {
 namespace {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/model/reactions.hpp"
 #include "app/run/run_warnings.hpp"
 #include "assembly/internal_force.hpp"
 #include "base/plain_text.hpp"
+#include "model/reactions.hpp"
 
 namespace perilink {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "analysis/quasistatic/damage_analysis.hpp"
 #include "analysis/quasistatic/elastic_analysis.hpp"
-#include "app/model/model.hpp"
 #include "app/run/summary.hpp"
+#include "model/model.hpp"
 
 /// \file
 /// Results common to damage and elastic runs, which are sequences of equilibria.

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/dynamics/bonds/runs/dynamic_relaxation.hpp"
-#include "app/model/from_case/configure.hpp"
+#include "model/from_case/configure.hpp"
 
 namespace perilink {
 

@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "analysis/quasistatic/load_curve.hpp"
-#include "app/model/model.hpp"
 #include "app/process/progress.hpp"
-#include "app/results/field_file.hpp"
-#include "app/results/history_file.hpp"
 #include "io/case/case_file.hpp"
 #include "io/fields/vtu.hpp"
+#include "model/model.hpp"
+#include "results/field_file.hpp"
+#include "results/history_file.hpp"
 
 namespace perilink {
 

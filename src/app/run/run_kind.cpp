@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "app/process/progress.hpp"
-#include "app/results/calibration_text.hpp"
-#include "app/results/summary_file.hpp"
 #include "app/run/run_warnings.hpp"
 #include "base/build_info.hpp"
+#include "results/calibration_text.hpp"
+#include "results/summary_file.hpp"
 
 namespace perilink {
 

@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "app/model/from_case/configure.hpp"
-#include "app/model/reactions.hpp"
 #include "app/run/run_files.hpp"
 #include "app/run/summary.hpp"
+#include "model/from_case/configure.hpp"
+#include "model/reactions.hpp"
 
 namespace perilink {
 

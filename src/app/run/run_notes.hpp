@@ -5,7 +5,7 @@
 #include <string>
 
 #include "analysis/quasistatic/load_curve.hpp"
-#include "app/model/from_case/configure.hpp"
+#include "model/from_case/configure.hpp"
 
 namespace perilink {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/model/body/strength_notes.hpp"
+#include "model/body/strength_notes.hpp"
 
 namespace perilink {
 

@@ -7,9 +7,9 @@
 
 #include "analysis/quasistatic/damage_analysis.hpp"
 #include "analysis/quasistatic/elastic_analysis.hpp"
-#include "app/model/from_case/configure.hpp"
 #include "base/error.hpp"
 #include "base/plain_text.hpp"
+#include "model/from_case/configure.hpp"
 #include "network/rigid_modes.hpp"
 
 namespace perilink {

@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "app/model/model.hpp"
 #include "io/case/case_file.hpp"
+#include "model/model.hpp"
 
 namespace perilink {
 

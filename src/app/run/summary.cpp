@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "app/model/body/particle_model.hpp"
-#include "app/results/calibration_text.hpp"
 #include "app/run/run_notes.hpp"
 #include "base/plain_text.hpp"
 #include "io/case/sections/case_kinds.hpp"
+#include "model/body/particle_model.hpp"
+#include "results/calibration_text.hpp"
 
 namespace perilink {
 

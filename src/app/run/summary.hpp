@@ -9,9 +9,9 @@
 
 #include "analysis/dynamics/explicit_run.hpp"
 #include "analysis/quasistatic/load_curve.hpp"
-#include "app/model/model.hpp"
 #include "app/run/run_files.hpp"
 #include "assembly/results/crack_state.hpp"
+#include "model/model.hpp"
 
 namespace perilink {
 

@@ -9,7 +9,6 @@
 #include <optional>
 #include <stdexcept>
 
-#include "app/model/gauges.hpp"
 #include "app/process/signals.hpp"
 #include "app/run/quasistatic.hpp"
 #include "app/run/run_notes.hpp"
@@ -22,6 +21,7 @@
 #include "io/case/case_words.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/text/formula.hpp"
+#include "model/gauges.hpp"
 
 namespace perilink {
 namespace {

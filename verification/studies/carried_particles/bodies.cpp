@@ -10,7 +10,7 @@
 #include <ctime>
 #include <stdexcept>
 
-#include "app/model/from_case/configure.hpp"
+#include "model/from_case/configure.hpp"
 
 namespace perilink::verification {
 namespace {

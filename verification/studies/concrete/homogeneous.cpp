@@ -10,10 +10,10 @@
 #include <stdexcept>
 
 #include "analysis/quasistatic/damage_analysis.hpp"
-#include "app/model/from_case/configure.hpp"
 #include "assembly/internal_force.hpp"
 #include "io/case/case_file.hpp"
 #include "law.hpp"
+#include "model/from_case/configure.hpp"
 
 namespace perilink::verification {
 namespace {

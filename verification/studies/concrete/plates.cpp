@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/model/from_case/configure.hpp"
 #include "io/case/case_file.hpp"
 #include "law.hpp"
+#include "model/from_case/configure.hpp"
 
 namespace perilink::verification {
 namespace {

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "app/model/from_case/configure.hpp"
+#include "model/from_case/configure.hpp"
 #include "specimens.hpp"
 
 /// \file

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "app/plot/plot_curve.hpp"
-#include "app/results/field_file.hpp"
 #include "base/timer.hpp"
 #include "io/case/case_file.hpp"
+#include "results/field_file.hpp"
 
 namespace perilink::verification {
 namespace {

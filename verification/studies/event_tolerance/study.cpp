@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/model/from_case/configure.hpp"
 #include "io/case/case_file.hpp"
+#include "model/from_case/configure.hpp"
 #include "problems/block.hpp"
 #include "problems/program.hpp"
 #include "problems/result.hpp"

@@ -3,7 +3,7 @@
 #include <limits>
 #include <string>
 
-#include "app/model/from_case/configure.hpp"
+#include "model/from_case/configure.hpp"
 
 namespace perilink::verification {
 

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "analysis/dynamics/fundamental_period.hpp"
-#include "app/model/from_case/configure.hpp"
 #include "base/timer.hpp"
+#include "model/from_case/configure.hpp"
 
 namespace perilink::verification {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/model/from_case/configure.hpp"
+#include "model/from_case/configure.hpp"
 
 namespace perilink::verification {
 

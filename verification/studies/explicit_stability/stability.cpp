@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "analysis/dynamics/bonds/runs/bond_analysis.hpp"
-#include "app/model/from_case/lattice_case.hpp"
 #include "app/run/bond_run.hpp"
+#include "model/from_case/lattice_case.hpp"
 
 namespace perilink::verification {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/model/from_case/configure.hpp"
 #include "base/error.hpp"
+#include "model/from_case/configure.hpp"
 #include "studies/toughness/bodies.hpp"
 
 namespace perilink::verification {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "app/model/from_case/configure.hpp"
 #include "io/case/case_file.hpp"
 #include "io/text/csv.hpp"
+#include "model/from_case/configure.hpp"
 #include "problems/program.hpp"
 
 namespace perilink::verification {

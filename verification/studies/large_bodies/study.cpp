@@ -24,11 +24,11 @@
 
 #include "analysis/quasistatic/damage_analysis.hpp"
 #include "analysis/quasistatic/elastic_analysis.hpp"
-#include "app/model/from_case/configure.hpp"
 #include "app/process/threads.hpp"
 #include "app/run/summary.hpp"
 #include "base/timer.hpp"
 #include "io/case/case_file.hpp"
+#include "model/from_case/configure.hpp"
 #include "problems/program.hpp"
 #include "problems/result.hpp"
 

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "analysis/quasistatic/load_curve.hpp"
-#include "app/model/from_case/configure.hpp"
 #include "app/plot/curve_frame.hpp"
 #include "io/case/case_file.hpp"
 #include "io/text/csv.hpp"
+#include "model/from_case/configure.hpp"
 #include "problems/block.hpp"
 #include "problems/load_at.hpp"
 #include "problems/program.hpp"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "app/model/from_case/configure.hpp"
+#include "model/from_case/configure.hpp"
 
 /// \file
 /// The linear patch test: a body of calibrated bonds in uniform strains.

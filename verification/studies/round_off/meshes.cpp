@@ -13,10 +13,10 @@
 #include <span>
 
 #include "analysis/quasistatic/damage_analysis.hpp"
-#include "app/model/from_case/analysis_options.hpp"
-#include "app/model/from_case/configure.hpp"
 #include "io/case/case_file.hpp"
 #include "io/mesh/gmsh_file.hpp"
+#include "model/from_case/analysis_options.hpp"
+#include "model/from_case/configure.hpp"
 
 namespace perilink::verification {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "app/model/model.hpp"
 #include "discretization/meshes/mesh.hpp"
+#include "model/model.hpp"
 
 /// \file
 /// One body from a mesh that is written down in several ways.

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "app/model/from_case/configure.hpp"
 #include "app/study/study_run.hpp"
+#include "model/from_case/configure.hpp"
 
 namespace perilink::verification {
 

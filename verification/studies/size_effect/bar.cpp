@@ -6,7 +6,7 @@
 #include <span>
 
 #include "analysis/quasistatic/elastic_analysis.hpp"
-#include "app/model/from_case/configure.hpp"
+#include "model/from_case/configure.hpp"
 
 namespace perilink::verification {
 namespace {

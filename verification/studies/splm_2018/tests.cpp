@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "app/model/from_case/lattice_case.hpp"
+#include "model/from_case/lattice_case.hpp"
 
 namespace perilink::verification {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <fstream>
 
-#include "app/model/from_case/configure.hpp"
 #include "base/error.hpp"
 #include "io/case/case_file.hpp"
+#include "model/from_case/configure.hpp"
 
 namespace perilink::verification {
 namespace {

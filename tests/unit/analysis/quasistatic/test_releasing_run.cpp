@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "analysis/quasistatic/event_run.hpp"
-#include "app/model/from_case/configure.hpp"
+#include "model/from_case/configure.hpp"
 #include "support/strip_case.hpp"
 
 namespace perilink {

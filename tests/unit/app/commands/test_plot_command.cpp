@@ -6,8 +6,8 @@
 #include <fstream>
 #include <pugixml.hpp>
 
-#include "app/results/history_file.hpp"
 #include "base/error.hpp"
+#include "results/history_file.hpp"
 #include "support/cracked_field.hpp"
 #include "support/temporary_directory.hpp"
 

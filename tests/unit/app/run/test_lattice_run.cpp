@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "app/model/from_case/lattice_case.hpp"
+#include "model/from_case/lattice_case.hpp"
 #include "support/program_cases.hpp"
 #include "support/whole_run.hpp"
 

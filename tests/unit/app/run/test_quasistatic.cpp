@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/results/calibration_text.hpp"
+#include "results/calibration_text.hpp"
 #include "support/strip_case.hpp"
 
 namespace perilink {

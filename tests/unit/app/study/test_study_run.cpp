@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "analysis/quasistatic/elastic_analysis.hpp"
-#include "app/model/from_case/configure.hpp"
 #include "base/error.hpp"
 #include "io/case/case_overrides.hpp"
+#include "model/from_case/configure.hpp"
 #include "support/strip_case.hpp"
 #include "support/temporary_directory.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "analysis/quasistatic/equilibrium/equilibrium.hpp"
-#include "app/model/from_case/configure.hpp"
+#include "model/from_case/configure.hpp"
 #include "support/strip_case.hpp"
 
 namespace perilink {

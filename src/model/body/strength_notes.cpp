@@ -1,0 +1,164 @@
+#include "model/body/strength_notes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "model/body/horizon_limits.hpp"
+
+namespace perilink {
+namespace {
+
+/// Limits of tensile strength over modulus: concrete, rock and ice have about 1e-4, glass 1e-3,
+/// steel 2e-3, the strongest fibres 1e-2. Brittle bonds represent the first group.
+constexpr double largest_strength = 1e-2, largest_brittle_strength = 2e-3, least_strength = 1e-6;
+
+/// Process zone E G_F / f_t^2 over the longest side of the body beyond which no crack fits.
+/// Laboratory specimens of concrete reach five.
+constexpr double longest_zone = 10.0;
+
+/// Horizon over process zone below which stressed bodies soften everywhere. A horizon equal to a
+/// thirtieth up to round-off is accepted.
+constexpr double least_horizon = (1.0 - 1e-6) / 30.0;
+
+/// Largest process zone of brittle bonds, about half a horizon, over the longest side of the body.
+/// Beyond it no crack fits next to the zone.
+constexpr double longest_brittle_zone = 0.25;
+
+/// Limits of the modulus of bars over that of the solid: glass-fibre bars in concrete have 1.3,
+/// steel in concrete 7, in wood 20, in soil 2000.
+constexpr double least_bar_modulus = 0.3, largest_bar_modulus = 5e3;
+
+/// Strains at which bars yield: mild steel 1e-3, tendons 1e-2.
+constexpr double least_yield_strain = 2e-4, largest_yield_strain = 2e-2;
+
+std::optional<std::string> note_of_strength(const MaterialStrength& strength, double modulus) {
+  const bool brittle = strength.segments == 1;
+  const double part = strength.tensile_strength / modulus;
+  const double most = brittle ? largest_brittle_strength : largest_strength;
+  if (part <= most && part >= least_strength) return std::nullopt;
+  const bool high = part > most;
+  return fmt::format(
+      "the tensile strength {:.4g} is {:.2g} of Young's modulus, {} {:g}: {}are the numbers of the "
+      "material in units of one system?",
+      strength.tensile_strength, part, high ? "above" : "below", high ? most : least_strength,
+      !brittle ? ""
+      : high   ? "the strength of brittle bonds follows from fracture_energy and "
+                 "horizon and grows as the horizon shrinks; with tensile_strength bonds "
+                 "soften at the strength of the material; "
+               : "the strength of brittle bonds follows from fracture_energy and "
+                 "horizon; ");
+}
+
+/// Returns a note on the process zone of brittle bonds, which follows from the horizon.
+std::optional<std::string> note_of_brittle_zone(double zone, double horizon, double body) {
+  if (zone <= longest_brittle_zone * body) return std::nullopt;
+  return fmt::format(
+      "the process zone of brittle bonds, {:.4g}, is more than a quarter of "
+      "the body's longest side {:.4g}: failure then depends on the bond "
+      "strength, which follows from the horizon, and not on fracture_energy; "
+      "take a horizon below {:.3g}",
+      zone, body, horizon * longest_brittle_zone * body / zone);
+}
+
+std::optional<std::string> note_of_zone(double zone, double horizon, double body) {
+  if (zone < horizon) {
+    return fmt::format(
+        "the process zone {:.4g} is shorter than the horizon {:.4g}: bonds "
+        "hardly soften, and the horizon does not resolve the crack tip; {}",
+        zone, horizon, horizon_advice);
+  }
+  if (zone <= longest_zone * body) {
+    if (horizon >= least_horizon * zone) return std::nullopt;
+    return fmt::format(
+        "the horizon {:.4g} is below a thirtieth of E G_F / f_t^2, {:.4g}: "
+        "stressed parts of the body soften before a crack forms; the body "
+        "dissipates more than fracture_energy times the crack area, and the "
+        "peak load of bodies without a notch is too high; {}",
+        horizon, zone, horizon_advice);
+  }
+  return fmt::format(
+      "the process zone {:.4g} is more than {:.0f} times the body's longest "
+      "side {:.4g}: the peak load depends on tensile_strength, and hardly on "
+      "fracture_energy; are the numbers in units of one system?",
+      zone, longest_zone, body);
+}
+
+/// Returns a note on a bar with an unusual modulus or yield strain.
+/// \param softest,stiffest  smallest and largest modulus of all solid materials
+std::optional<std::string> note_of_bar(const RebarSection& bar, double softest, double stiffest) {
+  const bool is_soft = bar.youngs_modulus < least_bar_modulus * softest;
+  if (is_soft || bar.youngs_modulus > largest_bar_modulus * stiffest) {
+    const double solid = is_soft ? softest : stiffest;
+    return fmt::format("Young's modulus {:.4g} is {:.2g} times that of the solid, {:.4g}",
+                       bar.youngs_modulus, bar.youngs_modulus / solid, solid);
+  }
+  if (!bar.yield_strength || !bar.yields) return std::nullopt;
+  const double strain = *bar.yield_strength / bar.youngs_modulus;
+  if (strain >= least_yield_strain && strain <= largest_yield_strain) return std::nullopt;
+  return fmt::format("it yields at {:.4g}, which is {:.2g} of its Young's modulus {:.4g}",
+                     *bar.yield_strength, strain, bar.youngs_modulus);
+}
+
+}  // namespace
+
+std::optional<std::string> lattice_note(const CaseFile& input, const Model& model) {
+  const Network& network = model.network;
+  if (model.lattice.pattern == Pattern::irregular || network.is_beam()) return std::nullopt;
+  bool breaks = false;
+  for (Index b = 0; b < network.first_slip_spring && !breaks; ++b) breaks = network.can_break(b);
+  if (!breaks || !input.interfaces.empty()) return std::nullopt;
+  return "cracks on a lattice tend to follow its rows, and loads change with their paths: where "
+         "the "
+         "path is not known, compare with a run on an unstructured mesh ([body] mesh), with "
+         "another "
+         "pattern or with the body turned, and give brittle materials a tensile_strength";
+}
+
+std::vector<std::string> bar_notes(const CaseFile& input) {
+  double softest = std::numeric_limits<double>::infinity(), stiffest = 0.0;
+  for (const MaterialSection& material : input.materials) {
+    softest = std::min(softest, material.youngs_modulus);
+    stiffest = std::max(stiffest, material.youngs_modulus);
+  }
+  std::vector<std::string> notes;
+  for (std::size_t k = 0; k < input.rebar.size(); ++k) {
+    if (const auto note = note_of_bar(input.rebar[k], softest, stiffest)) {
+      notes.push_back(
+          fmt::format("bar {}: {}: are the numbers in units of one system?", k + 1, *note));
+    }
+  }
+  return notes;
+}
+
+std::vector<std::string> strength_notes(const MaterialStrength& strength, double youngs_modulus,
+                                        double horizon, double body) {
+  std::vector<std::string> notes;
+  if (strength.segments == 0) return notes;
+  const double zone = strength.process_zone;
+  for (const auto& note : {note_of_strength(strength, youngs_modulus),
+                           strength.segments == 1 ? note_of_brittle_zone(zone, horizon, body)
+                                                  : note_of_zone(zone, horizon, body)}) {
+    if (note) notes.push_back(*note);
+  }
+  return notes;
+}
+
+std::vector<std::string> strength_notes(const CaseFile& input, const Model& model) {
+  const HorizonReach reach =
+      reach_of(model.network.particles, model.horizon, model.lattice.spacing);
+  const double body = *std::max_element(reach.extents.begin(), reach.extents.end());
+  std::vector<std::string> notes;
+  for (std::size_t m = 0; m < model.network.strengths.size(); ++m) {
+    const MaterialSection& material = input.materials[m];
+    for (const std::string& note :
+         strength_notes(model.network.strengths[m], material.youngs_modulus, model.horizon, body)) {
+      notes.push_back(fmt::format("material \"{}\": {}", material.name, note));
+    }
+  }
+  return notes;
+}
+
+}  // namespace perilink

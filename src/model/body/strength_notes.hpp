@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/case/case_file.hpp"
+#include "model/model.hpp"
+
+namespace perilink {
+
+/// Advice on the horizon of softening bonds (docs/theory/softening.md, section 5).
+inline constexpr const char* horizon_advice =
+    "take a horizon of a twentieth to a thirtieth of E G_F / f_t^2";
+
+/// Returns a sentence for each implausible strength: relative to the modulus, and with a process
+/// zone implausible relative to the horizon or the body.
+/// \param youngs_modulus  [force/length^2]
+/// \param horizon         [length]
+/// \param body            longest side of the body [length]
+std::vector<std::string> strength_notes(const MaterialStrength& strength, double youngs_modulus,
+                                        double horizon, double body);
+
+/// Returns these notes for all materials with a known strength, with material names.
+std::vector<std::string> strength_notes(const CaseFile& input, const Model& model);
+
+/// Returns advice on checking crack paths, where a lattice has breakable bonds and no interface
+/// prescribes the path. Lattices influence the direction of cracks.
+std::optional<std::string> lattice_note(const CaseFile& input, const Model& model);
+
+/// Returns notes on bars with unusual moduli or yield strengths.
+std::vector<std::string> bar_notes(const CaseFile& input);
+
+}  // namespace perilink

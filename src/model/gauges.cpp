@@ -1,0 +1,267 @@
+#include "model/gauges.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/plain_text.hpp"
+#include "discretization/bonds.hpp"
+#include "model/model_regions.hpp"
+#include "results/history_file.hpp"
+
+namespace perilink {
+namespace {
+
+/// Returns the weighted mean position of some particles.
+Vector3 place_of(const Particles& particles, std::span<const Gauge::Term> terms) {
+  Vector3 place{};
+  for (const Gauge::Term& term : terms) {
+    for (int a = 0; a < particles.dim; ++a) {
+      place[a] += term.weight * particles.position(term.particle)[a];
+    }
+  }
+  return place;
+}
+
+std::string point_text(const Vector3& point, int dim) {
+  std::vector<double> components;
+  for (int a = 0; a < dim; ++a) components.push_back(point[a] + 0.0);  // no -0
+  return fmt::format("({})", joined(components));
+}
+
+/// Returns particles with an intact bond to a particle, nearest to `point` first; without known
+/// bonds those around it. Broken bonds do not count, since displacements jump across cracks.
+/// Stresses jump between materials.
+std::vector<Index> neighbors_of(const Model& model, Index particle, const Vector3& point,
+                                bool same_material) {
+  const Network& network = model.network;
+  const Particles& particles = network.places();
+  std::vector<Index> neighbors;
+  const auto add = [&](Index i) {
+    const bool fits = !same_material || particles.material[i] == particles.material[particle];
+    if (particles.kind[i] == ParticleKind::solid && fits) neighbors.push_back(i);
+  };
+  const std::vector<Index>& cut = network.cut_elements;
+  for (Index e = 0; e < network.first_slip_spring; ++e) {
+    const Index i = network.bonds.first[e], j = network.bonds.second[e];
+    if (i != particle && j != particle) continue;
+    if (!std::binary_search(cut.begin(), cut.end(), e)) add(i == particle ? j : i);
+  }
+  const auto away = [&](Index i) {
+    double square = 0.0;
+    for (int a = 0; a < particles.dim; ++a) {
+      square += std::pow(particles.position(i)[a] - point[a], 2);
+    }
+    return square;
+  };
+  if (network.bonds.size() == 0) {
+    const double reach = 2.0 * model.lattice.spacing;
+    for (Index i = 0; i < particles.size(); ++i) {
+      if (i != particle && away(i) < reach * reach) add(i);
+    }
+  }
+  std::stable_sort(neighbors.begin(), neighbors.end(),
+                   [&](Index i, Index j) { return away(i) < away(j); });
+  return neighbors;
+}
+
+/// Returns interpolation weights of a particle and its neighbours at a point. They are barycentric
+/// coordinates in the line, triangle or tetrahedron of the nearest ones around it. No weight is
+/// negative: a point outside is projected to the border.
+std::vector<Gauge::Term> linear_terms(const Model& model, Index nearest, const Vector3& point,
+                                      bool same_material) {
+  constexpr double flat = 0.25, little = 1e-9;
+  const Particles& particles = model.network.places();
+  const double spacing = model.lattice.spacing;
+  const auto from_nearest = [&](const auto& x) {
+    Eigen::VectorXd way(particles.dim);
+    for (int a = 0; a < particles.dim; ++a) way[a] = x[a] - particles.position(nearest)[a];
+    return way;
+  };
+  const Eigen::VectorXd wanted = from_nearest(point);
+  Eigen::MatrixXd ways(particles.dim, 0);
+  Eigen::VectorXd weights(0);
+  std::vector<Index> chosen;
+  for (const Index i : neighbors_of(model, nearest, point, same_material)) {
+    if (ways.cols() == particles.dim || (wanted - ways * weights).norm() <= little * spacing) break;
+    const Eigen::VectorXd way = from_nearest(particles.position(i));
+    if (ways.cols() > 0) {
+      const Eigen::VectorXd along = ways.colPivHouseholderQr().solve(way);
+      if ((way - ways * along).norm() < flat * spacing) continue;
+    }
+    Eigen::MatrixXd more = ways;
+    more.conservativeResize(Eigen::NoChange, ways.cols() + 1);
+    more.rightCols(1) = way;
+    const Eigen::VectorXd next = more.colPivHouseholderQr().solve(wanted);
+    if (next.minCoeff() < -little || next.sum() > 1.0 + little) continue;
+    ways = more;
+    weights = next;
+    chosen.push_back(i);
+  }
+  std::vector<Gauge::Term> terms = {{nearest, 1.0 - weights.sum()}};
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    terms.push_back({chosen[k], weights[static_cast<Index>(k)]});
+  }
+  std::erase_if(terms, [&](const Gauge::Term& term) { return std::abs(term.weight) < little; });
+  return terms;
+}
+
+/// \param notes  receives a note where no particle lies at the point
+std::vector<Gauge::Term> terms_at(const CaseFile& input, const Model& model, const std::string& key,
+                                  const Vector3& point, const Gauge& gauge,
+                                  std::vector<std::string>& notes) {
+  constexpr double moved = 1e-6;  // spacings within which a particle lies at the point
+  const Particles& particles = model.network.places();
+  const double spacing = model.lattice.spacing;
+  const std::span<const double> at(point.data(), static_cast<std::size_t>(particles.dim));
+  const NearestParticle nearest = nearest_particle(particles, at);
+  if (!(nearest.distance <= spacing)) {
+    throw InputError(input.where(key),
+                     fmt::format("the point ({}) is {:.6g} from the nearest particle", joined(at),
+                                 nearest.distance),
+                     fmt::format("the spacing is {:.6g}; place the point within this distance of a "
+                                 "particle",
+                                 spacing));
+  }
+  if (nearest.distance <= moved * spacing) return {{nearest.particle, 1.0}};
+  std::vector<Gauge::Term> terms =
+      linear_terms(model, nearest.particle, point, gauge.stress.has_value());
+  std::vector<std::string> texts;
+  for (const Gauge::Term& term : terms) {
+    const Gauge::Term alone{term.particle, 1.0};
+    texts.push_back(point_text(place_of(particles, {&alone, 1}), particles.dim));
+  }
+  const std::string between =
+      terms.size() == 1 ? "" : fmt::format(", linearly between the particles at {}", joined(texts));
+  notes.push_back(
+      fmt::format("no particle lies at the point {} of the gauge \"{}\": it measures at {}{}",
+                  point_text(point, particles.dim), gauge.name,
+                  point_text(place_of(particles, terms), particles.dim), between));
+  return terms;
+}
+
+/// Sets up a gauge of the displacement of its second point relative to the first.
+void fill_difference(const CaseFile& input, const Model& model, const std::string& key,
+                     const GaugeSection& section, Gauge& gauge, std::vector<std::string>& notes) {
+  const Particles& particles = model.network.particles;
+  std::array<Vector3, 2> ends = {section.between[0], section.between[1]};
+  std::array<Index, 2> nearest{};
+  for (const std::size_t k : {0U, 1U}) {
+    std::vector<Gauge::Term> terms = terms_at(input, model, key, ends[k], gauge, notes);
+    nearest[k] = nearest_particle(model.network.places(),
+                                  {ends[k].data(), static_cast<std::size_t>(particles.dim)})
+                     .particle;
+    gauge.place +=
+        (k == 0 ? "from " : " to ") + point_text(place_of(particles, terms), particles.dim);
+    // Points of a shell are given on its flat reference; particles lie in space.
+    if (model.network.shell) ends[k] = place_of(particles, terms);
+    for (Gauge::Term& term : terms) term.weight *= k == 0 ? -1.0 : 1.0;
+    gauge.terms.insert(gauge.terms.end(), terms.begin(), terms.end());
+  }
+  if (nearest[0] == nearest[1]) {
+    throw InputError(input.where(key), "gives two points with the same nearest particle",
+                     "move the points apart or refine the spacing");
+  }
+  if (section.axis) return;
+  const auto& [a, b] = ends;
+  const double length = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+  for (int axis = 0; axis < 3; ++axis) gauge.direction[axis] = (b[axis] - a[axis]) / length;
+}
+
+void fill_mean(const CaseFile& input, const Model& model, const std::string& key,
+               const GaugeSection& section, Gauge& gauge) {
+  const Particles& particles = model.network.places();
+  double whole = 0.0;
+  const std::vector<Index> members = particles_of_region(input, model, section.region, key);
+  const auto is_bar = [&](Index i) { return particles.kind[i] != ParticleKind::solid; };
+  const bool bars_alone = std::all_of(members.begin(), members.end(), is_bar);
+  if (bars_alone && section.stress) {
+    throw InputError(input.where(key),
+                     fmt::format("is \"{}\", which contains only bars", section.region),
+                     "name a region with particles of the solid");
+  }
+  for (const Index i : members) {
+    if (is_bar(i) && !bars_alone) continue;
+    gauge.terms.push_back({i, particles.volumes[i]});
+    whole += particles.volumes[i];
+  }
+  for (Gauge::Term& term : gauge.terms) term.weight /= whole;
+  const Particles& in_space = model.network.particles;
+  gauge.place = gauge.terms.size() == 1
+                    ? "at " + point_text(place_of(in_space, gauge.terms), in_space.dim)
+                    : fmt::format("mean of {} particles", gauge.terms.size());
+}
+
+/// Returns the index of a component among the six of a Stress.
+std::size_t number_of(const std::array<int, 2>& axes) {
+  if (axes[0] == axes[1]) return axes[0];
+  return axes[0] == 1 ? 4 : axes[1] == 1 ? 3 : 5;
+}
+
+}  // namespace
+
+std::vector<Gauge> build_gauges(const CaseFile& input, const Model& model,
+                                std::vector<std::string>& notes) {
+  std::vector<Gauge> gauges;
+  const std::vector<std::string> taken = history_columns(input);
+  for (std::size_t k = 0; k < input.gauges.size(); ++k) {
+    const GaugeSection& section = input.gauges[k];
+    if (std::find(taken.begin(), taken.end(), section.name) != taken.end()) {
+      throw InputError(input.where(item_key("gauges", k, "name")),
+                       fmt::format("is \"{}\", a column of every history", section.name),
+                       "choose another name");
+    }
+    Gauge gauge;
+    gauge.name = section.name;
+    gauge.stress = section.stress;
+    if (section.axis) gauge.direction[*section.axis] = 1.0;
+    if (section.at) {
+      const std::string key = item_key("gauges", k, "at");
+      gauge.terms = terms_at(input, model, key, *section.at, gauge, notes);
+      const Particles& particles = model.network.particles;
+      gauge.place = "at " + point_text(place_of(particles, gauge.terms), particles.dim);
+    } else if (!section.region.empty()) {
+      fill_mean(input, model, item_key("gauges", k, "region"), section, gauge);
+    } else {
+      fill_difference(input, model, item_key("gauges", k, "between"), section, gauge, notes);
+    }
+    gauges.push_back(std::move(gauge));
+  }
+  return gauges;
+}
+
+StressInput stress_input(const Model& model, const Csr& neighbourhoods, Secants secants) {
+  return {model.network, neighbourhoods, model.problem, model.hooke, model.elements.has_value(),
+          secants};
+}
+
+std::vector<double> gauge_values(const Model& model, const ModelState& state, Csr& neighbourhoods) {
+  const std::size_t width = model.network.width();
+  std::vector<double> values;
+  for (const Gauge& gauge : model.gauges) {
+    if (!gauge.stress) {
+      values.push_back(state.scale * gauge_value(gauge, model.network.dim(), [&](Index i, int a) {
+                         return state.motion[i * width + a];
+                       }));
+      continue;
+    }
+    const std::size_t component = number_of(*gauge.stress);
+    double value = 0.0;
+    if (neighbourhoods.rows() == 0) {
+      neighbourhoods = bonds_of_particles(model.network.bonds, model.network.particles.size());
+    }
+    const StressInput input = stress_input(model, neighbourhoods, state.secants);
+    for (const Gauge::Term& term : gauge.terms) {
+      value += term.weight * stress_at(input, state.motion, term.particle)[component];
+    }
+    values.push_back(state.scale * value);
+  }
+  return values;
+}
+
+}  // namespace perilink

@@ -1,0 +1,138 @@
+#include "model/body/strength_notes.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "support/strip_case.hpp"
+
+namespace perilink {
+namespace {
+
+using namespace test;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// Concrete in N and mm: E = 30 000, f_t = 3, G_F = 0.1, E G_F / f_t^2 = 333 mm.
+constexpr double modulus = 30000.0;
+
+MaterialStrength softening(double strength, double fracture_energy = 0.1) {
+  MaterialStrength result;
+  result.tensile_strength = strength;
+  result.process_zone = modulus * fracture_energy / (strength * strength);
+  result.segments = 10;
+  return result;
+}
+
+MaterialStrength brittle(double strength) {
+  MaterialStrength result = softening(strength);
+  result.segments = 1;
+  return result;
+}
+
+TEST(StrengthNotes, SayNothingOfConcreteOnLaboratoryBodies) {
+  EXPECT_THAT(strength_notes(softening(3.0), modulus, 15.0, 100.0), IsEmpty());
+  EXPECT_THAT(strength_notes(brittle(20.0), modulus, 15.0, 100.0), IsEmpty());
+  EXPECT_THAT(strength_notes(MaterialStrength{}, modulus, 15.0, 100.0), IsEmpty()) << "unbreakable";
+}
+
+/// A strength in Pa with a modulus in MPa is a million times too large, and vice versa.
+TEST(StrengthNotes, DoubtUnitsOfDifferentSystems) {
+  EXPECT_THAT(strength_notes(softening(3e6, 1e11), modulus, 15.0, 100.0),
+              ElementsAre(HasSubstr("is 1e+02 of Young's modulus, above 0.01: are the numbers")));
+  EXPECT_THAT(strength_notes(softening(3e-6, 1e-13), modulus, 15.0, 100.0),
+              ElementsAre(HasSubstr("below 1e-06: are the numbers")));
+}
+
+TEST(StrengthNotes, TellWhereTheHorizonMakesBrittleBondsTooStrong) {
+  EXPECT_THAT(strength_notes(brittle(61.0), modulus, 0.4, 100.0),
+              ElementsAre(HasSubstr(
+                  "above 0.002: the strength of brittle bonds follows from fracture_energy and "
+                  "horizon and grows as the horizon shrinks")));
+  EXPECT_THAT(strength_notes(brittle(59.0), modulus, 0.4, 100.0), IsEmpty());
+}
+
+/// l = 3000 / 15^2 = 13.3 in a body of 40: a horizon of 25 * 10 / 13.3 makes it a quarter.
+TEST(StrengthNotes, TellWhereBrittleBondsReachThroughTheBody) {
+  EXPECT_THAT(
+      strength_notes(brittle(15.0), modulus, 25.0, 40.0),
+      ElementsAre(testing::AllOf(HasSubstr("more than a quarter of the body's longest side 40"),
+                                 HasSubstr("take a horizon below 18.8"))));
+}
+
+TEST(StrengthNotes, TellWhereAProcessZoneIsOutOfProportion) {
+  EXPECT_THAT(strength_notes(softening(15.0), modulus, 15.0, 100.0),
+              ElementsAre(HasSubstr("13.33 is shorter than the horizon 15")));
+  EXPECT_THAT(strength_notes(softening(3.0), modulus, 3.0, 33.0),
+              ElementsAre(HasSubstr("more than 10 times the body's longest side 33")));
+  EXPECT_THAT(strength_notes(softening(3.0), modulus, 12.0, 34.0), IsEmpty());
+}
+
+/// E G_F / f_t^2 = 333.3: a thirtieth is 11.11.
+TEST(StrengthNotes, TellWhereTheHorizonIsTooShortForTheProcessZone) {
+  EXPECT_THAT(strength_notes(softening(3.0), modulus, 11.2, 100.0), IsEmpty());
+  EXPECT_THAT(strength_notes(softening(3.0), modulus, 11.0, 100.0),
+              ElementsAre(testing::AllOf(HasSubstr("the horizon 11 is below a thirtieth"),
+                                         HasSubstr(horizon_advice))));
+}
+
+TEST(LatticeNote, IsAboutBondsOfLatticesThatCanBreakAnywhere) {
+  CaseFile input = strip_case();
+  Model model = build_model(input);
+  EXPECT_THAT(lattice_note(input, model).value(),
+              HasSubstr("compare with a run on an unstructured mesh"));
+  EXPECT_THAT(model.notes, testing::Contains(HasSubstr("cracks on a lattice")));
+  input.interfaces.emplace_back();
+  EXPECT_FALSE(lattice_note(input, model)) << "it prescribes the path";
+  input.interfaces.clear();
+  model.lattice.pattern = Pattern::irregular;
+  EXPECT_FALSE(lattice_note(input, model));
+  model.lattice.pattern = Pattern::rectangular;
+  std::ranges::fill(model.network.critical_stretch, infinity);
+  EXPECT_FALSE(lattice_note(input, model)) << "nothing breaks";
+}
+
+/// A fracture energy a hundred million times too large makes bonds ten thousand times too strong.
+TEST(StrengthNotes, NameTheMaterial) {
+  CaseFile input = strip_case();
+  input.materials[0].name = "concrete";
+  input.materials[0].fracture_energy = 1e5;
+  EXPECT_THAT(draft_model(input).notes,
+              testing::Contains(HasSubstr("material \"concrete\": the tensile strength")));
+  input.analysis.type = AnalysisType::elastic;
+  EXPECT_THAT(draft_model(input).notes, testing::Not(testing::Contains(HasSubstr("strength"))));
+}
+
+CaseFile with_bar(double youngs_modulus, double yield_strength) {
+  CaseFile input;
+  input.materials.resize(2);
+  input.materials[0].youngs_modulus = modulus;
+  input.materials[1].youngs_modulus = 30.0 * modulus;  // a loading plate
+  RebarSection bar;
+  bar.youngs_modulus = youngs_modulus;
+  bar.yield_strength = yield_strength;
+  input.rebar = {bar};
+  return input;
+}
+
+TEST(BarNotes, SayNothingOfWhatIsLaidIntoConcrete) {
+  EXPECT_THAT(bar_notes(with_bar(200e3, 500.0)), IsEmpty());
+  EXPECT_THAT(bar_notes(with_bar(195e3, 1800.0)), IsEmpty()) << "a tendon";
+  EXPECT_THAT(bar_notes(with_bar(40e3, 800.0)), IsEmpty()) << "glass fibres";
+}
+
+TEST(BarNotes, TellOfOtherUnits) {
+  EXPECT_THAT(bar_notes(with_bar(200.0, 0.5)),
+              ElementsAre(HasSubstr("bar 1: Young's modulus 200 is 0.0067 times")));
+  EXPECT_THAT(bar_notes(with_bar(200e9, 500e6)),
+              ElementsAre(HasSubstr("is 2.2e+05 times that of the solid, 9e+05")));
+  EXPECT_THAT(bar_notes(with_bar(200e3, 500e6)),
+              ElementsAre(HasSubstr("it yields at 5e+08, which is 2.5e+03 of")));
+  EXPECT_THAT(bar_notes(with_bar(200e3, 0.5)), ElementsAre(HasSubstr("2.5e-06 of")));
+}
+
+}  // namespace
+}  // namespace perilink
