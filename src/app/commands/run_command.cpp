@@ -10,6 +10,7 @@
 #include "app/process/console.hpp"
 #include "app/process/signals.hpp"
 #include "app/process/threads.hpp"
+#include "app/run/resume.hpp"
 #include "app/run/run_kind.hpp"
 #include "base/error.hpp"
 #include "base/files.hpp"
@@ -28,7 +29,8 @@ namespace fs = std::filesystem;
 /// Log sink that writes whole lines of printable text to DIR/log.txt.
 class LogSink final : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {
  public:
-  explicit LogSink(const fs::path& directory) : file_((directory / "log.txt").string()) {}
+  explicit LogSink(const std::string& path) : file_(path) {}
+  LogSink(const std::string& path, std::size_t size) : file_(path, size) {}
 
  private:
   void sink_it_(const spdlog::details::log_msg& message) override {
@@ -42,8 +44,13 @@ class LogSink final : public spdlog::sinks::base_sink<spdlog::details::null_mute
   LineFile file_;
 };
 
-std::shared_ptr<spdlog::logger> open_log(const fs::path& directory) {
-  auto log = std::make_shared<spdlog::logger>("perilink", std::make_shared<LogSink>(directory));
+/// \param goes_on  an existing log is kept
+std::shared_ptr<spdlog::logger> open_log(const fs::path& directory, bool goes_on) {
+  const std::string path = (directory / "log.txt").string();
+  const bool keeps = goes_on && fs::exists(path);
+  auto sink = keeps ? std::make_shared<LogSink>(path, fs::file_size(path))
+                    : std::make_shared<LogSink>(path);
+  auto log = std::make_shared<spdlog::logger>("perilink", std::move(sink));
   log->set_error_handler([](const std::string& fault) { complain(fault); });
   return log;
 }
@@ -81,16 +88,18 @@ int exit_status_of(Termination termination) {
 }
 
 /// Opens all files of a run. On failure nothing is computed and the summary gives the reason.
-std::shared_ptr<spdlog::logger> open_files(RunKind& run, const fs::path& directory, bool quiet) {
+std::shared_ptr<spdlog::logger> open_files(RunKind& run, const fs::path& directory, bool quiet,
+                                           const std::optional<Checkpoint>& checkpoint) {
   try {
     const CaseFile seen = seen_from(run.input, directory);
     write_running_summary(directory, seen);
     write_whole_file((directory / "case.toml").string(), write_case(seen));
-    const auto log = open_log(directory);
+    const auto log = open_log(directory, checkpoint.has_value());
     log->info("{} : {}, {} threads", run.input.path, run.plan, run.threads);
     if (run.calibration) log->info("calibration: {}", *run.calibration);
     for (const std::string& note : run.notes) log->info("note: {}", note);
-    run.open(directory, quiet);
+    run.open(directory, quiet, checkpoint ? checkpoint->state : "");
+    if (checkpoint) log->info("goes on after row {}", run.files().rows());
     return log;
   } catch (const std::exception& error) {
     tell_of_failure(directory, run.input, error);
@@ -99,13 +108,16 @@ std::shared_ptr<spdlog::logger> open_files(RunKind& run, const fs::path& directo
 }
 
 /// Runs all phases of a case, whatever its analysis type. \return the exit status
-int run_in(const fs::path& directory, const RunOptions& options, const CaseFile& input,
-           int threads) {
+int run_in(const fs::path& directory, const RunOptions& options, const CaseFile& input, int threads,
+           const std::optional<Checkpoint>& checkpoint) {
   Timer timer;
   const std::unique_ptr<RunKind> run = make_run(input, threads, options.quiet);
-  const ResultDirectory hold(directory, options.force);
+  if (checkpoint) require_same_model(*checkpoint, run->model_fingerprint(), directory);
+  const ResultDirectory hold(directory, checkpoint                        ? OldResults::kept
+                                        : options.force || options.resume ? OldResults::removed
+                                                                          : OldResults::refused);
   catch_stop_signals();
-  const auto log = open_files(*run, directory, options.quiet);
+  const auto log = open_files(*run, directory, options.quiet, checkpoint);
   run->seconds.set_up = timer.seconds();
 
   timer.restart();
@@ -113,7 +125,7 @@ int run_in(const fs::path& directory, const RunOptions& options, const CaseFile&
   attempt(run_outcome, [&] { run->analyse(); });
   attempt(run_outcome, [&] { run->files().finish(); });
   run->seconds.output = run->files().seconds_writing();
-  run->seconds.analysis = timer.seconds() - run->seconds.output;
+  run->seconds.analysis += timer.seconds() - run->seconds.output;
   if (run_outcome.termination == Termination::failed) complain(run_outcome.reason);
   Summary summary;
   const auto sum_up = [&] {
@@ -146,9 +158,15 @@ int run_case(const RunOptions& options) {
   const fs::path directory = options.directory ? fs::path(*options.directory)
                                                : default_result_directory(options.case_path);
   refuse_own_file(directory, "case.toml", options.case_path, "this case with its resolved form");
-  refuse_old_results(directory,
-                     options.force);  // before the model is built, which may take minutes
-  return run_in(directory, options, input, threads);
+  // All before the model is built, which may take minutes.
+  refuse_old_results(directory, options.force || options.resume);
+  Resumed found;
+  if (options.resume) found = find_results(input, directory);
+  if (found.is_finished) {
+    if (!options.quiet) fmt::print("{}: holds the whole run already\n", directory.string());
+    return exit_done;
+  }
+  return run_in(directory, options, input, threads, found.checkpoint);
 }
 
 }  // namespace perilink
