@@ -115,6 +115,8 @@ void require_result(const fs::path& directory) {
   if (fs::exists(directory / "history.csv", error)) return;
   const char* hint = fs::exists(directory / "study.toml", error)
                          ? "it holds a study of perilink converge"
+                     : fs::exists(directory / "scan.csv", error)
+                         ? "it holds a scan; name one of its members, such as 0001"
                          : "perilink run writes one";
   throw FileError(
       fmt::format("{}: is not a result of a run: it has no history.csv ({})", place, hint));
