@@ -117,7 +117,7 @@ void run_members_of_scan(ScanRun& run, const RunOptions& options, std::size_t jo
       pool.start(member, words_of_member(run, member, options));
     }
     for (const FinishedProcess& process : pool.wait(milliseconds)) {
-      run.results[process.number] = result_of(process, run.place(process.number));
+      run.results[process.number] = result_of_process(process, run.place(process.number));
       write_scan_table(run);
       progress.finish();
       if (!options.quiet) tell_member(run, process.number, ++done);

@@ -52,7 +52,7 @@ ScanResult read_scan_result(const fs::path& directory) {
   return result;
 }
 
-ScanResult result_of(const FinishedProcess& process, const fs::path& directory) {
+ScanResult result_of_process(const FinishedProcess& process, const fs::path& directory) {
   ScanResult result;
   try {
     // A process that was refused or killed leaves no result, or that of an earlier run.

@@ -51,7 +51,7 @@ TEST_F(ScanResults, OfUnfinishedRunsHaveNoNumbers) {
 TEST_F(ScanResults, OfFailedProcessesTellTheReason) {
   write_status("completed");
   const auto reason = [&](const FinishedProcess& process) {
-    const ScanResult result = result_of(process, place());
+    const ScanResult result = result_of_process(process, place());
     EXPECT_EQ(result.status, "failed");
     return result.reason;
   };
@@ -59,9 +59,9 @@ TEST_F(ScanResults, OfFailedProcessesTellTheReason) {
             "a.toml: is wrong");
   EXPECT_EQ(reason({0, -1, 9, ""}), "ended by signal 9 (Killed)");
   EXPECT_EQ(reason({0, 3, 0, ""}), "ended with exit status 3");
-  EXPECT_EQ(result_of({0, 0, 0, ""}, place()).status, "completed");
+  EXPECT_EQ(result_of_process({0, 0, 0, ""}, place()).status, "completed");
   write_status("interrupted");
-  EXPECT_EQ(result_of({0, 4, 0, ""}, place()).status, "interrupted");
+  EXPECT_EQ(result_of_process({0, 4, 0, ""}, place()).status, "interrupted");
 }
 
 TEST_F(ScanResults, AreKeptOnlyForTheSameCase) {

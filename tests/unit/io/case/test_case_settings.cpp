@@ -113,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(
         SettingRefusal{
             "contradiction", {"body.mesh=a.msh"}, {"--set body.mesh: is given together"}},
         SettingRefusal{"otherKind", {"body.torsion=2"}, {"--set body.torsion: "}}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& refusal) { return std::string(refusal.param.name); });
 
 /// Faults that the body shows come later, with the place of their key.
 TEST(CaseSettings, AreNamedWhereTheCaseLooksForAKey) {

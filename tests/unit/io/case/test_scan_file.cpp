@@ -81,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(
         ScanRefusal{"oneTable", scan_head + "[runs]\na = 1\n", 2, "[[runs]] with two brackets"},
         ScanRefusal{"aCase", "[body]\nspacing = 1\n", 1, "`perilink run a.toml`"},
         ScanRefusal{"aStudy", "[vary]\nspacing = [1]\n", 1, "`perilink converge a.toml`"}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& refusal) { return std::string(refusal.param.name); });
 
 TEST(ScanFile, RefusesMoreMembersThanDirectoriesHaveNames) {
   std::string list = "[0";
