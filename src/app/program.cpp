@@ -80,6 +80,30 @@ void add_run_options(CLI::App& command, RunOptions& options) {
   add_set_option(command, options);
 }
 
+const CLI::App* add_run_command(CLI::App& app, RunOptions& options) {
+  CLI::App* command = app.add_subcommand("run", "Run a case and write its results");
+  command->add_option("case", options.case_path, "Case file (.toml)")->required();
+  add_run_options(*command, options);
+  return command;
+}
+
+const CLI::App* add_converge_command(CLI::App& app, RunOptions& options) {
+  CLI::App* command = app.add_subcommand(
+      "converge", "Run a study of a case: errors and orders over spacing, horizon and surface");
+  command->add_option("study", options.case_path, "Study file (.toml)")->required();
+  add_run_options(*command, options);
+  return command;
+}
+
+const CLI::App* add_check_command(CLI::App& app, RunOptions& options) {
+  CLI::App* command =
+      app.add_subcommand("check", "Validate a case; print its sizes, expected memory and time");
+  command->add_option("case", options.case_path, "Case file (.toml)")->required();
+  add_trust_option(*command, options.trust_geometry);
+  add_set_option(*command, options);
+  return command;
+}
+
 const CLI::App* add_scan_command(CLI::App& app, ScanOptions& options) {
   CLI::App* command = app.add_subcommand(
       "scan",
@@ -177,15 +201,10 @@ int run_program(int argc, char** argv) {
   app.footer(footer);
 
   RunOptions run;
-  CLI::App* run_command = app.add_subcommand("run", "Run a case and write its results");
-  run_command->add_option("case", run.case_path, "Case file (.toml)")->required();
-  add_run_options(*run_command, run);
+  const CLI::App* run_command = add_run_command(app, run);
 
   RunOptions study;
-  CLI::App* converge_command = app.add_subcommand(
-      "converge", "Run a study of a case: errors and orders over spacing, horizon and surface");
-  converge_command->add_option("study", study.case_path, "Study file (.toml)")->required();
-  add_run_options(*converge_command, study);
+  const CLI::App* converge_command = add_converge_command(app, study);
 
   CompareOptions compared;
   const CLI::App* compare_command = add_compare_command(app, compared);
@@ -194,11 +213,7 @@ int run_program(int argc, char** argv) {
   const CLI::App* scan_command = add_scan_command(app, scanned);
 
   RunOptions checked;
-  CLI::App* check_command =
-      app.add_subcommand("check", "Validate a case; print its sizes, expected memory and time");
-  check_command->add_option("case", checked.case_path, "Case file (.toml)")->required();
-  add_trust_option(*check_command, checked.trust_geometry);
-  add_set_option(*check_command, checked);
+  const CLI::App* check_command = add_check_command(app, checked);
 
   PlotOptions plot;
   add_plot_command(app, plot);

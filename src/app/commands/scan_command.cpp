@@ -167,7 +167,8 @@ int scan(const ScanOptions& options) {
                        ? options.jobs
                        : std::max(1, default_threads() / std::max(options.run.threads, 1));
   run_members_of_scan(run, options.run, static_cast<std::size_t>(jobs));
-  draw_scan(scan_plot(run.scan, run.results)).save((run.directory / "scan.svg").string());
+  draw_scan(scan_plot(run.scan, run.results, cases.front().units))
+      .save((run.directory / "scan.svg").string());
   if (!options.run.quiet) {
     say(fmt::format("{}\n{}results in {}\n", run.scan.title, scan_report(run.scan, run.results),
                     run.directory.string()));

@@ -47,14 +47,19 @@ Axis axis_of_data(double low, double high, double pixel_low, double pixel_high) 
 
 }  // namespace
 
-ScanPlot scan_plot(const ScanFile& scan, std::span<const ScanResult> results) {
+ScanPlot scan_plot(const ScanFile& scan, std::span<const ScanResult> results,
+                   const std::string& units) {
   const bool breaks = std::any_of(results.begin(), results.end(), [](const ScanResult& result) {
     return !std::isnan(number_of(result.numbers, "peak_load"));
   });
   const std::string quantity = breaks ? "peak_load" : "strain_energy";
   const std::string key = varied_number(scan);
-  ScanPlot plot{
-      scan.title, key.empty() ? "member" : key, breaks ? "peak load" : "strain energy", {}};
+  const std::string force = breaks ? units.substr(0, units.find(',')) : "";
+  ScanPlot plot;
+  plot.title = scan.title;
+  plot.x_label = key.empty() ? "member" : key;
+  plot.y_label = breaks ? "peak load" : "strain energy";
+  if (!force.empty()) plot.y_label += " (" + force + ")";
   for (std::size_t k = 0; k < results.size(); ++k) {
     const double value = number_of(results[k].numbers, quantity);
     std::vector<CaseSetting> others = scan.members[k].settings;

@@ -29,7 +29,9 @@ struct ScanPlot {
 /// Returns the peak loads, or the strain energies of elastic runs, over the first key with several
 /// numbers, with a line for each combination of the other keys. Without such a key they are over
 /// the numbers of the members.
-ScanPlot scan_plot(const ScanFile& scan, std::span<const ScanResult> results);
+/// \param units  of the case, "kN, m"
+ScanPlot scan_plot(const ScanFile& scan, std::span<const ScanResult> results,
+                   const std::string& units);
 
 /// Draws scan.svg.
 Svg draw_scan(const ScanPlot& plot);

@@ -38,9 +38,10 @@ struct ScanResult {
 ScanResult read_scan_result(const std::filesystem::path& directory);
 
 /// Returns the result of a member whose process has ended. Failures are told in its reason.
-ScanResult result_of_process(const FinishedProcess& process, const std::filesystem::path& directory);
+ScanResult result_of_process(const FinishedProcess& process,
+                             const std::filesystem::path& directory);
 
-/// What the directory of a member holds before a scan.
+/// Content of the directory of a member before a scan.
 enum class EarlierResult {
   none,     ///< nothing
   same,     ///< the finished result of this case

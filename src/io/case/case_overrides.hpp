@@ -25,7 +25,8 @@ requires std::is_enum_v<Enumeration> TomlValue body_key(const std::string& key, 
 /// \throws InputError  where --set has given a key that is replaced
 void set_key(TomlValue& table, TomlValue key, const SourceLocation& where);
 
-/// Sets keys in [body] of a case's document; `method = "linear_elements"` removes all keys of bonds.
+/// Sets keys in [body] of a case's document. `method = "linear_elements"` removes all keys of
+/// bonds.
 /// \throws InputError  where --set has given a key that is replaced
 void override_body(TomlValue& document, const std::string& path,
                    const std::vector<TomlValue>& keys);

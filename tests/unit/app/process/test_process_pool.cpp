@@ -3,7 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <fstream>
 #include <map>
+#include <string>
+
+#include "support/temporary_directory.hpp"
 
 namespace perilink {
 namespace {
@@ -48,8 +52,20 @@ TEST(ProcessPool, StopsProcessesOnRequest) {
 }
 
 TEST(ProcessPool, KillsProcessesAtItsEnd) {
-  ProcessPool pool("/bin/sh", 1);
-  pool.start(0, {"-c", "trap '' TERM; sleep 100"});
+  const test::TemporaryDirectory directory;
+  const std::string note = (directory / "id").string();
+  pid_t id = 0;
+  {
+    ProcessPool pool("/bin/sh", 1);
+    pool.start(0, {"-c", "trap '' TERM; echo $$ > " + note + "; exec sleep 100"});
+    for (int k = 0; id == 0 && k < 1000; ++k) {
+      EXPECT_TRUE(pool.wait(10).empty());
+      std::ifstream(note) >> id;
+    }
+    ASSERT_GT(id, 0);
+    EXPECT_EQ(kill(id, 0), 0) << "it runs";
+  }
+  EXPECT_NE(kill(id, 0), 0);
 }
 
 }  // namespace

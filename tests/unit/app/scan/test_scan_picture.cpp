@@ -25,10 +25,10 @@ ScanFile scan_with(const std::string& values) {
 }
 
 TEST(ScanPicture, TheFirstKeyIsTheAxisAndOthersGiveLines) {
-  const ScanPlot plot =
-      scan_plot(scan_with("a = [2, 1]\nb = [5, 6]\n"), with_numbers("peak_load", {10, 20, 30, 40}));
+  const ScanPlot plot = scan_plot(scan_with("a = [2, 1]\nb = [5, 6]\n"),
+                                  with_numbers("peak_load", {10, 20, 30, 40}), "kN, m");
   EXPECT_EQ(plot.x_label, "a");
-  EXPECT_EQ(plot.y_label, "peak load");
+  EXPECT_EQ(plot.y_label, "peak load (kN)");
   ASSERT_EQ(plot.lines.size(), 2u);
   EXPECT_EQ(plot.lines[1].name, "b = 6");
   ASSERT_EQ(plot.lines[1].points.size(), 2u);
@@ -39,7 +39,7 @@ TEST(ScanPicture, TheFirstKeyIsTheAxisAndOthersGiveLines) {
 
 TEST(ScanPicture, KeysOfWordsGiveLines) {
   const ScanPlot plot = scan_plot(scan_with("a = [\"x\", \"y\"]\nb = [5, 6, 7]\n"),
-                                  with_numbers("strain_energy", {1, 2, 3, 4, 5, 6}));
+                                  with_numbers("strain_energy", {1, 2, 3, 4, 5, 6}), "kN, m");
   EXPECT_EQ(plot.x_label, "b");
   EXPECT_EQ(plot.y_label, "strain energy");
   ASSERT_EQ(plot.lines.size(), 2u);
@@ -48,7 +48,7 @@ TEST(ScanPicture, KeysOfWordsGiveLines) {
 
 TEST(ScanPicture, WithoutNumbersTheMembersAreTheAxis) {
   const ScanPlot plot =
-      scan_plot(scan_with("a = [\"x\", \"y\"]\n"), with_numbers("peak_load", {1, 2}));
+      scan_plot(scan_with("a = [\"x\", \"y\"]\n"), with_numbers("peak_load", {1, 2}), "");
   EXPECT_EQ(plot.x_label, "member");
   ASSERT_EQ(plot.lines.size(), 1u);
   EXPECT_EQ(plot.lines[0].points[1].x, 2.0);
@@ -58,11 +58,12 @@ TEST(ScanPicture, MembersWithoutResultAreLeftOut) {
   const ScanFile scan = scan_with("a = [1, 2, 3]\n");
   std::vector<ScanResult> results = with_numbers("peak_load", {1, 2, 3});
   results[1] = {};
-  EXPECT_EQ(scan_plot(scan, results).lines[0].points.size(), 2u);
-  const std::string text = draw_scan(scan_plot(scan, results)).str();
+  EXPECT_EQ(scan_plot(scan, results, "").lines[0].points.size(), 2u);
+  const std::string text = draw_scan(scan_plot(scan, results, "")).str();
   EXPECT_THAT(text, HasSubstr(">T<"));
   EXPECT_THAT(text, HasSubstr("peak load"));
-  EXPECT_THAT(draw_scan(scan_plot(scan, std::vector<ScanResult>(3))).str(), Not(HasSubstr("nan")));
+  EXPECT_THAT(draw_scan(scan_plot(scan, std::vector<ScanResult>(3), "")).str(),
+              Not(HasSubstr("nan")));
 }
 
 }  // namespace
