@@ -49,12 +49,14 @@ class Program : public testing::Test {
 TEST_F(Program, HelpNamesEveryCommandAndOption) {
   const std::map<std::string, std::vector<std::string>> expected = {
       {"",
-       {"--help", "--version", "run", "converge", "compare", "check", "plot", "Exit status",
+       {"--help", "--version", "run", "converge", "scan", "compare", "check", "plot", "Exit status",
         "docs/case_file.md"}},
-      {"run", {"case", "--out", "--threads", "--quiet", "--force", "Exit status"}},
-      {"converge", {"study", "--out", "--threads", "--quiet", "--force", "docs/studies.md"}},
+      {"run", {"case", "--out", "--threads", "--quiet", "--force", "--set", "Exit status"}},
+      {"converge",
+       {"study", "--out", "--threads", "--quiet", "--force", "--set", "docs/studies.md"}},
+      {"scan", {"scan", "--out", "--jobs", "--threads", "--quiet", "--force", "docs/studies.md"}},
       {"compare", {"dir_a", "dir_b", "--out", "--quiet", "--force", "docs/compare.md"}},
-      {"check", {"case", "Exit status"}},
+      {"check", {"case", "--set", "Exit status"}},
       {"plot", {"directory", "--out", "--scale", "Exit status"}}};
   for (const auto& [command, words] : expected) {
     std::vector<std::string> arguments = {"--help"};
@@ -86,6 +88,9 @@ TEST_F(Program, BadCommandLinesAreRefused) {
                                                      {"compare", ".", ".", "."},
                                                      {"compare", ".", ".", "--threads", "1"},
                                                      {"check"},
+                                                     {"check", "a.toml", "--set"},
+                                                     {"scan"},
+                                                     {"scan", "a.toml", "--jobs", "0"},
                                                      {"check", "a.toml", "--out", "x"},
                                                      {"plot"},
                                                      {"plot", ".", "--scale", "-1"}};

@@ -17,6 +17,7 @@
 #include "base/memory.hpp"
 #include "base/plain_text.hpp"
 #include "base/timer.hpp"
+#include "io/case/case_settings.hpp"
 #include "model/body/mesh_input.hpp"
 #include "results/result_directory.hpp"
 #include "results/summary_file.hpp"
@@ -153,7 +154,7 @@ int run_in(const fs::path& directory, const RunOptions& options, const CaseFile&
 
 int run_case(const RunOptions& options) {
   const int threads = set_threads(options.threads);
-  CaseFile input = read_case_file(options.case_path);
+  CaseFile input = read_case_file(options.case_path, parse_settings(options.settings), {});
   input.trust_geometry = options.trust_geometry;
   const fs::path directory = options.directory ? fs::path(*options.directory)
                                                : default_result_directory(options.case_path);
