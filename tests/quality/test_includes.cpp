@@ -55,6 +55,7 @@ const std::vector<Confinement>& confined_headers() {
       {std::regex("^pugi(xml|config)\\.hpp$"), {"io/"}},
       {std::regex("^muParser.*\\.h$"), {"io/text/formula.cpp"}},
       {std::regex("^zlib\\.h$"), {"io/"}},
+      {std::regex("^cereal/.*"), {"io/checkpoint/"}},
       {std::regex("^gmshc?\\.h(_cwrap)?$"), {"io/"}},
       {std::regex("^CLI/.*"), {"app/"}},
       {std::regex("^nlohmann/.*"), {"app/", "model/", "results/"}},
