@@ -34,7 +34,7 @@ struct Shown {
   std::string result;                        ///< its bytes
 };
 
-/// Saves checkpoints after a third of the rows, at random.
+/// Saves checkpoints after random rows.
 template <class State>
 class Saver final : public RunObserver<State> {
  public:
@@ -46,7 +46,7 @@ class Saver final : public RunObserver<State> {
     shown.states.push_back(look_(state));
   }
   bool wants_checkpoint(const ExplicitRecord& last) override {
-    return saves_ && std::mt19937(static_cast<unsigned>(last.step) + 58U)() % 3 == 0;
+    return saves_ && std::mt19937(static_cast<unsigned>(last.step))() % 2 == 0;
   }
   void on_checkpoint(const TimeState& state) override {
     shown.checkpoints[shown.rows.back().step] = bytes_of(state);
@@ -62,9 +62,7 @@ class Saver final : public RunObserver<State> {
 /// Builds a body and runs it; saves no checkpoints with `saves` false.
 using Run = std::function<Shown(int threads, bool saves, const TimeState* from)>;
 
-Index changed_in(const ExplicitRecord& row) {
-  return row.broken_bonds + row.cracked_particles + row.yielded_particles;
-}
+double lost_in(const ExplicitRecord& row) { return row.energy.fractured + row.energy.plastic; }
 
 void expect_end_of(const Shown& whole, const Shown& resumed) {
   ASSERT_LE(resumed.rows.size(), whole.rows.size());
@@ -89,15 +87,18 @@ void expect_to_go_on(const Run& run, bool changes = true) {
     ASSERT_EQ(whole.rows.size(), never_saved.rows.size());
     ASSERT_GE(whole.checkpoints.size(), 3U);
     bool changed = false;
+    const std::size_t apart = 1 + whole.checkpoints.size() / 5;
+    std::size_t number = 0;
     for (const auto& [step, bytes] : whole.checkpoints) {
+      if (++number % apart != 0) continue;
       const TimeState from = state_of(bytes);
       EXPECT_EQ(bytes_of(from), bytes);
       const Shown resumed = run(3 - threads, true, &from);
       ASSERT_FALSE(resumed.rows.empty());
       EXPECT_GT(resumed.rows.front().step, step);
       expect_end_of(whole, resumed);
-      const Index before = changed_in(from.record);
-      changed |= before > 0 && before < changed_in(whole.rows.back());
+      const double before = lost_in(from.record);
+      changed |= before != 0.0 && before != lost_in(whole.rows.back());
     }
     EXPECT_EQ(changed, changes);
   }
@@ -147,6 +148,8 @@ struct BlockRun {
   int rows = 20;
 };
 
+std::ostream& operator<<(std::ostream& out, const BlockRun& run) { return out << run.block; }
+
 class ResumedBlocks : public testing::TestWithParam<BlockRun> {};
 
 TEST_P(ResumedBlocks, RepeatTheRunThatWasNeverStopped) {
@@ -187,7 +190,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(ResumedMotion, OfParticlesThatCrack) {
   for (const int dim : {2, 3}) {
     expect_to_go_on([dim](int threads, bool saves, const TimeState* from) {
-      AnalysisBody body = free_body(unstructured_particles(dim, dim == 2 ? 46 : 5).network);
+      AnalysisBody body = free_body(unstructured_particles(dim, dim == 2 ? 46 : 7).network);
       Particles& particles = body.network.particles;
       const auto x = [&](Index i) { return particles.position(i)[0]; };
       for (Index i = 0; i < particles.size(); ++i) {
@@ -233,10 +236,15 @@ TEST(ResumedMotion, OfBlocksThatRelaxAndBreak) {
   for (const bool green : {false, true}) {
     expect_to_go_on([green](int threads, bool saves, const TimeState* from) {
       RelaxationOptions options;
-      options.load_factors = even_factors(16, green ? 0.9 : 0.8);
+      options.load_factors = even_factors(24, 0.35);
       options.tolerance = 1e-5;
       options.strain = green ? Strain::green : Strain::small;
-      return relax(breaking_block({.lattice = plane, .driven = true, .columns = green ? 10 : 46}),
+      const int columns = green ? 10 : 46;
+      return relax(breaking_block({.lattice = plane,
+                                   .driven = true,
+                                   .columns = columns,
+                                   .scatter = 0.5,
+                                   .toothed = true}),
                    options, threads, saves, from);
     });
   }
@@ -260,7 +268,7 @@ class ResumedLattices : public testing::TestWithParam<testing_support::LatticeKi
 TEST_P(ResumedLattices, RepeatTheRunThatWasNeverStopped) {
   expect_to_go_on([](int threads, bool saves, const TimeState* from) {
     const ExplicitModel model = testing_support::changing_body(GetParam());
-    ExplicitOptions options = testing_support::short_run(model, 91);
+    ExplicitOptions options = testing_support::short_run(model, model.lattice.dim == 2 ? 91 : 41);
     options.rows = 12;
     options.threads = threads;
     options.reference = 1e-6;
