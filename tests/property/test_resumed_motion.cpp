@@ -236,7 +236,7 @@ TEST(ResumedMotion, OfBlocksThatRelaxAndBreak) {
   for (const bool green : {false, true}) {
     expect_to_go_on([green](int threads, bool saves, const TimeState* from) {
       RelaxationOptions options;
-      options.load_factors = even_factors(24, 0.35);
+      options.load_factors = green ? even_factors(24, 0.35) : even_factors(12, 0.18);
       options.tolerance = 1e-5;
       options.strain = green ? Strain::green : Strain::small;
       const int columns = green ? 10 : 46;
