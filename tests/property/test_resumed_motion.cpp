@@ -29,7 +29,7 @@ using namespace test;
 /// All that a run shows.
 struct Shown {
   std::vector<ExplicitRecord> rows;
-  std::vector<std::string> states;           ///< bytes of the observed state, per row
+  std::vector<std::size_t> states;           ///< hashes of the observed state, per row
   std::map<Index, std::string> checkpoints;  ///< by the step of the last row
   std::string result;                        ///< its bytes
 };
@@ -43,7 +43,7 @@ class Saver final : public RunObserver<State> {
 
   void on_row(const ExplicitRecord& record, const State& state) override {
     shown.rows.push_back(record);
-    shown.states.push_back(look_(state));
+    shown.states.push_back(std::hash<std::string>{}(look_(state)));
   }
   bool wants_checkpoint(const ExplicitRecord& last) override {
     return saves_ && std::mt19937(static_cast<unsigned>(last.step))() % 2 == 0;
@@ -268,8 +268,10 @@ class ResumedLattices : public testing::TestWithParam<testing_support::LatticeKi
 TEST_P(ResumedLattices, RepeatTheRunThatWasNeverStopped) {
   expect_to_go_on([](int threads, bool saves, const TimeState* from) {
     const ExplicitModel model = testing_support::changing_body(GetParam());
-    ExplicitOptions options = testing_support::short_run(model, model.lattice.dim == 2 ? 91 : 41);
-    options.rows = 12;
+    // In one body every step has a row, with the forces of the step before.
+    const bool steps = model.lattice.dim == 2 && !GetParam().yields;
+    ExplicitOptions options = testing_support::short_run(model, model.lattice.dim == 2 ? 91 : 31);
+    options.rows = steps ? 91 : 12;
     options.threads = threads;
     options.reference = 1e-6;
     ExplicitState state(model);

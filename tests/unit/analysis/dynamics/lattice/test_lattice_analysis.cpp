@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "analysis/dynamics/lattice/rows/row_kernels.hpp"
+#include "analysis/dynamics/time_state.hpp"
 #include "support/lattice_models.hpp"
 #include "support/lattice_operator.hpp"
 
