@@ -82,7 +82,7 @@ std::vector<std::string> words_of_member(const ScanRun& run, std::size_t member,
   std::vector<std::string> words = {"run",       run.scan.case_path,
                                     "--out",     run.place(member).string(),
                                     "--threads", std::to_string(std::max(options.threads, 1)),
-                                    "--quiet",   "--force"};
+                                    "--quiet",   options.force ? "--force" : "--resume"};
   if (options.trust_geometry) words.emplace_back("--trust-geometry");
   for (const CaseSetting& setting : run.scan.members[member].settings) {
     words.push_back("--set");
@@ -159,7 +159,7 @@ int scan(const ScanOptions& options) {
   if (run.scan.title.empty()) run.scan.title = cases.front().title;
   run.directory =
       options.run.directory ? fs::path(*options.run.directory) : default_result_directory(path);
-  const ResultDirectory hold(run.directory, options.run.force);
+  const ResultDirectory hold(run.directory, options.run.force ? OldResults::removed : OldResults::refused);
   keep_results(run, cases, options.run.force);
   catch_stop_signals();
   write_scan_table(run);
