@@ -28,7 +28,7 @@ struct LoopState {
 
 /// State of the elements of an explicit run (ExplicitBonds); arrays of other kinds of elements are
 /// empty.
-struct ElementState {
+struct MovingElements {
   std::vector<std::uint8_t> intact;  ///< bonds on the stencil, one bit per slot
   /// Directed bonds stored one by one that have left their first segment, ascending.
   std::vector<std::uint64_t> changed;
@@ -51,7 +51,7 @@ struct BondsState {
   /// Energies since the beginning, per block of particles [force length].
   std::vector<double> fractured, external_work, damping_work;
   std::vector<Index> broken;  ///< order of breaking
-  ElementState elements;
+  MovingElements elements;
 
   template <class Archive>
   void serialize(Archive& archive) {

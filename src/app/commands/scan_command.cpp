@@ -159,7 +159,8 @@ int scan(const ScanOptions& options) {
   if (run.scan.title.empty()) run.scan.title = cases.front().title;
   run.directory =
       options.run.directory ? fs::path(*options.run.directory) : default_result_directory(path);
-  const ResultDirectory hold(run.directory, options.run.force ? OldResults::removed : OldResults::refused);
+  const ResultDirectory hold(run.directory,
+                             options.run.force ? OldResults::removed : OldResults::refused);
   keep_results(run, cases, options.run.force);
   catch_stop_signals();
   write_scan_table(run);

@@ -24,7 +24,7 @@ namespace {
 
 /// Returns the number of rows between checkpoints for which they take about 2 % of the run time,
 /// by counted work: a new engine over an event. A run of some seconds has none.
-Index rows_between_checkpoints(const FactorStatistics& factor, const Network& network) {
+Index rows_of_events(const FactorStatistics& factor, const Network& network) {
   constexpr double flops_per_second = 10e9, bytes_per_second = 10e9, part = 0.02;
   constexpr double least_seconds = 10.0;
   constexpr double per_unknown = 3e-6, per_element = 1e-6, per_event = 5e-5;
@@ -71,7 +71,7 @@ void DamageRun::analyse() {
 void DamageRun::follow() {
   if (records_.checkpoint_rows == 0) {
     records_.checkpoint_rows = input.output.checkpoint_every.value_or(
-        rows_between_checkpoints(run_->result().factor, model_.network));
+        rows_of_events(run_->result().factor, model_.network));
   }
   try {
     while (const StepRecord* row = run_->next()) {

@@ -33,8 +33,8 @@ class Halves final : public ExplicitBonds {
                     std::span<double> force) override;
   double stored(Index begin, Index end, double time_step, const BondMotion& motion) const override;
   std::vector<double> secants() const override;
-  void save(ElementState& state) const override;
-  void restore(const ElementState& state) override;
+  void save(MovingElements& state) const override;
+  void restore(const MovingElements& state) override;
 
  private:
   static constexpr int width = Half::width;
@@ -228,7 +228,7 @@ std::vector<double> Halves<Half>::secants() const {
 
 /// Saves stiffnesses too: they are products of the ratios of all segments that a bond has left.
 template <class Half>
-void Halves<Half>::save(ElementState& state) const {
+void Halves<Half>::save(MovingElements& state) const {
   for (std::size_t half = 0; half < segment_.size(); ++half) {
     if (segment_[half] == 0) continue;
     state.changed.push_back(half);
@@ -238,7 +238,7 @@ void Halves<Half>::save(ElementState& state) const {
 }
 
 template <class Half>
-void Halves<Half>::restore(const ElementState& state) {
+void Halves<Half>::restore(const MovingElements& state) {
   std::size_t moduli = 0;
   for (std::size_t k = 0; k < state.changed.size(); ++k) {
     const std::size_t half = state.changed[k];

@@ -94,11 +94,11 @@ class EmbeddedSlipSprings final : public ExplicitBonds {
     return secants;
   }
 
-  void save(ElementState& state) const override {
+  void save(MovingElements& state) const override {
     for (const Share& share : shares_) state.slip_segment.push_back(share.segment);
     if (others_) others_->save(state);
   }
-  void restore(const ElementState& state) override {
+  void restore(const MovingElements& state) override {
     expect_equal_sizes(state.slip_segment.size(), shares_.size());
     for (std::size_t k = 0; k < shares_.size(); ++k) {
       Share& share = shares_[k];

@@ -7,7 +7,7 @@
 
 namespace perilink {
 
-struct ElementState;
+struct MovingElements;
 
 /// Motion of a network at step n: displacements now, velocities half a step earlier, both of shape
 /// (particles, width).
@@ -64,10 +64,10 @@ class ExplicitBonds {
   virtual std::vector<double> damage() const { return {}; }
 
   /// Writes the values between two steps that set-up cannot rebuild.
-  virtual void save(ElementState& state) const = 0;
+  virtual void save(MovingElements& state) const = 0;
   /// Continues from saved values, in elements just constructed from the same network.
   /// \throws std::invalid_argument where the state is that of another body
-  virtual void restore(const ElementState& state) = 0;
+  virtual void restore(const MovingElements& state) = 0;
 };
 
 }  // namespace perilink

@@ -78,12 +78,12 @@ class StateParticles final : public ExplicitBonds {
   double stored(Index begin, Index end, double time_step, const BondMotion& motion) const override;
   std::vector<double> secants() const override;
   std::vector<double> damage() const override { return damage_; }
-  void save(ElementState& state) const override {
+  void save(MovingElements& state) const override {
     state.damage = damage_;
     state.last_damage = next_;
     state.cracked = cracked_;
   }
-  void restore(const ElementState& state) override;
+  void restore(const MovingElements& state) override;
 
  private:
   std::span<const StateHalf<Dim>> halves_of(Index i) const {
@@ -306,7 +306,7 @@ std::vector<double> StateParticles<Dim>::secants() const {
 
 /// The factors are those of the damage in the last step.
 template <int Dim>
-void StateParticles<Dim>::restore(const ElementState& state) {
+void StateParticles<Dim>::restore(const MovingElements& state) {
   expect_equal_sizes(state.damage.size(), damage_.size());
   expect_equal_sizes(state.last_damage.size(), next_.size());
   expect_equal_sizes(state.cracked.size(), cracked_.size());

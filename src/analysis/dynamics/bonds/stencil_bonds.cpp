@@ -41,11 +41,11 @@ class StencilBonds final : public ExplicitBonds {
                     std::span<double> force) override;
   double stored(Index begin, Index end, double time_step, const BondMotion& motion) const override;
   std::vector<double> secants() const override;
-  void save(ElementState& state) const override {
+  void save(MovingElements& state) const override {
     state.intact = intact_;
     if (rest_) rest_->save(state);
   }
-  void restore(const ElementState& state) override {
+  void restore(const MovingElements& state) override {
     expect_equal_sizes(state.intact.size(), intact_.size());
     intact_ = state.intact;
     if (rest_) rest_->restore(state);

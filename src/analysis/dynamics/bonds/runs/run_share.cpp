@@ -28,8 +28,8 @@ class LeadingBonds final : public ExplicitBonds {
     share_.collect_secants(secants);
     return secants;
   }
-  void save(ElementState& /*state*/) const override { refuse(); }
-  void restore(const ElementState& /*state*/) override { refuse(); }
+  void save(MovingElements& /*state*/) const override { refuse(); }
+  void restore(const MovingElements& /*state*/) override { refuse(); }
 
  private:
   [[noreturn]] static void refuse() {

@@ -208,7 +208,7 @@ TEST(ExplicitBonds, RestoredOnesPullAsTheSavedOnes) {
     for (const double part : {0.4, 0.6, 0.9}) {
       all_forces(body, *bonds, motion_of_body(body, part * size, 3), 0.1);
     }
-    ElementState state;
+    MovingElements state;
     bonds->save(state);
     ASSERT_GT(state.changed.size(), 20U);
     const auto restored = make_explicit_halves(body.network);

@@ -99,7 +99,7 @@ TEST(EmbeddedSlipSprings, RestoredOnesPullAsTheSavedOnes) {
   const BondMotion falling = motion_of(network, 0.003, 0.0), motion = motion_of(network, 0.01, 0.0);
   std::vector<double> expected(falling.displacement.size(), 0.0), found = expected;
   bonds->forces(0, count, 0.1, falling, expected);
-  ElementState state;
+  MovingElements state;
   bonds->save(state);
   restored->restore(state);
   EXPECT_NE(bonds->secants(), intact(network));

@@ -264,7 +264,7 @@ TEST_P(ExplicitParticles, RestoredOnesPullAsTheSavedOnes) {
     step(*bonds, stressed(stretching * strength, 0.0));
     bonds->finish_step();
   }
-  ElementState state;
+  MovingElements state;
   bonds->save(state);
   ASSERT_NE(state.damage, state.last_damage);
   restored->restore(state);

@@ -198,7 +198,7 @@ TEST_P(StencilBodies, RestoredOnesPullAsTheSavedOnes) {
   const auto bonds = make_explicit_bonds(network_), restored = make_explicit_bonds(network_);
   const BondMotion breaking = random_motion(network_, size_, 21);
   ASSERT_FALSE(forces_of_all(network_, *bonds, breaking, 0.1).losses.broken.empty());
-  ElementState state;
+  MovingElements state;
   bonds->save(state);
   restored->restore(state);
   EXPECT_EQ(restored->secants(), bonds->secants());
