@@ -31,7 +31,7 @@ namespace {
 constexpr const char* footer =
     "Exit status: 0 done (also when the specimen collapsed), 2 bad input, 3 solver failure,\n"
     "4 interrupted (results so far are kept). Case files are described in docs/case_file.md,\n"
-    "studies in docs/studies.md, comparisons in docs/compare.md.";
+    "studies in docs/studies.md, comparisons in docs/compare.md, reports in docs/report.md.";
 
 /// Larger scales draw round-off only.
 constexpr double largest_scale = 1e12;
@@ -89,6 +89,16 @@ void add_plot_command(CLI::App& app, PlotOptions& options) {
   command->add_option("--out", options.out, "Directory of the pictures [the same]");
   command->add_option("--scale", options.scale, "Factor on the displacements [automatic]")
       ->check(is_scale);
+}
+
+const CLI::App* add_report_command(CLI::App& app, ReportOptions& options) {
+  CLI::App* command = app.add_subcommand(
+      "report",
+      "Write one HTML page: case, curves, growing crack, energies; several runs together");
+  command->add_option("directories", options.directories, "Directories of the results")->required();
+  command->add_option("--out", options.file,
+                      "The page [report.html in the directory; of several runs in this folder]");
+  return command;
 }
 
 /// Ends the program after an uncaught failure, such as exhausted memory in a parallel loop. Files
@@ -160,6 +170,9 @@ int run_program(int argc, char** argv) {
   CompareOptions compared;
   const CLI::App* compare_command = add_compare_command(app, compared);
 
+  ReportOptions report;
+  const CLI::App* report_command = add_report_command(app, report);
+
   std::string checked_case;
   CLI::App* check_command =
       app.add_subcommand("check", "Validate a case; print its sizes, expected memory and time");
@@ -190,6 +203,7 @@ int run_program(int argc, char** argv) {
     if (run_command->parsed()) return run_case(run);
     if (converge_command->parsed()) return converge(study);
     if (compare_command->parsed()) return compare(compared);
+    if (report_command->parsed()) return make_report(report);
     if (check_command->parsed()) return check_case(checked_case, run.trust_geometry);
     return plot_results(plot);
   });
