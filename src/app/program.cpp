@@ -70,6 +70,14 @@ void add_run_options(CLI::App& command, RunOptions& options) {
   add_trust_option(command, options.trust_geometry);
 }
 
+const CLI::App* add_check_command(CLI::App& app, std::string& path, bool& trust_geometry) {
+  CLI::App* command =
+      app.add_subcommand("check", "Validate a case; print its sizes, expected memory and time");
+  command->add_option("case", path, "Case file (.toml)")->required();
+  add_trust_option(*command, trust_geometry);
+  return command;
+}
+
 const CLI::App* add_compare_command(CLI::App& app, CompareOptions& options) {
   CLI::App* command = app.add_subcommand(
       "compare", "Compare two results: peaks, curves, energies, cracks, times, overlay plot");
@@ -98,6 +106,7 @@ const CLI::App* add_report_command(CLI::App& app, ReportOptions& options) {
   command->add_option("directories", options.directories, "Directories of the results")->required();
   command->add_option("--out", options.file,
                       "The page [report.html in the directory; of several runs in this folder]");
+  command->add_flag("--watch", options.watch, "Renew the page until all runs have ended");
   return command;
 }
 
@@ -174,10 +183,7 @@ int run_program(int argc, char** argv) {
   const CLI::App* report_command = add_report_command(app, report);
 
   std::string checked_case;
-  CLI::App* check_command =
-      app.add_subcommand("check", "Validate a case; print its sizes, expected memory and time");
-  check_command->add_option("case", checked_case, "Case file (.toml)")->required();
-  add_trust_option(*check_command, run.trust_geometry);
+  const CLI::App* check_command = add_check_command(app, checked_case, run.trust_geometry);
 
   PlotOptions plot;
   add_plot_command(app, plot);

@@ -24,7 +24,7 @@ namespace {
 bool is_result_file(const std::string& name) {
   constexpr std::array<std::string_view, 10> names = {
       "case.toml",  "history.csv",           "timing.csv", "summary.json", "fields.pvd", "log.txt",
-      "study.toml", "load_displacement.svg", "table.csv", "report.html"};
+      "study.toml", "load_displacement.svg", "table.csv",  "report.html"};
   for (const std::string_view known : names) {
     if (name == known) return true;
   }

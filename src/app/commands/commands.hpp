@@ -42,6 +42,7 @@ int compare(const CompareOptions& options);
 struct ReportOptions {
   std::vector<std::string> directories;  ///< of the results, at least one
   std::optional<std::string> file;       ///< the page; absent: report.html, in the only directory
+  bool watch = false;                    ///< write the page again until all runs have ended
 };
 /// Writes an HTML page that shows the results of runs.
 /// \returns the exit status

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include "app/commands/commands.hpp"
 #include "app/process/console.hpp"
@@ -15,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Characters of the fields in a report; the rest of three million are for rows and programs.
-constexpr std::size_t most_characters = 2'100'000;
+/// Characters of rows and fields in a report; the rest of three million are for programs and texts.
+constexpr std::size_t most_characters = 2'600'000;
 
 void require_library() {
   if (!report_assets().library.empty()) return;
@@ -38,6 +40,22 @@ void refuse_other_file(const fs::path& path) {
       path.string()));
 }
 
+/// Writes the page. \return whether one of the runs goes on
+bool write_report(const ReportOptions& options, const fs::path& path) {
+  refuse_other_file(path);
+  ReportStreams streams;
+  nlohmann::ordered_json runs = nlohmann::ordered_json::array();
+  bool is_running = false;
+  for (const std::string& directory : options.directories) {
+    runs.push_back(report_run(directory, most_characters / options.directories.size(), streams));
+    is_running = is_running || runs.back()["is_running"].get<bool>();
+  }
+  const std::string page = report_page(runs, streams, is_running);
+  write_whole_file(path.string(), page);
+  say(fmt::format("{} ({:.1f} MB)\n", path.string(), 1e-6 * static_cast<double>(page.size())));
+  return is_running;
+}
+
 }  // namespace
 
 int make_report(const ReportOptions& options) {
@@ -46,17 +64,9 @@ int make_report(const ReportOptions& options) {
                         : options.directories.size() > 1
                             ? fs::path("report.html")
                             : fs::path(options.directories.front()) / "report.html";
-  ReportStreams streams;
-  nlohmann::ordered_json runs = nlohmann::ordered_json::array();
-  bool is_running = false;
-  for (const std::string& directory : options.directories) {
-    runs.push_back(report_run(directory, most_characters / options.directories.size(), streams));
-    is_running = is_running || runs.back()["is_running"].get<bool>();
+  while (write_report(options, path) && options.watch) {
+    std::this_thread::sleep_for(std::chrono::seconds(seconds_between_loads));
   }
-  refuse_other_file(path);
-  const std::string page = report_page(runs, streams, is_running);
-  write_whole_file(path.string(), page);
-  say(fmt::format("{} ({:.1f} MB)\n", path.string(), 1e-6 * static_cast<double>(page.size())));
   return exit_done;
 }
 

@@ -1,7 +1,7 @@
 // The body of a run with a slider through its rows, and the choices that all bodies share.
 const panels = [];
 const choices = { field: null, scale: null, range: "all", hide: 0, cut: "none", cutAt: 0.5, together: true };
-const mostPositions = 300;
+const mostPositions = 300, legendWidth = 90;
 
 class Panel {
   constructor(run) {
@@ -14,8 +14,9 @@ class Panel {
     this.value = make("output", { class: "says" });
     const button = (text, act) => make("button", { type: "button", onclick: act }, text);
     this.player = button("Play", () => this.play());
-    this.element = make("figure", {}, make("figcaption", {}, run.title),
-      make("div", { class: "stage" }, this.canvas, this.over),
+    this.stage = make("div", { class: "stage" }, this.canvas, this.over);
+    this.element = make("figure", {}, runs.length > 1 ? make("figcaption", {}, run.title) : null,
+      this.stage,
       make("div", { class: "slide" }, this.player, this.slider), this.says, this.value,
       make("div", { class: "tools" }, button("Whole body", () => this.drawing.reset()),
         button("PNG", () => this.savePng()), button("CSV", () => this.saveCsv())));
@@ -24,6 +25,9 @@ class Panel {
   async open() {
     this.model = await readBody(this.body);
     this.drawing = new (this.body.dimension === 3 ? Space : Plane)(this.canvas, this.model, this.run);
+    const [width, height] = this.drawing.ranges.map(([a, b]) => b - a);
+    const shape = this.body.dimension === 3 ? 0.45 : height / (width || height || 1);
+    this.stage.style.aspectRatio = String(1 / Math.min(Math.max(0.85 * shape, 0.28), 0.52));
     this.setPositions();
     this.setFaces();
     this.canvas.addEventListener("pointermove", (event) => this.tell(event));
@@ -50,6 +54,7 @@ class Panel {
     this.slider.max = String(this.positions.length - 1);
     this.slider.disabled = this.positions.length < 2;
     this.position = this.positions.length - 1;
+    this.row = this.positions[this.position];
   }
   // Broken bonds between nearest neighbours, of which the faces of cracks are drawn.
   setFaces() {
@@ -65,13 +70,14 @@ class Panel {
       if (length > 0 && length <= nearest * Math.max(sizes[i], sizes[j])) this.faces.push({ k, length });
     }
   }
-  // Shows a position; other bodies follow to the row of the nearest displacement.
-  move(position, follow = true) {
+  // Shows a position, or a row near it; other bodies follow to the row of the nearest displacement.
+  move(position, follow = true, row = null) {
     this.position = Math.min(Math.max(position, 0), this.positions.length - 1);
+    this.row = row ?? this.positions[this.position];
     this.slider.value = String(this.position);
     this.show();
     if (!follow || !choices.together) return;
-    const u = this.run.history.column("displacement")[this.positions[this.position]];
+    const u = this.run.history.column("displacement")[this.row];
     const share = this.position / Math.max(this.positions.length - 1, 1);
     for (const other of panels) {
       if (other === this || !other.positions) continue;
@@ -84,12 +90,9 @@ class Panel {
       other.move(best, false);
     }
   }
-  get row() {
-    return this.positions[this.position];
-  }
-  goTo(row) {
+  goTo(row, follow = true) {
     const at = this.positions.findIndex((known) => known >= row);
-    this.move(at < 0 ? this.positions.length - 1 : at);
+    this.move(at < 0 ? this.positions.length - 1 : at, follow, row);
   }
   play() {
     if (this.timer) {
@@ -211,7 +214,7 @@ class Panel {
     c.textAlign = "right";
     c.fillText(withBrackets(scale.name, scale.unit), width - 8, bottom - high - 10);
     c.textAlign = "left";
-    const length = ticksOf(0, 130 / this.drawing.pixels, 2).pop() || 0, px = length * this.drawing.pixels;
+    const length = niceBelow(130 / this.drawing.pixels), px = length * this.drawing.pixels;
     c.fillRect(12, height - 14, px, 2);
     c.fillText(`${withUnit(short(length), this.run.length_unit)}, displacements × ` +
       short(displacementScale()), 12, height - 20);

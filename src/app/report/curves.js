@@ -20,8 +20,7 @@ class Chart {
       button("PNG", () => this.savePng()), button("SVG", () => this.saveSvg()),
       button("CSV", () => this.runs.forEach((run) =>
         save(run.name + "_history.csv", run.history.text, "text/csv"))));
-    this.element = make("figure", {}, make("figcaption", {}, title), tools, this.legend, this.box,
-      this.says);
+    this.element = make("figure", {}, tools, this.legend, this.box, this.says);
     charts.push(this);
   }
   choice(label, names, axis) {
@@ -66,7 +65,7 @@ class Chart {
         curve.points.push([x[row], y[row], row]);
       }
       if (!envelope) return;
-      list.push({ run, label: of + (of ? " " : "") + "envelope of equal energy", color: color(r),
+      list.push({ run, label: (of ? of + ", " : "") + "envelope of equal energy", color: color(r),
         points: envelope.map(([u, p]) => [u, p, -1]), dash: null, pale: false, width: 2.6 });
     }));
     list.forEach((curve, k) => (curve.key = k + " " + curve.label));
@@ -88,6 +87,7 @@ class Chart {
     }));
     data.push([high + margin, ...empty]);
     if (this.graph) this.graph.destroy();
+    this.graph = null;  // the new one draws before it is here
     const axis = { axisLabelFormatter: (value) => short(value), axisLabelWidth: 70 };
     this.graph = new Dygraph(this.box, data, {
       labels: ["x", ...list.map((curve) => curve.key)],
@@ -107,8 +107,8 @@ class Chart {
       drawCallback: () => this.place(),
     });
     this.legend.replaceChildren(...(list.length > 1 ? list.slice(0, 16) : []).map((curve) =>
-      make("span", {}, make("i", { style: "background:" + curve.color + (curve.pale ? "70" : "") }),
-        curve.label)));
+      make("span", {}, make("i", { style: `border-color:${curve.color}${curve.pale ? "70" : ""};` +
+        `border-style:${curve.dash ? "dashed" : "solid"}` }), curve.label)));
     this.place();
   }
   tell(row) {

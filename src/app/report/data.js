@@ -104,6 +104,9 @@ function save(name, content, type) {
   setTimeout(() => URL.revokeObjectURL(url), 10000);
 }
 
+const rangeOf = (values) => values.reduce(([a, b], v) => [Math.min(a, v), Math.max(b, v)],
+  [Infinity, -Infinity]);
+
 const words = (name) => name.replaceAll("_", " ");
 
 // A number with five digits.
@@ -113,6 +116,12 @@ function short(value) {
   const rounded = Number(value.toPrecision(5));
   const size = Math.abs(rounded);
   return size >= 1e6 || size < 1e-4 ? rounded.toExponential() : String(rounded);
+}
+
+// The largest of 1, 2, 5 times a power of ten up to a positive value.
+function niceBelow(value) {
+  const power = 10 ** Math.floor(Math.log10(value));
+  return [5, 2, 1].map((m) => m * power).find((nice) => nice <= value) || power;
 }
 
 const withUnit = (text, unit) => (unit ? text + " " + unit : text);

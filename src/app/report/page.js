@@ -7,10 +7,11 @@ const isTime = (key) => key.startsWith("seconds.") || ["peak_memory_bytes", "fac
   "ranks", "version", "commit", "factorizations", "iterations", "particle_steps_per_second"].includes(key);
 const inSentences = ["title", "units", "analysis", "model", "status", "reason"];
 
-const section = (title, ...content) => make("section", {}, make("h2", {}, title), ...content);
+const section = (title, ...content) => make("section", {}, make("h2", {}, title),
+  ...content.filter(Boolean));
 const list = (kind, texts) => (texts && texts.length
   ? make("ul", { class: kind }, ...texts.map((text) => make("li", {}, text))) : null);
-const beside = (...items) => make("div", { class: "beside" }, ...items);
+const beside = (...items) => make("div", { class: "beside" }, ...items.filter(Boolean));
 
 function tableOf(head, rows, caption = "") {
   const line = (cells, name) => make("tr", {}, ...cells.map((cell) =>
@@ -110,7 +111,7 @@ class BarChart {
 function wordsOf(run) {
   const tables = make("details", {}, make("summary", {}, "The case"),
     ...run.tables.map((table) => tableOf([table.heading, ""], table.entries)));
-  return make("article", {}, make("h3", {}, run.title),
+  return make("article", {}, runs.length > 1 ? make("h3", {}, run.title) : null,
     make("p", {}, run.sentences.join(" ")), list("notes", run.notes),
     list("warnings", (run.summary.doubts || []).map((text) => "Warning: " + text)),
     list("notes", (run.summary.notes || []).map((text) => "Note: " + text)), tables);
@@ -174,7 +175,9 @@ async function showPage() {
   const hash = applyAddress();
   for (const run of runs) run.history = await readHistory(run);
   const pick = (run, row) => panels.filter((panel) => panel.run === run).forEach((panel) => panel.goTo(row));
-  page.append(section("In words", beside(...runs.map(wordsOf))));
+  const differ = runs.some((run) => run.unit_names !== runs[0].unit_names);
+  page.append(section("In words", beside(...runs.map(wordsOf)), list("warnings", differ
+    ? ["Warning: the runs have different units; curves are drawn as numbers"] : [])));
   const addEnergies = addCurves(page, pick);
   await addBodies(page);
   const cracks = listTables("cracks", "Cracks");
@@ -197,7 +200,7 @@ async function showPage() {
   const moveTo = (address) => panels.forEach((panel) => {
     const step = panel.run.history.column("step"), row = Number(address.get("row"));
     const at = step ? step.findIndex((number) => number >= row) : row;
-    address.has("row") && at >= 0 ? panel.goTo(at) : panel.move(panel.position, false);
+    address.has("row") && at >= 0 ? panel.goTo(at, false) : panel.move(panel.position, false);
     if (panel.drawing.rotate && address.has("turn")) panel.drawing.rotate(Number(address.get("turn")),
       Number(address.get("tilt")));
   });
@@ -224,4 +227,10 @@ addEventListener("keydown", (event) => {
   event.preventDefault();
   panels[0].move(panels[0].position + by);
 });
-showPage();
+const complain = (text) =>
+  document.body.append(make("p", { role: "alert", class: "alert" }, text));
+if (typeof DecompressionStream === "undefined") {
+  complain("This browser cannot open the data: it has no DecompressionStream, as browsers since 2023.");
+} else {
+  showPage().catch((error) => complain("The report cannot be shown: " + error.message));
+}

@@ -4,9 +4,7 @@ class Plane {
     Object.assign(this, { canvas, model, run, body: run.body });
     this.zoom = 1;
     this.shift = [0, 0];
-    const range = (values) => values.reduce(([a, b], v) => [Math.min(a, v), Math.max(b, v)],
-      [Infinity, -Infinity]);
-    this.ranges = model.places.map(range);
+    this.ranges = model.places.map(rangeOf);
     const start = { x: 0, y: 0, shift: [0, 0] };
     canvas.addEventListener("pointerdown", (event) => {
       canvas.setPointerCapture(event.pointerId);
@@ -23,7 +21,7 @@ class Plane {
     }, { passive: false });
   }
   magnify(by, x = this.canvas.clientWidth / 2, y = this.canvas.clientHeight / 2) {
-    const middle = [this.canvas.clientWidth / 2, this.canvas.clientHeight / 2];
+    const middle = [(this.canvas.clientWidth - legendWidth) / 2, this.canvas.clientHeight / 2 - 14];
     this.shift = this.shift.map((s, a) => by * s + (1 - by) * ([x, y][a] - middle[a]));
     this.zoom *= by;
     this.redraw();
@@ -34,19 +32,28 @@ class Plane {
     this.redraw();
   }
   redraw() {
-    if (this.view) this.draw(this.view);
+    if (!this.view) return;
+    this.draw(this.view);
+    if (this.onRedraw) this.onRedraw();
+  }
+  // The ranges of displaced particles in all rows.
+  get seen() {
+    return this.ranges.map(([a, b], axis) => {
+      const [low, high] = this.body.fields[axis].range.map((u) => u * displacementScale());
+      return [a + Math.min(low, 0), b + Math.max(high, 0)];
+    });
   }
   get pixels() {  // per length
-    const sizes = this.ranges.map(([a, b]) => b - a + this.body.spacing);
-    return this.zoom * 0.86 * Math.min(this.canvas.clientWidth / sizes[0],
-      this.canvas.clientHeight / sizes[1]);
+    const [width, height] = this.seen.map(([a, b]) => b - a + this.body.spacing);
+    return this.zoom * Math.min((this.canvas.clientWidth - legendWidth - 24) / width,
+      (this.canvas.clientHeight - 70) / height);
   }
   // Fills xs and ys with the places of the displaced particles on the canvas.
   project({ displacement, scale }) {
     const n = this.body.particles, [X, Y] = this.model.places, s = this.pixels;
-    const middle = this.ranges.map(([a, b]) => (a + b) / 2);
-    const left = this.canvas.clientWidth / 2 + this.shift[0] - s * middle[0];
-    const top = this.canvas.clientHeight / 2 + this.shift[1] + s * middle[1];
+    const middle = this.seen.map(([a, b]) => (a + b) / 2);
+    const left = (this.canvas.clientWidth - legendWidth) / 2 + this.shift[0] - s * middle[0];
+    const top = this.canvas.clientHeight / 2 - 14 + this.shift[1] + s * middle[1];
     this.xs = new Float32Array(n);
     this.ys = new Float32Array(n);
     for (let i = 0; i < n; ++i) {
@@ -107,16 +114,19 @@ class Plane {
     c.stroke();
   }
   // Broken bonds between neighbours are drawn as the faces between their cells, on both sides; all
-  // broken bonds as hairlines where there are few.
+  // broken bonds as hairlines where there are few and no gap is seen.
   drawCracks(c, { faces, loose, lines }) {
     const { places: [X, Y], broken: [first, second], sizes } = this.model, s = this.pixels;
     const width = Math.min(Math.max(0.12 * s * this.body.spacing, 0.9), 3);
     if (lines.length < 2000) {
       c.beginPath();
       for (const k of lines) {
-        if (loose(first[k]) || loose(second[k])) continue;
-        c.moveTo(this.xs[first[k]], this.ys[first[k]]);
-        c.lineTo(this.xs[second[k]], this.ys[second[k]]);
+        const i = first[k], j = second[k];
+        const drawn = Math.hypot(this.xs[j] - this.xs[i], this.ys[j] - this.ys[i]);
+        const before = s * Math.hypot(X[j] - X[i], Y[j] - Y[i]);
+        if (loose(i) || loose(j) || drawn - before > 0.5 * s * this.body.spacing) continue;
+        c.moveTo(this.xs[i], this.ys[i]);
+        c.lineTo(this.xs[j], this.ys[j]);
       }
       c.strokeStyle = rgb(faceColor(0));
       c.globalAlpha = Math.min(Math.max(60 / (lines.length + 1), 0.08), 0.4);

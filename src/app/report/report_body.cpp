@@ -211,13 +211,16 @@ Json report_body(const fs::path& directory, double peak_time, std::size_t most,
   const PlotBody body = read_body(last_grid, last_path);
   const std::vector<ReportField> fields = fields_of(last_grid, body.dim);
 
+  const std::size_t stays = streams.add(bytes_of(body));
+  const std::size_t used = streams.texts().back().size();
   std::vector<ReportFrame> frames;
   frames.push_back(files.read(files.size() - 1, body, fields));
   // The last file, with most cracks, says how many of its size there is room for.
   ReportStreams trial;
   trial.add(bytes_of(frames.back(), ranges_of(frames, fields.size(), body.kind)));
   const std::vector<std::size_t> shown =
-      shown_files(files.size(), most / trial.texts().front().size(), files.at(peak_time));
+      shown_files(files.size(), (std::max(most, used) - used) / trial.texts().front().size(),
+                  files.at(peak_time));
   frames.clear();
   for (const std::size_t k : shown) frames.push_back(files.read(k, body, fields));
   const ReportRanges ranges = ranges_of(frames, fields.size(), body.kind);
@@ -241,7 +244,7 @@ Json report_body(const fs::path& directory, double peak_time, std::size_t most,
           {"has_bar_stress", !body.bar_stress.empty()},
           {"bar_range", pair_of(ranges.bars)},
           {"stress_unit", unit_of_quantity("stress", units)},
-          {"stream", streams.add(bytes_of(body))},
+          {"stream", stays},
           {"fields", fields_json(fields, ranges, units)},
           {"files", files.size()},
           {"frames", list}};

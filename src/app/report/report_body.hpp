@@ -19,8 +19,8 @@ std::vector<std::size_t> shown_files(std::size_t count, std::size_t most, std::s
 /// file. Every file shown is a stream of the fields in steps of a range (append_steps), and of the
 /// corners of finite elements.
 /// \param peak_time  row of the peak, or its time, as in fields.pvd
-/// \param most       characters of base64 that fields should not exceed; at least three files are
-///                   shown
+/// \param most       characters of base64 that the streams should not exceed; at least three files
+///                   are shown
 /// \throws FileError where a file cannot be read or has other particles than the last
 nlohmann::ordered_json report_body(const std::filesystem::path& directory, double peak_time,
                                    std::size_t most, const UnitNames& units,

@@ -6,11 +6,6 @@
 #include "base/build_info.hpp"
 
 namespace perilink {
-namespace {
-
-constexpr int seconds_between_loads = 5;
-
-}  // namespace
 
 std::string json_for_page(const nlohmann::ordered_json& json) {
   std::string text;

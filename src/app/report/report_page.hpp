@@ -10,6 +10,9 @@ namespace perilink {
 /// First line of every report, by which the program knows its own files.
 inline constexpr const char* report_mark = "<!doctype html><!-- report of perilink -->";
 
+/// Time after which the page of a running case loads itself again [s].
+inline constexpr int seconds_between_loads = 3;
+
 /// Returns a JSON text that ends no script element, in ASCII: < > & are escaped.
 std::string json_for_page(const nlohmann::ordered_json& json);
 

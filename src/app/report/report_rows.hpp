@@ -9,9 +9,8 @@
 
 namespace perilink {
 
-/// Most rows of a history in a report: more than a screen has columns of pixels, several times
-/// over.
-inline constexpr std::size_t most_report_rows = 20000;
+/// Most rows of a history in a report: four for each of 2500 columns of pixels.
+inline constexpr std::size_t most_report_rows = 10000;
 
 /// Returns the rows that show a curve, in their order: all up to `most`, else of each of most / 4
 /// equal parts the first, the last and those of the smallest and largest load.

@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// What is known of a run while its report is made.
+/// A run while its report is made.
 struct ReportedRun {
   fs::path directory;
   Json summary;    ///< summary.json; without one an empty object
@@ -62,6 +62,7 @@ void read_summary(ReportedRun& run) {
   run.json["status"] = status;
   run.json["is_running"] = status == "running";
   run.json["length_unit"] = run.units.length;
+  run.json["unit_names"] = summary ? summary_text(*summary, "units", run.directory) : "";
   run.json["notes"] = Json::array();
   if (!summary) {
     note(run, "the run was killed or is not finished: it has no summary.json");
@@ -80,6 +81,18 @@ std::size_t peak_of(const ReportedRun& run, const std::vector<StepRecord>& recor
   return result.peak_number();
 }
 
+/// Returns the unit of a gauge of the case: a stress, or a displacement.
+std::string unit_of_gauge(const ReportedRun& run, const std::string& name) {
+  const TomlValue* gauges = run.root.find("gauges");
+  for (const TomlValue& gauge : gauges == nullptr ? std::vector<TomlValue>{} : gauges->items) {
+    const TomlValue* known = gauge.find("name");
+    if (known == nullptr || known->text != name) continue;
+    return gauge.find("stress") != nullptr ? unit_of_quantity("stress", run.units)
+                                           : run.units.length;
+  }
+  return "";
+}
+
 /// Adds the rows of the history. \return row of the peak, or its time, as in fields.pvd
 double add_rows(ReportedRun& run, ReportStreams& streams) {
   const std::string path = (run.directory / "history.csv").string();
@@ -96,9 +109,10 @@ double add_rows(ReportedRun& run, ReportStreams& streams) {
   rows["columns"] = Json::array();
   for (const std::string& column : table.columns) {
     const bool is_gauge = !is_history_column(column);
-    rows["columns"].push_back({{"name", printable(column)},
-                               {"unit", is_gauge ? "" : unit_of_quantity(column, run.units)},
-                               {"is_gauge", is_gauge}});
+    rows["columns"].push_back(
+        {{"name", printable(column)},
+         {"unit", is_gauge ? unit_of_gauge(run, column) : unit_of_quantity(column, run.units)},
+         {"is_gauge", is_gauge}});
   }
   if (records.empty()) {
     note(run, "history.csv has no row yet");
@@ -161,12 +175,15 @@ void add_units(const Json& value, const UnitNames& names, Json& units) {
 void add_words(ReportedRun& run) {
   run.json["sentences"] = sentences_of_run(run.summary, run.root, run.units);
   run.json["tables"] = Json::array();
-  for (const CaseTable& table : tables_of_case(run.root, run.units)) {
+  for (const WordedTable& table : tables_of_case(run.root, run.units)) {
     run.json["tables"].push_back({{"heading", table.heading}, {"entries", table.entries}});
   }
   run.json["summary"] = printable_json(run.summary);
   run.json["units"] = Json::object();
   add_units(run.summary, run.units, run.json["units"]);
+  for (const char* column : {"axial_stress", "axial_force", "slip", "bond_stress"}) {
+    run.json["units"][column] = unit_of_quantity(column, run.units);
+  }
 }
 
 }  // namespace
@@ -179,7 +196,9 @@ Json report_run(const std::string& directory, std::size_t most, ReportStreams& s
   read_summary(run);
   read_case(run, streams);
   const double peak_time = add_rows(run, streams);
-  run.json["body"] = report_body(run.directory, peak_time, most, run.units, streams);
+  const std::size_t used = streams.texts().back().size();
+  run.json["body"] =
+      report_body(run.directory, peak_time, std::max(most, used) - used, run.units, streams);
   run.json["cracks"] = cracks_of(run.root);
   add_words(run);
   if (run.json["body"].is_null()) note(run, "there is no field file, so the body is not shown");

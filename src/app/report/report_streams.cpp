@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/text/compressed_text.hpp"
+#include "io/fields/compressed_text.hpp"
 
 namespace perilink {
 namespace {

@@ -159,10 +159,10 @@ std::string sentence_of_energy(const Figures& figure) {
 
 }  // namespace
 
-std::vector<CaseTable> tables_of_case(const TomlValue& root, const UnitNames& units) {
-  std::vector<CaseTable> tables;
+std::vector<WordedTable> tables_of_case(const TomlValue& root, const UnitNames& units) {
+  std::vector<WordedTable> tables;
   for (const TomlValue& value : root.entries) {
-    CaseTable table{heading_of(value.key), {}};
+    WordedTable table{heading_of(value.key), {}};
     if (value.kind == Kind::table) {
       for (const TomlValue& entry : value.entries) {
         const std::string unit = holds_numbers(entry) ? unit_of_quantity(entry.key, units) : "";

@@ -11,13 +11,13 @@
 namespace perilink {
 
 /// A table of a case in words: a heading, and per entry a name and its keys with values and units.
-struct CaseTable {
+struct WordedTable {
   std::string heading;
   std::vector<std::pair<std::string, std::string>> entries;
 };
 
 /// Returns every table of a resolved case, in the file's order.
-std::vector<CaseTable> tables_of_case(const TomlValue& root, const UnitNames& units);
+std::vector<WordedTable> tables_of_case(const TomlValue& root, const UnitNames& units);
 
 /// Returns what a run is and how it ended, in sentences. Unknown facts are left out.
 /// \param summary  summary.json; an empty object where there is none

@@ -44,6 +44,18 @@ function shapeOf(n, isBall) {
   return new Float32Array(floats);
 }
 
+class Instances {
+  constructor(most) {
+    this.floats = new Float32Array(most * instanceFloats);
+    this.count = 0;
+  }
+  add(centre, a, b, c, color) {
+    [centre, a, b, c].forEach((v, k) => this.floats.set(v, instanceFloats * this.count + 3 * k));
+    this.floats.set(color.map((part) => part / 255), instanceFloats * this.count + 12);
+    ++this.count;
+  }
+}
+
 const cross = (p, q) => [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
 const times = (p, factor) => p.map((x) => x * factor);
 // Two unit vectors normal to a unit vector and to each other.
@@ -60,8 +72,7 @@ class Space {
     this.zoom = 1;
     this.shift = [0, 0];
     this.gl = canvas.getContext("webgl2", { antialias: true, preserveDrawingBuffer: true });
-    this.ranges = model.places.map((values) => values.reduce(
-      ([a, b], v) => [Math.min(a, v), Math.max(b, v)], [Infinity, -Infinity]));
+    this.ranges = model.places.map(rangeOf);
     this.middle = this.ranges.map(([a, b]) => (a + b) / 2);
     this.radius = 0.5 * Math.hypot(...this.ranges.map(([a, b]) => b - a)) + this.body.spacing;
     if (!this.gl) return;
@@ -137,8 +148,8 @@ class Space {
   get pixels() {  // per length; the seen size of the box fits the canvas
     const sizes = this.axes().map((axis) => axis.reduce(
       (sum, x, a) => sum + Math.abs(x) * (this.ranges[a][1] - this.ranges[a][0] + this.body.spacing), 0));
-    return this.zoom * 0.82 * Math.min(this.canvas.clientWidth / sizes[0],
-      this.canvas.clientHeight / sizes[1]);
+    return this.zoom * 0.9 * Math.min((this.canvas.clientWidth - legendWidth) / sizes[0],
+      (this.canvas.clientHeight - 40) / sizes[1]);
   }
   draw(view) {
     this.view = view;
@@ -146,24 +157,23 @@ class Space {
     const at = this.model.places.map((places, axis) => places.map(
       (x, i) => x + view.scale * view.displacement[axis][i]));
     this.at = at;
-    const particles = [], others = [];
-    const add = (list, centre, a, b, c, color) => list.push(...centre, ...a, ...b, ...c,
-      color[0] / 255, color[1] / 255, color[2] / 255);
+    const others = new Instances(2 * this.model.broken[0].length + this.model.segments[0].length +
+      (this.body.square ? this.body.particles : 0));
+    const particles = this.body.square ? others : new Instances(this.body.particles);
     const where = (i) => [at[0][i], at[1][i], at[2][i]];
     const wide = this.body.square ? 0.97 : 1.25;
     for (let i = 0; i < this.body.particles; ++i) {
       if (this.model.kind[i] !== 0 || view.hidden(i)) continue;
       const size = wide * this.model.sizes[i];
-      add(particles, where(i), [size, 0, 0], [0, size, 0], [0, 0, size], view.colors[view.shade[i]]);
+      particles.add(where(i), [size, 0, 0], [0, size, 0], [0, 0, size], view.colors[view.shade[i]]);
     }
-    this.addFaces(view, where, (...values) => add(others, ...values));
-    this.addBars(view, where, (...values) => add(others, ...values));
-    const [cubes, balls] = this.shapes;
-    this.fill(cubes, this.body.square ? others.concat(particles) : others);
-    this.fill(balls, this.body.square ? [] : particles);
+    this.addFaces(view, where, others);
+    this.addBars(view, where, others);
+    this.fill(this.shapes[0], others);
+    if (!this.body.square) this.fill(this.shapes[1], particles);
     this.redraw();
   }
-  addFaces({ faces, loose, hiddenFace }, where, add) {
+  addFaces({ faces, loose, hiddenFace }, where, list) {
     const { places, broken: [first, second], sizes } = this.model;
     faces.forEach((members, step) => members.forEach((k) => {
       const i = first[k], j = second[k], d = places.map((x) => x[j] - x[i]), length = Math.hypot(...d);
@@ -171,25 +181,26 @@ class Space {
       const [t, v] = normalsOf(times(d, 1 / length));
       for (const [end, side] of [[i, 0.5], [j, -0.5]]) {
         if (loose(end) || hiddenFace(end)) continue;
-        add(where(end).map((x, a) => x + side * d[a]), times(d, (0.07 * size) / length), times(t, size),
+        list.add(where(end).map((x, a) => x + side * d[a]), times(d, (0.07 * size) / length), times(t, size),
           times(v, size), faceColor(step));
       }
     }));
   }
-  addBars({ bars }, where, add) {
+  addBars({ bars }, where, list) {
     const [first, second] = this.model.segments;
     for (let k = 0; k < first.length; ++k) {
       const p = where(first[k]), q = where(second[k]), d = q.map((x, a) => x - p[a]);
       const length = Math.hypot(...d);
       if (!(length > 0)) continue;
       const [t, v] = normalsOf(times(d, 1 / length)), wide = 0.25 * this.body.spacing;
-      add(p.map((x, a) => (x + q[a]) / 2), d, times(t, wide), times(v, wide), barColor(bars ? bars[k] : 0));
+      list.add(p.map((x, a) => (x + q[a]) / 2), d, times(t, wide), times(v, wide), barColor(bars ? bars[k] : 0));
     }
   }
-  fill(shape, floats) {
+  fill(shape, { floats, count }) {
     this.gl.bindBuffer(this.gl.ARRAY_BUFFER, shape.instances);
-    this.gl.bufferData(this.gl.ARRAY_BUFFER, new Float32Array(floats), this.gl.DYNAMIC_DRAW);
-    shape.count = floats.length / instanceFloats;
+    this.gl.bufferData(this.gl.ARRAY_BUFFER, floats.subarray(0, count * instanceFloats),
+      this.gl.DYNAMIC_DRAW);
+    shape.count = count;
   }
   redraw() {
     const gl = this.gl, canvas = this.canvas;
@@ -203,7 +214,8 @@ class Space {
     gl.useProgram(this.program);
     const axes = this.axes(), s = this.pixels;
     const factors = [(2 * s) / canvas.clientWidth, (2 * s) / canvas.clientHeight, -0.25 / this.radius];
-    const shifts = [(2 * this.shift[0]) / canvas.clientWidth, (-2 * this.shift[1]) / canvas.clientHeight, 0];
+    const shifts = [(2 * this.shift[0] - legendWidth) / canvas.clientWidth,
+      (-2 * this.shift[1]) / canvas.clientHeight, 0];
     const matrix = new Float32Array(16);
     axes.forEach((axis, row) => {
       for (let a = 0; a < 3; ++a) matrix[4 * a + row] = factors[row] * axis[a];
@@ -223,7 +235,8 @@ class Space {
   // The foremost particle under a point of the canvas, or -1.
   pick(x, y) {
     const [right, up, toward] = this.axes(), s = this.pixels;
-    const left = this.canvas.clientWidth / 2 + this.shift[0], top = this.canvas.clientHeight / 2 + this.shift[1];
+    const left = (this.canvas.clientWidth - legendWidth) / 2 + this.shift[0];
+    const top = this.canvas.clientHeight / 2 + this.shift[1];
     let best = -1, front = -Infinity;
     for (let i = 0; this.at && i < this.body.particles; ++i) {
       if (this.model.kind[i] !== 0 || this.view.hidden(i)) continue;

@@ -38,7 +38,8 @@ TEST(ReportPage, HasAsManyScriptEndsAsBeginnings) {
 }
 
 TEST(ReportPage, NeedsNoOtherFile) {
-  const std::regex outside(R"((src|href)\s*=\s*["']?(https?:)?//|url\((?!#)|@import|sourceMappingURL)");
+  const std::regex outside(
+      R"((src|href)\s*=\s*["']?(https?:)?//|url\((?!#)|@import|sourceMappingURL)");
   EXPECT_FALSE(std::regex_search(page(), outside));
 }
 

@@ -35,11 +35,14 @@ class ReportRuns : public ::testing::Test {
 TEST_F(ReportRuns, RowsAreTheBytesOfTheHistory) {
   write("history.csv", history);
   write("summary.json", R"({"status": "completed", "units": "N, mm", "title": "<b>Beam</b>"})");
-  write("case.toml", "[body]\nspacing = 2\n[[cracks]]\npoints = [[0, 1], [2, 3]]\n");
+  write("case.toml",
+        "[body]\nspacing = 2\n[[cracks]]\npoints = [[0, 1], [2, 3]]\n"
+        "[[gauges]]\nname = \"cmod\"\n");
   const auto json = run();
   EXPECT_EQ(stream(json["rows"]["stream"]), history);
   EXPECT_EQ(json["rows"]["columns"][1]["unit"], "N");
   EXPECT_EQ(json["rows"]["columns"][3]["is_gauge"], true);
+  EXPECT_EQ(json["rows"]["columns"][3]["unit"], "mm");
   EXPECT_EQ(json["rows"]["peak"], (nlohmann::ordered_json{0.3, 5.0}));
   EXPECT_EQ(json["title"], "<b>Beam</b>") << "the page escapes it";
   EXPECT_EQ(json["is_running"], false);

@@ -39,7 +39,7 @@ fields_at = []
 }
 
 TEST(ReportWords, TablesHaveNamesValuesAndUnits) {
-  const std::vector<CaseTable> tables = tables_of_case(plate(), newtons);
+  const std::vector<WordedTable> tables = tables_of_case(plate(), newtons);
   ASSERT_EQ(tables.size(), 7u) << "a title is no table";
   EXPECT_EQ(tables[0].heading, "Body");
   EXPECT_EQ(tables[0].entries.at(1), std::pair(std::string("thickness"), std::string("50 mm")));

@@ -1,4 +1,4 @@
-#include "io/text/compressed_text.hpp"
+#include "io/fields/compressed_text.hpp"
 
 #include <gtest/gtest.h>
 
