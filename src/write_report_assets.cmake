@@ -1,6 +1,8 @@
 # cmake -DFOLDER=src/app/report -DDYGRAPHS=program|style|licence -DOUT=FILE -P this file: writes the
 # source that holds the texts of reports as literals.
 
+cmake_minimum_required(VERSION 3.25)  # empty elements of lists count
+
 # embed(RESULT FILES...): a literal of the files, one after the other; without files an empty one.
 function(embed result)
   set(literal)

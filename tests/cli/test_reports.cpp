@@ -45,6 +45,15 @@ class Reports : public testing::Test {
   TemporaryDirectory temporary_;
 };
 
+TEST(ReportsWithoutTheLibrary, AreRefusedWithTheNameOfThePackage) {
+  if (!report_assets().library.empty()) GTEST_SKIP() << "built with dygraphs";
+  const TemporaryDirectory temporary;
+  fs::create_directories(temporary / "work");
+  const ProcessEnd end = run_program(temporary / "work", {"report", "."});
+  EXPECT_EQ(end.exit_status, 2);
+  EXPECT_THAT(end.err, HasSubstr("Debian: libjs-dygraphs"));
+}
+
 TEST_F(Reports, ThePageHoldsTheNumbersAndNeedsNoNetwork) {
   make_result("a", "Block </script><img src=x> & 'so'");
   const ProcessEnd end = run({"report", "results/a"});

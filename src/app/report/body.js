@@ -52,7 +52,7 @@ class Panel {
     }
     this.positions = [...chosen].sort((a, b) => a - b);
     this.slider.max = String(this.positions.length - 1);
-    this.slider.disabled = this.positions.length < 2;
+    this.slider.disabled = this.player.disabled = this.positions.length < 2;
     this.position = this.positions.length - 1;
     this.row = this.positions[this.position];
   }

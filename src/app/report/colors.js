@@ -28,7 +28,7 @@ class Scale {
   }
   color(part) {
     if (this.isSigned) return mixed(signedStops, part);
-    return mixed(risingStops, isDark() ? 0.95 - 0.9 * part : part);
+    return mixed(risingStops, isDark() ? 0.72 - 0.72 * part : part);
   }
   shade(value) {
     if (this.isDamage && !(value > 0)) return 0;

@@ -5,6 +5,8 @@ const lineColors = () => isDark()
   : ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00"];
 const escaped = (text) => text.replace(/[&<>"']/g, (letter) => "&#" + letter.charCodeAt(0) + ";");
 
+const stageOf = (run, number) => listOf(run.summary.stages)[number - 1] || {};
+
 // Curves of some columns over another one, for all runs. `pick` is called with a run and a row.
 class Chart {
   constructor(runs, title, { x, y, xs = [], ys = [] }, pick) {
@@ -55,11 +57,15 @@ class Chart {
       for (let row = 0; row < x.length; ++row) {
         const number = stage ? stage[row] : 0;
         if (!curve || curve.stage !== number) {
-          const own = stage ? base + ", stage " + number : base;
+          const facts = stageOf(run, number), goesOn = curve && facts.loads &&
+            facts.loads === stageOf(run, curve.stage).loads;
+          const own = stage ? `${base}, ${facts.name || "stage " + number}` : base;
           const at = this.y.length > 1 ? k : stage ? r + number - 1 : r;
           curve = { run, label: own, color: color(at), stage: number, points: [],
             dash: this.y.length > 1 && r > 0 ? [7, 3 + 2 * r] : null,
             pale: Boolean(envelope), width: envelope ? 0.8 : 1.6 };
+          // A stage that changes the loads of the stage before continues its curve.
+          if (goesOn) curve.points.push([x[row - 1], y[row - 1], row - 1]);
           list.push(curve);
         }
         curve.points.push([x[row], y[row], row]);

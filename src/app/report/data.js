@@ -107,6 +107,8 @@ function save(name, content, type) {
 const rangeOf = (values) => values.reduce(([a, b], v) => [Math.min(a, v), Math.max(b, v)],
   [Infinity, -Infinity]);
 
+const listOf = (value) => (Array.isArray(value) ? value : []);
+
 const words = (name) => name.replaceAll("_", " ");
 
 // A number with five digits.

@@ -50,12 +50,13 @@ function numbers(title, fits) {
 
 // Lists of a summary, as cracks and stages, with a column for each key.
 function listTables(key, title) {
-  return runs.filter((run) => Array.isArray(run.summary[key]) && run.summary[key].length).map((run) => {
-    const names = [...new Set(run.summary[key].flatMap((entry) => Object.keys(entry)))];
+  const entriesOf = (run) => listOf(run.summary[key]).filter((entry) => entry instanceof Object);
+  return runs.filter((run) => entriesOf(run).length).map((run) => {
+    const names = [...new Set(entriesOf(run).flatMap((entry) => Object.keys(entry)))];
     const text = (value) => (typeof value === "number" ? value : Array.isArray(value)
-      ? value.map(short).join(", ") : String(value ?? "–"));
+      ? value.map((part) => short(part)).join(", ") : String(value ?? "–"));
     return tableOf(names.map((name) => withBrackets(words(name), run.units[name])),
-      run.summary[key].map((entry) => names.map((name) => text(entry[name]))),
+      entriesOf(run).map((entry) => names.map((name) => text(entry[name]))),
       runs.length > 1 ? title + ": " + run.name : "");
   });
 }
@@ -113,8 +114,8 @@ function wordsOf(run) {
     ...run.tables.map((table) => tableOf([table.heading, ""], table.entries)));
   return make("article", {}, runs.length > 1 ? make("h3", {}, run.title) : null,
     make("p", {}, run.sentences.join(" ")), list("notes", run.notes),
-    list("warnings", (run.summary.doubts || []).map((text) => "Warning: " + text)),
-    list("notes", (run.summary.notes || []).map((text) => "Note: " + text)), tables);
+    list("warnings", listOf(run.summary.doubts).map((text) => "Warning: " + text)),
+    list("notes", listOf(run.summary.notes).map((text) => "Note: " + text)), tables);
 }
 
 function addCurves(page, pick) {
@@ -175,7 +176,8 @@ async function showPage() {
   const hash = applyAddress();
   for (const run of runs) run.history = await readHistory(run);
   const pick = (run, row) => panels.filter((panel) => panel.run === run).forEach((panel) => panel.goTo(row));
-  const differ = runs.some((run) => run.unit_names !== runs[0].unit_names);
+  const unitsOf = (run) => run.unit_names.split(",").slice(0, 2).join().replaceAll(" ", "");
+  const differ = runs.some((run) => unitsOf(run) !== unitsOf(runs[0]));
   page.append(section("In words", beside(...runs.map(wordsOf)), list("warnings", differ
     ? ["Warning: the runs have different units; curves are drawn as numbers"] : [])));
   const addEnergies = addCurves(page, pick);
@@ -218,6 +220,7 @@ darkTheme.addEventListener("change", redraw);
 for (const [event, value] of [["beforeprint", true], ["afterprint", false]]) {
   addEventListener(event, () => {
     printing = value;
+    document.documentElement.classList.toggle("printing", value);
     redraw();
   });
 }

@@ -90,8 +90,8 @@ class Plane {
           const half = (square ? 0.5 * size : 0.52 * size) + (size < 8 ? 0.35 : -0.03 * size);
           c.rect(this.xs[i] - half, this.ys[i] - half, 2 * half, 2 * half);
         } else {
-          c.moveTo(this.xs[i] + 0.58 * size, this.ys[i]);
-          c.arc(this.xs[i], this.ys[i], 0.58 * size, 0, 7);
+          c.moveTo(this.xs[i] + 0.6 * size, this.ys[i]);
+          c.arc(this.xs[i], this.ys[i], 0.6 * size, 0, 7);
         }
       }
       c.fill();

@@ -180,7 +180,8 @@ Json fields_json(const std::vector<ReportField>& fields, const ReportRanges& ran
 /// Returns the table of stresses in bars of a field file; empty where there is none.
 std::string bar_text(const fs::path& directory, const Json& facts) {
   const fs::path path = directory / fmt::format("bars_{:06.0f}.csv", facts.value("step", 0.0));
-  return fs::exists(path) ? read_regular_file(path.string()) : "";
+  std::error_code error;
+  return fs::exists(path, error) ? read_regular_file(path.string()) : "";
 }
 
 }  // namespace
