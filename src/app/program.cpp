@@ -31,7 +31,8 @@ namespace {
 constexpr const char* footer =
     "Exit status: 0 done (also when the specimen collapsed), 2 bad input, 3 solver failure,\n"
     "4 interrupted (results so far are kept). Case files are described in docs/case_file.md,\n"
-    "studies and scans in docs/studies.md, comparisons in docs/compare.md.";
+    "studies and scans in docs/studies.md, comparisons in docs/compare.md, reports in\n"
+    "docs/report.md.";
 
 /// Larger scales draw round-off only.
 constexpr double largest_scale = 1e12;
@@ -128,6 +129,14 @@ const CLI::App* add_scan_command(CLI::App& app, ScanOptions& options) {
   return command;
 }
 
+const CLI::App* add_check_command(CLI::App& app, std::string& path, bool& trust_geometry) {
+  CLI::App* command =
+      app.add_subcommand("check", "Validate a case; print its sizes, expected memory and time");
+  command->add_option("case", path, "Case file (.toml)")->required();
+  add_trust_option(*command, trust_geometry);
+  return command;
+}
+
 const CLI::App* add_compare_command(CLI::App& app, CompareOptions& options) {
   CLI::App* command = app.add_subcommand(
       "compare", "Compare two results: peaks, curves, energies, cracks, times, overlay plot");
@@ -147,6 +156,17 @@ void add_plot_command(CLI::App& app, PlotOptions& options) {
   command->add_option("--out", options.out, "Directory of the pictures [the same]");
   command->add_option("--scale", options.scale, "Factor on the displacements [automatic]")
       ->check(is_scale);
+}
+
+const CLI::App* add_report_command(CLI::App& app, ReportOptions& options) {
+  CLI::App* command = app.add_subcommand(
+      "report",
+      "Write one HTML page: case, curves, growing crack, energies; several runs together");
+  command->add_option("directories", options.directories, "Directories of the results")->required();
+  command->add_option("--out", options.file,
+                      "The page [report.html in the directory; of several runs in this folder]");
+  command->add_flag("--watch", options.watch, "Renew the page until all runs have ended");
+  return command;
 }
 
 /// Ends the program after an uncaught failure, such as exhausted memory in a parallel loop. Files
@@ -219,6 +239,9 @@ int run_program(int argc, char** argv) {
   RunOptions checked;
   const CLI::App* check_command = add_check_command(app, checked);
 
+  ReportOptions report;
+  const CLI::App* report_command = add_report_command(app, report);
+
   PlotOptions plot;
   add_plot_command(app, plot);
 
@@ -245,6 +268,7 @@ int run_program(int argc, char** argv) {
     if (compare_command->parsed()) return compare(compared);
     if (check_command->parsed()) return check_case(checked);
     if (scan_command->parsed()) return scan(scanned);
+    if (report_command->parsed()) return make_report(report);
     return plot_results(plot);
   });
 }

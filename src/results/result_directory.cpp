@@ -22,9 +22,10 @@ namespace {
 
 /// Whether a run of this program writes a file of this name.
 bool is_result_file(const std::string& name) {
-  constexpr std::array<std::string_view, 10> names = {
-      "case.toml", "history.csv", "timing.csv", "summary.json",          "fields.pvd",
-      "log.txt",   "study.toml",  "table.csv",  "load_displacement.svg", "checkpoint.bin"};
+  constexpr std::array<std::string_view, 11> names = {
+      "case.toml",  "history.csv", "timing.csv", "summary.json",          "fields.pvd",
+      "log.txt",    "study.toml",  "table.csv",  "load_displacement.svg", "checkpoint.bin",
+      "report.html"};
   for (const std::string_view known : names) {
     if (name == known) return true;
   }

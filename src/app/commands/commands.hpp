@@ -41,6 +41,17 @@ struct CompareOptions {
 /// \throws FileError
 int compare(const CompareOptions& options);
 
+/// Options of `perilink report`.
+struct ReportOptions {
+  std::vector<std::string> directories;  ///< of the results, at least one
+  std::optional<std::string> file;       ///< the page; absent: report.html, in the only directory
+  bool watch = false;                    ///< write the page again until all runs have ended
+};
+/// Writes an HTML page that shows the results of runs.
+/// \returns the exit status
+/// \throws FileError
+int make_report(const ReportOptions& options);
+
 /// Validates a case, builds its model and prints sizes and expected cost, `perilink check`. Bonds
 /// are calibrated only where the given time step must be checked against the critical one. Nothing
 /// is solved and no file written.
