@@ -28,7 +28,7 @@ class Draw {
 };
 
 std::array<int, 3> steps_of(int dim) {
-  return dim == 2 ? std::array{8, 6, 1} : std::array{5, 3, 3};
+  return dim == 2 ? std::array{8, 5, 1} : std::array{5, 3, 2};
 }
 
 void add_particle(Particles& particles, const Vector3& x, ParticleKind kind) {

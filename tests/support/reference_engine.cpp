@@ -8,17 +8,15 @@
 namespace perilink::test {
 namespace {
 
-using Fine = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-
 /// Pivot of the dense factor over the largest one below which eigenvalues decide [-].
 constexpr double maybe_loose = 1e-9;
 
 /// Extension over the largest motion below which a bond has no contact state [-].
 constexpr double round_off = 1e-12;
 
-/// Eigenvalue over the largest one below which a motion has no stiffness [-]; entries of the matrix
-/// have errors of 1e-16.
-constexpr double no_stiffness = 1e-13;
+/// Eigenvalue over the largest one below which a motion has no stiffness [-]. Round-off of
+/// directions leaves its square.
+constexpr double no_stiffness = 1e-15;
 
 /// Force on a loose motion over the whole load above which it carries load [-].
 constexpr double no_force = 1e-7;
@@ -87,36 +85,63 @@ void ReferenceEngine::begin_stage(std::size_t set) {
 
 /// Assembles the stiffness and solves for both fields. \return false for a mechanism
 bool ReferenceEngine::solve() {
-  stiffness_ = dense_stiffness(network_, secants());
-  if (!network_.support_stiffness.empty()) {
-    stiffness_.diagonal() += view(network_.support_stiffness);
+  stiffness_ = dense_stiffness<long double>(network_, secants());
+  const Eigen::Index slots = stiffness_.rows();
+  for (Eigen::Index slot = 0; slot < slots && !network_.support_stiffness.empty(); ++slot) {
+    stiffness_(slot, slot) += network_.support_stiffness[slot];
   }
-  Eigen::MatrixXd moves = Eigen::MatrixXd::Zero(stiffness_.rows(), unknowns_.count);
-  for (std::size_t slot = 0; slot < unknowns_.number.size(); ++slot) {
-    unknowns_.for_each(slot, [&](Index unknown, double weight) {
-      moves(static_cast<Eigen::Index>(slot), unknown) += weight;
-    });
-  }
-  Eigen::MatrixXd matrix = moves.transpose() * stiffness_ * moves;
-  Eigen::LDLT<Fine> factor(matrix.cast<long double>());
-  loose_.resize(stiffness_.rows(), 0);
-  Eigen::MatrixXd free(matrix.rows(), 0);
+  const Fine columns = restricted(stiffness_);          // K T
+  const Fine matrix = restricted(columns.transpose());  // T'K T
+  Eigen::LDLT<Fine> factor(matrix);
+  Fine free(matrix.rows(), 0);
   if (!(factor.vectorD().minCoeff() > maybe_loose * factor.vectorD().maxCoeff())) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(matrix);
-    const double largest = modes.eigenvalues().maxCoeff();
+    const Eigen::SelfAdjointEigenSolver<Fine> modes(matrix);
+    const long double largest = modes.eigenvalues().maxCoeff();
     free = modes.eigenvectors().leftCols(
         (modes.eigenvalues().array() < no_stiffness * largest).count());
-    loose_ = moves * free;
-    factor.compute((matrix + largest * free * free.transpose()).cast<long double>());
+    factor.compute(matrix + largest * free * free.transpose());
   }
-  const auto find = [&](const Field& field, Eigen::VectorXd& motion) {
-    motion = view(field.prescribed);
-    const Eigen::VectorXd load = moves.transpose() * (view(field.forces) - stiffness_ * motion);
-    motion += moves * factor.solve(load.cast<long double>()).cast<double>();
-    return !((free.transpose() * load).norm() > no_force * load.norm());
+  loose_ = expanded(free).cast<double>();
+  bool held = true;
+  const auto find = [&](const Field& field, Eigen::VectorXd& motion, FineVector& forces) {
+    FineVector fine = view(field.prescribed).cast<long double>();
+    const FineVector load =
+        restricted((view(field.forces).cast<long double>() - stiffness_ * fine).transpose())
+            .transpose();
+    fine += expanded(factor.solve(load));
+    motion = fine.cast<double>();
+    forces = stiffness_ * fine;
+    held = held && !((free.transpose() * load).norm() > no_force * load.norm());
   };
-  const bool growing_held = find(growing_loads_, growing_);
-  return find(constant_loads_, constant_) && growing_held;
+  find(growing_loads_, growing_, growing_forces_);
+  find(constant_loads_, constant_, constant_forces_);
+  return held;
+}
+
+/// Returns M T, for one column of M per slot.
+auto ReferenceEngine::restricted(const Fine& matrix) const -> Fine {
+  Fine result = Fine::Zero(matrix.rows(), unknowns_.count);
+  for (Eigen::Index slot = 0; slot < matrix.cols(); ++slot) {
+    unknowns_.for_each(static_cast<std::size_t>(slot), [&](Index unknown, double weight) {
+      result.col(unknown) += weight * matrix.col(slot);
+    });
+  }
+  return result;
+}
+
+/// Returns T M, for one row of M per unknown.
+auto ReferenceEngine::expanded(const Fine& matrix) const -> Fine {
+  Fine result = Fine::Zero(stiffness_.rows(), matrix.cols());
+  for (Eigen::Index slot = 0; slot < result.rows(); ++slot) {
+    unknowns_.for_each(static_cast<std::size_t>(slot), [&](Index unknown, double weight) {
+      result.row(slot) += weight * matrix.row(unknown);
+    });
+  }
+  return result;
+}
+
+double ReferenceEngine::stored_energy() const {
+  return 0.5 * growing_.dot(growing_forces_.cast<double>());
 }
 
 bool ReferenceEngine::is_loose(Index particle) const {
@@ -186,21 +211,23 @@ auto ReferenceEngine::parabola(const std::function<double(double)>& value) const
 
 /// Returns f'u - R'd of all loads at a load factor.
 double ReferenceEngine::compliance_at(double load_factor) const {
-  const Eigen::VectorXd motion = displacement_at(load_factor), internal = stiffness_ * motion;
-  double sum = 0.0;
+  const Eigen::VectorXd motion = displacement_at(load_factor);
+  long double sum = 0.0;
   for (std::size_t slot = 0; slot < unknowns_.number.size(); ++slot) {
     const auto k = static_cast<Eigen::Index>(slot);
+    const long double internal = constant_forces_[k] + load_factor * growing_forces_[k];
     const double prescribed =
         constant_loads_.prescribed[slot] + load_factor * growing_loads_.prescribed[slot];
     const double force = constant_loads_.forces[slot] + load_factor * growing_loads_.forces[slot];
-    sum += unknowns_.number[slot] != no_index ? force * motion[k] : -internal[k] * prescribed;
+    sum += unknowns_.number[slot] != no_index ? force * motion[k] : -internal * prescribed;
   }
-  return sum;
+  return static_cast<double>(sum);
 }
 
 LoadWork ReferenceEngine::work() const {
   LoadWork work;
-  const Eigen::VectorXd reactions = stiffness_ * growing_, permanent = stiffness_ * constant_;
+  const Eigen::VectorXd reactions = growing_forces_.cast<double>(),
+                        permanent = constant_forces_.cast<double>();
   for (std::size_t slot = 0; slot < unknowns_.number.size(); ++slot) {
     const auto k = static_cast<Eigen::Index>(slot);
     const double f = growing_loads_.forces[slot], constant = constant_loads_.forces[slot];

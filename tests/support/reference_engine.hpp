@@ -66,7 +66,7 @@ class ReferenceEngine {
 
   /// Work products at load factor 1, with those of permanent loads.
   LoadWork work() const;
-  double stored_energy() const { return 0.5 * growing_.dot(stiffness_ * growing_); }
+  double stored_energy() const;
   /// Displacements of all particles by the growing loads, or all loads at a load factor, shape
   /// (particles, width).
   const Eigen::VectorXd& growing() const { return growing_; }
@@ -74,8 +74,6 @@ class ReferenceEngine {
     return constant_ + load_factor * growing_;
   }
   Secants secants() const { return {secants_, axial_}; }
-  const Network& network() const { return network_; }
-  bool is_staged() const { return !body_.sets.empty(); }
   /// Whether a particle has a motion without stiffness.
   bool is_loose(Index particle) const;
   bool has_loose_parts() const { return loose_.cols() > 0; }
@@ -83,6 +81,9 @@ class ReferenceEngine {
   bool has_side(Index element) const;
 
  private:
+  /// Extended precision, so that the condition of a body takes no digits that count.
+  using Fine = Eigen::MatrixX<long double>;
+  using FineVector = Eigen::VectorX<long double>;
   struct Field {
     std::vector<double> forces, prescribed;  ///< shape (particles, width)
   };
@@ -95,6 +96,8 @@ class ReferenceEngine {
 
   void weaken(Index element);
   bool solve();
+  Fine restricted(const Fine& matrix) const;
+  Fine expanded(const Fine& matrix) const;
   bool settle(double direction);
   bool change_some(const std::vector<Index>& wrong);
   std::vector<Index> violated(double direction) const;
@@ -132,9 +135,10 @@ class ReferenceEngine {
   std::vector<int> segments_;
   std::vector<double> secants_, axial_, threshold_;
   std::vector<std::uint8_t> active_;  ///< per particle: its compressive branches are active
-  Eigen::MatrixXd stiffness_;         ///< of all slots, with elastic supports
+  Fine stiffness_;                    ///< of all slots, with elastic supports
   Eigen::MatrixXd loose_;             ///< motions of all slots without stiffness, one per column
   Eigen::VectorXd growing_, constant_;
+  FineVector growing_forces_, constant_forces_;  ///< stiffness times displacements
 };
 
 }  // namespace perilink::test

@@ -187,7 +187,7 @@ ReferenceEvent ReferenceEngine::next_event_towards(double target) const {
   if (direction < 0.0) std::ranges::reverse(all);
   for (const double load_factor : all) {
     const double ahead = direction * (load_factor - load_factor_);
-    if (ahead < 0.0 || direction * (target - load_factor) < 0.0) continue;
+    if (ahead < -tie * std::abs(load_factor) || direction * (target - load_factor) < 0.0) continue;
     const ReferenceEvent event = failing_at(load_factor, direction);
     if (!event.elements.empty()) return or_side_change(event, load_factor);
   }

@@ -9,6 +9,7 @@
 #include "analysis/quasistatic/equilibrium/equilibrium.hpp"
 #include "assembly/stiffness.hpp"
 #include "base/error.hpp"
+#include "base/rare_branch.hpp"
 #include "solver/conjugate_gradients.hpp"
 #include "solver/supernodes/supernodal_kernels.hpp"
 
@@ -89,6 +90,8 @@ FactorStatistics Equilibrium::factor_statistics() const {
 
 /// Chooses by counted work, so that the machine's load and the number of threads do not matter.
 auto Equilibrium::cheapest_way(const Batch& batch) -> Way {
+  if (take_rare_branch("lagging factor")) return Way::gradients;
+  if (take_rare_branch("renewed factor")) return Way::renew;
   const FactorStatistics factor = factor_->statistics();
   const auto elements = static_cast<double>(network_.num_elements());
   const double solution = 2.0 * factor.bytes / factor_bytes;
@@ -118,7 +121,9 @@ std::optional<EventOutcome> Equilibrium::weaken_together(std::span<const Weakeni
     const bool closed = !axial_.empty() && is_closed(change.element);
     return closed || !network_.has_limit(change.element);
   };
-  if (look_closer_ || std::ranges::any_of(changes, stands_alone)) return std::nullopt;
+  if (look_closer_ || std::ranges::any_of(changes, stands_alone) || take_rare_branch("no batch")) {
+    return std::nullopt;
+  }
   changed_sides_.clear();
   Batch batch = batch_of(changes);
   EventOutcome outcome;
@@ -150,7 +155,8 @@ std::optional<EventOutcome> Equilibrium::weaken_together(std::span<const Weakeni
   }
   // Elements whose strain grows very much without their stiffness held the body.
   const bool uncertain = !(outcome.compliance_growth * uncertain_pivot <= removed) ||
-                         !(outcome.pivot > uncertain_pivot) || !resists_without(batch);
+                         !(outcome.pivot > uncertain_pivot) || !resists_without(batch) ||
+                         take_rare_branch("batch taken back");
   if (!uncertain) {
     follow(outcome);
     try {
