@@ -32,6 +32,10 @@ inline constexpr Closeness of_gradients{1e-7, 1e-6, 1e-8};
 /// grows as much.
 inline constexpr double nearly_separated = 1e4;
 
+/// Load factor over that of the first event above which the motion of pieces hides the stretches of
+/// their bonds.
+inline constexpr double far_motion = 100.0;
+
 /// What a comparison has met.
 struct Tally {
   int events = 0, broken = 0, yielded = 0, sides = 0, batches = 0, constant = 0, loose = 0;
@@ -64,7 +68,9 @@ class Comparison {
       engine = std::make_unique<StagedEngine>(body_, options);
     }
     compared_.push_back({std::move(name), std::move(engine), close});
-    if (auto* staged = compared_.back().staged()) EXPECT_FALSE(staged->open_for(1.0).mechanism);
+    if (!body_.sets.empty()) {
+      EXPECT_FALSE(compared_.back().staged()->open_for(1.0).mechanism);
+    }
   }
 
   /// Follows up to `most` events of a body without load cases.
@@ -213,7 +219,8 @@ class Comparison {
     return work.forces + work.supports;
   }
   bool is_nearly_separated() const {
-    return size() > nearly_separated * first_ || size() * nearly_separated < first_;
+    return size() > nearly_separated * first_ || size() * nearly_separated < first_ ||
+           largest_factor_ > far_motion * first_factor_;
   }
 
   void expect_equal_motion(const Compared& each) const {
@@ -244,7 +251,9 @@ class Comparison {
   void expect_equal_events(const Compared& each, const Event& event,
                            const ReferenceEvent& expected) {
     ASSERT_EQ(event.element == no_index, expected.elements.empty())
-        << row(each) << event.element << " at " << event.load_factor;
+        << row(each) << event.element << " at " << event.load_factor << ", now "
+        << reference_.load_factor() << ", ratio "
+        << reference_.ratio_at(event.load_factor, event.element);
     if (event.element == no_index) return;
     EXPECT_EQ(event.changes_side, expected.changes_side) << row(each);
     EXPECT_EQ(event.at_constant_load, expected.at_constant_load) << row(each);
@@ -255,6 +264,7 @@ class Comparison {
     double load_factor = expected.load_factor;
     if (!event.others.empty()) load_factor = middle_of(each, event, load_factor);
     largest_factor_ = std::max(largest_factor_, std::abs(load_factor));
+    if (first_factor_ == 0.0) first_factor_ = std::abs(load_factor);
     EXPECT_NEAR(event.load_factor, load_factor, each.close.load_factor * largest_factor_)
         << row(each);
   }
@@ -282,20 +292,21 @@ class Comparison {
     const bool is_turn =
         std::abs(outcome.released - turn.released) < std::abs(outcome.released - own.released);
     expect_near(each, outcome.released, (is_turn ? turn : own).released, "released");
-    const double factor = reference_.load_factor(), most = factor * factor * scale_;
-    EXPECT_NEAR(outcome.permanent_growth.at(factor), own.permanent_growth.at(factor),
-                each.close.energy * most)
-        << row(each);
-    EXPECT_NEAR(outcome.released_by_permanent.at(factor),
-                (is_turn ? turn : own).released_by_permanent.at(factor), each.close.energy * most)
-        << row(each);
+    const double factor = reference_.load_factor();
+    const auto expect_near_at = [&](const Beside& value, const Beside& expected) {
+      const double most = factor * factor * scale_ + std::abs(expected.at(factor));
+      EXPECT_NEAR(value.at(factor), expected.at(factor), each.close.energy * most) << row(each);
+    };
+    expect_near_at(outcome.permanent_growth, own.permanent_growth);
+    expect_near_at(outcome.released_by_permanent, (is_turn ? turn : own).released_by_permanent);
   }
 
   const LoadedNetwork& body_;
   ReferenceEngine reference_;
   std::vector<Compared> compared_;
   Tally tally_;
-  double tolerance_, first_ = 1.0, scale_ = 1.0, largest_factor_ = 0.0, direction_ = 1.0;
+  double tolerance_, first_ = 1.0, scale_ = 1.0, first_factor_ = 0.0, largest_factor_ = 0.0,
+                     direction_ = 1.0;
   std::size_t set_ = 0;
   bool is_over_ = false;
 };
