@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <stdexcept>
 
@@ -204,7 +205,7 @@ TEST(ExplicitBonds, RestoredOnesPullAsTheSavedOnes) {
                                     .micropolar = micropolar,
                                     .toothed = true});
     const std::vector<double>& limits = body.network.critical_stretch;
-    const double size = 0.2 * *std::min_element(limits.begin(), limits.end());
+    const double size = 0.5 * *std::min_element(limits.begin(), limits.end());
     const auto bonds = make_explicit_halves(body.network);
     for (const double part : {0.4, 0.6, 0.9}) {
       all_forces(body, *bonds, motion_of_body(body, part * size, 3), 0.1);
