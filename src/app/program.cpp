@@ -76,7 +76,9 @@ void add_run_options(CLI::App& command, RunOptions& options) {
                   "Most threads; results do not depend on it [OMP_NUM_THREADS, or all processors]")
       ->check(CLI::Range(1, 1024));
   command.add_flag("--quiet", options.quiet, "No progress, no summary");
-  command.add_flag("--force", options.force, "Overwrite the results of an earlier run");
+  command.add_flag_callback(
+      "--force", [&options] { options.old_results = OldResults::removed; },
+      "Overwrite the results of an earlier run");
   add_trust_option(command, options.trust_geometry);
   add_set_option(command, options);
 }
@@ -86,8 +88,9 @@ const CLI::App* add_run_command(CLI::App& app, RunOptions& options) {
   command->add_option("case", options.case_path, "Case file (.toml)")->required();
   add_run_options(*command, options);
   command
-      ->add_flag("--resume", options.resume,
-                 "Go on from the last checkpoint of the results, or begin where there are none")
+      ->add_flag_callback(
+          "--resume", [&options] { options.old_results = OldResults::kept; },
+          "Go on from the last checkpoint of the results, or begin where there are none")
       ->excludes("--force");
   return command;
 }
@@ -124,7 +127,9 @@ const CLI::App* add_scan_command(CLI::App& app, ScanOptions& options) {
   command->add_option("--threads", options.run.threads, "Threads of each run [1]")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--quiet", options.run.quiet, "No progress, no summary");
-  command->add_flag("--force", options.run.force, "Run every member anew, overwrite its results");
+  command->add_flag_callback(
+      "--force", [&options] { options.run.old_results = OldResults::removed; },
+      "Run every member anew, overwrite its results");
   add_trust_option(*command, options.run.trust_geometry);
   return command;
 }

@@ -15,6 +15,62 @@ namespace {
 /// Energy imbalance over the work above which a row is noise: the equilibrium is lost [-].
 constexpr double lost_row = 1e-2;
 
+/// Returns whether the compliance has grown by a tenth since the last full residual check.
+/// Round-off grows with the displacements, which are unbounded as a body separates under forces.
+/// Prescribed displacements are bounded, and their compliance is negative.
+bool residual_may_be_large(const PathState& path) {
+  return path.checked_compliance > 0.0 && path.compliance > 1.1 * path.checked_compliance;
+}
+
+/// Returns the number of events between residual checks.
+int check_interval(const PathState& path, const DamageOptions& options) {
+  return path.row.residual <= options.engine.residual_tolerance
+             ? options.check_interval
+             : std::max(1, options.check_interval / 10);
+}
+
+/// Compares work and energies of a row.
+/// \param whole  work to compare with [force length]
+/// \throws SolverError if they are far out of balance
+void judge_balance(PathState& path, const StepRecord& row, double whole) {
+  const double by_elements =
+      std::exchange(path.stored_by_elements, std::numeric_limits<double>::quiet_NaN());
+  const double stored = std::isnan(by_elements) ? row.strain_energy
+                                                : row.load_factor * row.load_factor * by_elements +
+                                                      path.stored_by_permanent.at(row.load_factor);
+  if (whole == 0.0) return;
+  const double kept = stored + row.dissipated_energy + path.energy.freed();
+  const double error = std::abs(row.external_work - kept) / whole;
+  path.result.energy_error = std::max(path.result.energy_error, error);
+  if (error <= lost_row) return;
+  throw SolverError(
+      fmt::format("work and energies of row {} are out of balance by {:.2g} of the work: the "
+                  "equilibrium is lost, since the body is about to separate",
+                  row.step, error));
+}
+
+/// Adds the last row to the peaks.
+void note_peaks(PathState& path, bool keeps_row) {
+  PeakWatch& peaks = path.result.peaks;
+  const bool held = !peaks.gave_way();
+  peaks.add({path.row.displacement, path.row.load});
+  if (held) path.result.broken_as_gave_way = path.broken_bonds;
+  path.result.peak_load = peaks.highest().load;
+  if (keeps_row) path.rows.push_back(path.row);
+}
+
+bool is_stopped(PathState& path, const DamageOptions& options) {
+  if (!options.stop_requested || !options.stop_requested()) return false;
+  path.end(Termination::interrupted, "a signal stopped the run");
+  return true;
+}
+
+bool has_broken_enough(PathState& path, const StopRules& stop) {
+  if (!stop.broken_bonds || path.broken_bonds < *stop.broken_bonds) return false;
+  path.end(Termination::completed, fmt::format("{} bonds are broken", path.broken_bonds));
+  return true;
+}
+
 }  // namespace
 
 /// Records the residual and, if it was summed over the elements, the stored energy.
@@ -29,18 +85,11 @@ void EventRun::take_note_of(const Balance& balance) {
 /// Makes a full residual check after events that may harm the accuracy. Every tenth scheduled check
 /// is full, the others are cheap.
 void EventRun::look_after(const EventOutcome& outcome) {
-  if (outcome.pivot < 1e-3 || residual_may_be_large()) {
+  if (outcome.pivot < 1e-3 || residual_may_be_large(path_)) {
     check();
-  } else if (path_.events % check_interval() == 0) {
+  } else if (path_.events % check_interval(path_, options_) == 0) {
     take_note_of(++path_.looks % 10 == 0 ? engine_->check_equilibrium() : engine_->check_cheaply());
   }
-}
-
-/// Returns whether the compliance has grown by a tenth since the last full residual check.
-/// Round-off grows with the displacements, which are unbounded as a body separates under forces.
-/// Prescribed displacements are bounded, and their compliance is negative.
-bool EventRun::residual_may_be_large() const {
-  return path_.checked_compliance > 0.0 && path_.compliance > 1.1 * path_.checked_compliance;
 }
 
 /// Returns whether bonds have shortened beyond small strains.
@@ -51,13 +100,6 @@ bool EventRun::is_beyond_small_strains(double load_factor) {
                                        engine_->secants());
 }
 
-/// Adds the prescribed load factor to the reason of a collapse under forces.
-void EventRun::note_overload(double load_factor) {
-  if (reference_->driven || path_.result.termination != Termination::collapsed) return;
-  path_.result.reason = fmt::format("the body cannot carry the load factor {:.6g}: {}", load_factor,
-                                    path_.result.reason);
-}
-
 /// Ends the run if bonds would leave small strains before the next event.
 /// \return whether the run has ended
 bool EventRun::leaves_small_strains(const Event& event) {
@@ -65,24 +107,18 @@ bool EventRun::leaves_small_strains(const Event& event) {
       reference_->driven ? event.load_factor : event.load_factor * path_.compliance;
   if (!path_.strains.is_due(motion) || !is_beyond_small_strains(event.load_factor)) return false;
   if (event.at_constant_load && !reference_->driven) {
-    end(Termination::collapsed,
-        "bonds keep breaking at constant load until small strains no longer hold");
+    path_.end(Termination::collapsed,
+              "bonds keep breaking at constant load until small strains no longer hold");
     return true;
   }
   path_.result.beyond_small_strains = true;
-  end(Termination::nothing_breaks,
+  path_.end(
+      Termination::nothing_breaks,
       fmt::format("before the next bond fails, at the load factor {:.4g}, others would be shorter "
                   "than small strains allow: crushed or compressed parts resist any load, and "
                   "further results would be meaningless",
                   event.load_factor));
   return true;
-}
-
-/// Returns the number of events between residual checks.
-int EventRun::check_interval() const {
-  return path_.row.residual <= options_.engine.residual_tolerance
-             ? options_.check_interval
-             : std::max(1, options_.check_interval / 10);
 }
 
 void EventRun::record(double load_factor, const LoadWork& work, const Event& event) {
@@ -111,43 +147,14 @@ void EventRun::record(double load_factor, const LoadWork& work, const Event& eve
   row.events = fails ? static_cast<Index>(event.others.size()) + 1 : 0;
   row.seconds = timer_.seconds();
   timer_.restart();
-  judge_balance(row);
+  judge_balance(path_, row, staged_ != nullptr ? path_.most_work : std::abs(row.external_work));
   path_.row = std::move(row);
-  note_peaks();
+  const bool counts = staged_ == nullptr || path_.row.load != 0.0;
+  note_peaks(path_, options_.load_factors.empty() && counts);
   const bool below =
       stop_->load_fraction &&
       std::abs(path_.row.load) < *stop_->load_fraction * std::abs(path_.result.peak_load);
   if (path_.row.side_change == 0) path_.rows_below = below ? path_.rows_below + 1 : 0;
-}
-
-/// Compares work and energies of a row.
-/// \throws SolverError if they are far out of balance
-void EventRun::judge_balance(const StepRecord& row) {
-  const double by_elements =
-      std::exchange(path_.stored_by_elements, std::numeric_limits<double>::quiet_NaN());
-  const double stored = std::isnan(by_elements) ? row.strain_energy
-                                                : row.load_factor * row.load_factor * by_elements +
-                                                      path_.stored_by_permanent.at(row.load_factor);
-  const double whole = staged_ != nullptr ? path_.most_work : std::abs(row.external_work);
-  if (whole == 0.0) return;
-  const double kept = stored + row.dissipated_energy + path_.energy.freed();
-  const double error = std::abs(row.external_work - kept) / whole;
-  path_.result.energy_error = std::max(path_.result.energy_error, error);
-  if (error <= lost_row) return;
-  throw SolverError(
-      fmt::format("work and energies of row {} are out of balance by {:.2g} of the work: the "
-                  "equilibrium is lost, since the body is about to separate",
-                  row.step, error));
-}
-
-void EventRun::note_peaks() {
-  PeakWatch& peaks = path_.result.peaks;
-  const bool held = !peaks.gave_way();
-  peaks.add({path_.row.displacement, path_.row.load});
-  if (held) path_.result.broken_as_gave_way = path_.broken_bonds;
-  path_.result.peak_load = peaks.highest().load;
-  const bool counts = staged_ == nullptr || path_.row.load != 0.0;
-  if (options_.load_factors.empty() && counts) path_.rows.push_back(path_.row);
 }
 
 /// Applies an event.
@@ -159,7 +166,8 @@ bool EventRun::pass(const Event& event) {
                          outcome.compliance_growth > next_to_infinite * path_.compliance;
   if (outcome.mechanism || separates) {
     path_.result.broken_bonds = outcome.broken;  // in addition to those of the last row
-    end(Termination::collapsed,
+    path_.end(
+        Termination::collapsed,
         event.changes_side
             ? fmt::format("a mechanism: once the closed element {} has opened, a piece of the body "
                           "is free to move or to turn",
@@ -179,7 +187,8 @@ bool EventRun::pass(const Event& event) {
   look_after(outcome);
   if (outcome.exhausted != no_index) {
     // A bar without further limits forms a mechanism with the body.
-    end(Termination::collapsed,
+    path_.end(
+        Termination::collapsed,
         network_.is_segment(outcome.exhausted)
             ? fmt::format("a bar stretched to {:.0f} times its yield strain: a plastic mechanism",
                           BondLaw::most_stretched)
@@ -191,16 +200,14 @@ bool EventRun::pass(const Event& event) {
 
 bool EventRun::stop_rule_met() {
   const StopRules& stop = *stop_;
-  if (options_.stop_requested && options_.stop_requested()) {
-    end(Termination::interrupted, "a signal stopped the run");
-  } else if (stop.broken_bonds && path_.broken_bonds >= *stop.broken_bonds) {
-    end(Termination::completed, fmt::format("{} bonds are broken", path_.broken_bonds));
-  } else if (stop.load_fraction &&
-             path_.rows_below >= (options_.load_factors.empty() ? stop.load_fraction_rows : 1)) {
-    end(Termination::completed,
-        fmt::format("the load fell below {} of its peak", *stop.load_fraction));
+  if (is_stopped(path_, options_) || has_broken_enough(path_, stop)) return true;
+  if (stop.load_fraction &&
+      path_.rows_below >= (options_.load_factors.empty() ? stop.load_fraction_rows : 1)) {
+    path_.end(Termination::completed,
+              fmt::format("the load fell below {} of its peak", *stop.load_fraction));
   } else if (stop.displacement && std::abs(path_.row.displacement) >= *stop.displacement) {
-    end(Termination::completed, fmt::format("the displacement reached {}", *stop.displacement));
+    path_.end(Termination::completed,
+              fmt::format("the displacement reached {}", *stop.displacement));
   } else {
     return false;
   }
@@ -209,7 +216,7 @@ bool EventRun::stop_rule_met() {
 
 /// Records a last row in which the body no longer resists the prescribed displacements.
 void EventRun::record_separated(double load_factor, const LoadWork& work) {
-  end(Termination::collapsed, "the body no longer resists the displacements");
+  path_.end(Termination::collapsed, "the body no longer resists the displacements");
   record(load_factor, work, {});
   path_.over = true;
 }
@@ -240,7 +247,7 @@ bool EventRun::by_events() {
   } while (converts(event));
   if (missed_) return false;
   if (event.element == no_index) {
-    end(Termination::nothing_breaks, "no bond can break under this load");
+    path_.end(Termination::nothing_breaks, "no bond can break under this load");
     return false;
   }
   if (leaves_small_strains(event)) return false;
@@ -266,7 +273,7 @@ bool EventRun::end_within_step(const Event& event) {
 bool EventRun::by_steps() {
   if (path_.position > 0 && stop_rule_met()) return false;
   if (path_.position == options_.load_factors.size()) {
-    end(Termination::completed, "all load steps are done");
+    path_.end(Termination::completed, "all load steps are done");
     return false;
   }
   const double load_factor = options_.load_factors[path_.position++];
@@ -276,9 +283,10 @@ bool EventRun::by_steps() {
   while (event.element != no_index && event.load_factor <= load_factor) {
     path_.energy.advance(load_factor, engine_->load_work());
     path_.following.advance(event.load_factor, engine_->load_work());
-    if (stops_within_step()) return end_within_step(event);
+    if (is_stopped(path_, options_) || has_broken_enough(path_, *stop_))
+      return end_within_step(event);
     if (!pass(event)) {
-      note_overload(load_factor);
+      if (!reference_->driven) path_.note_overload(load_factor);
       return end_within_step(event);
     }
     last = event.element;
@@ -296,20 +304,8 @@ bool EventRun::by_steps() {
   return true;
 }
 
-bool EventRun::stops_within_step() {
-  const bool enough = stop_->broken_bonds && path_.broken_bonds >= *stop_->broken_bonds;
-  if (options_.stop_requested && options_.stop_requested()) {
-    end(Termination::interrupted, "a signal stopped the run");
-  } else if (enough) {
-    end(Termination::completed, fmt::format("{} bonds are broken", path_.broken_bonds));
-  } else {
-    return false;
-  }
-  return true;
-}
-
 void require_held_pieces(const LoadedNetwork& problem, const DamageOptions& options) {
-  EventRun(problem, options).require_equilibrium();
+  EventRun(problem, options).check();
 }
 
 DamageResult run_damage_analysis(const LoadedNetwork& problem, const DamageOptions& options,

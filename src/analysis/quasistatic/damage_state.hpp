@@ -1,8 +1,11 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -39,6 +42,17 @@ struct PathState {
   /// Bonds that host releases freed since the last event, with the load factor of each release.
   std::vector<std::pair<std::vector<Index>, double>> freed;
   std::vector<std::uint8_t> whole;  ///< per finite element: it is an active host; empty: none
+
+  void end(Termination termination, std::string reason) {
+    result.termination = termination;
+    result.reason = std::move(reason);
+  }
+  /// Adds the prescribed load factor to the reason of a collapse under forces.
+  void note_overload(double load_factor) {
+    if (result.termination != Termination::collapsed) return;
+    result.reason =
+        fmt::format("the body cannot carry the load factor {:.6g}: {}", load_factor, result.reason);
+  }
 
   template <class Archive>
   void serialize(Archive& archive) {

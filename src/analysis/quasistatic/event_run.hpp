@@ -64,33 +64,26 @@ class EventRun final : public StateSource {
   /// \param unknowns  must outlive the run
   void adopt(const Unknowns& unknowns);
 
-  /// Checks the equilibrium of the initial body.
-  /// \throws SolverError if there is none
-  void require_equilibrium() { check(); }
+  /// Checks the equilibrium in full. \throws SolverError if there is none
+  void check() { take_note_of(engine_->check_equilibrium()); }
 
  private:
   std::unique_ptr<EventEngine> make_engine();
   LoadWork begin_work();
   bool by_events();
   bool by_steps();
-  bool stops_within_step();
   bool end_within_step(const Event& event);
   // Control by stages: staged_run.cpp.
   bool by_stages();
   bool leave_row(const Event& event);
   bool follow_stage();
-  void note_mechanism();
   void begin_stage();
   void follow_rules();
   void end_stage();
   const StageRules& stage() const { return options_.stages[path_.position]; }
-  std::optional<double> end_of_stage(const LoadWork& work) const;
   void measure_permanent(const LoadWork& work, StepRecord& row);
   void record(double load_factor, const LoadWork& work, const Event& event);
-  void judge_balance(const StepRecord& row);
-  void note_peaks();
   void take_note_of(const Balance& balance);
-  void check() { take_note_of(engine_->check_equilibrium()); }
   void look_after(const EventOutcome& outcome);
   // Host releases: releasing_run.cpp.
   bool converts(const Event& event, double sense = 1.0,
@@ -98,18 +91,11 @@ class EventRun final : public StateSource {
   void take_over(const Unknowns& unknowns, double load_factor);
   void note_missed_releases(const Event& event, double sense);
   Event next_event_below(double most);
-  bool residual_may_be_large() const;
   bool is_beyond_small_strains(double load_factor);
-  void note_overload(double load_factor);
   bool leaves_small_strains(const Event& event);
-  int check_interval() const;
   void record_separated(double load_factor, const LoadWork& work);
   bool pass(const Event& event);
   bool stop_rule_met();
-  void end(Termination termination, std::string reason) {
-    path_.result.termination = termination;
-    path_.result.reason = std::move(reason);
-  }
 
   const Network& network_;
   const LoadedNetwork& problem_;

@@ -9,6 +9,36 @@
 #include "base/error.hpp"
 
 namespace perilink {
+namespace {
+
+/// Returns the load factor at which a stage ends if no element fails; none for a stage by events.
+std::optional<double> end_of_stage(const StageRules& rules, const ReferenceLoad& load,
+                                   const LoadWork& work) {
+  if (!rules.to_load) return rules.to;
+  const double reference = load.value;
+  if (!load.driven) return *rules.to_load / reference;
+  const double constant = work.constant.growing_supports - work.constant.forces_on_clamps;
+  return (*rules.to_load * reference - constant) / work.supports;
+}
+
+/// Sets the reason of a run that ends as the body no longer resists the displacements.
+void note_mechanism(PathState& path, const StageRules& stage) {
+  // A block that rocks under its weight still carries a load.
+  constexpr double round_off = 1e-9;
+  if (std::abs(path.row.load) > round_off * std::abs(path.result.peak_load)) {
+    path.end(Termination::collapsed,
+             fmt::format("a mechanism: constant loads keep the load at {:.6g} at any further "
+                         "displacement",
+                         path.row.load));
+  } else if (stage.to_load) {
+    path.end(
+        Termination::collapsed,
+        fmt::format("the body no longer resists the displacements: it cannot carry the load {}",
+                    *stage.to_load));
+  }
+}
+
+}  // namespace
 
 /// Goes to the next row, of the present stage or a later one.
 /// \return false at the end of the run
@@ -30,12 +60,15 @@ bool EventRun::leave_row(const Event& event) {
   if (!stop_rule_met()) {
     if (event.element != no_index) {
       if (pass(event)) return true;
-      if (rules.to || rules.to_load) note_overload(path_.row.load_factor);
+      if ((rules.to || rules.to_load) && !reference_->driven) {
+        path_.note_overload(path_.row.load_factor);
+      }
       end_stage();
       return false;
     }
-    end(Termination::completed, rules.to ? fmt::format("the load factor reached {}", *rules.to)
-                                         : fmt::format("the load reached {}", *rules.to_load));
+    path_.end(Termination::completed, rules.to
+                                          ? fmt::format("the load factor reached {}", *rules.to)
+                                          : fmt::format("the load reached {}", *rules.to_load));
   }
   end_stage();
   ++path_.position;
@@ -84,16 +117,6 @@ void EventRun::end_stage() {
   stage.smoothed_peak_load = path_.result.smoothed_peak_load;
 }
 
-/// Returns the load factor at which a stage ends if no element fails; none for a stage by events.
-std::optional<double> EventRun::end_of_stage(const LoadWork& work) const {
-  const StageRules& rules = stage();
-  if (!rules.to_load) return rules.to;
-  const double reference = reference_->value;
-  if (!reference_->driven) return *rules.to_load / reference;
-  const double constant = work.constant.growing_supports - work.constant.forces_on_clamps;
-  return (*rules.to_load * reference - constant) / work.supports;
-}
-
 /// Goes to the next row of a stage.
 /// \return false if the stage ends without a further row, and the run with it
 bool EventRun::follow_stage() {
@@ -104,18 +127,18 @@ bool EventRun::follow_stage() {
     work = engine_->load_work();
     if (work.separated) {
       record_separated(staged_->load_factor(), work);
-      note_mechanism();
+      note_mechanism(path_, stage());
       end_stage();
       return true;
     }
-    aim = end_of_stage(work);
+    aim = end_of_stage(stage(), *reference_, work);
     event = aim ? staged_->next_event_towards(*aim) : engine_->next_event();
   } while (event.element != no_index &&
            converts(event, aim && *aim < staged_->load_factor() ? -1.0 : 1.0));
   if (missed_) return false;
   const bool arrived = event.element == no_index;
   if (arrived && !aim) {
-    end(Termination::nothing_breaks, "no bond can break under this load");
+    path_.end(Termination::nothing_breaks, "no bond can break under this load");
     return false;
   }
   const double load_factor = arrived ? *aim : event.load_factor;
@@ -126,7 +149,7 @@ bool EventRun::follow_stage() {
     path_.result.beyond_small_strains |= is_beyond_small_strains(load_factor);
   } else if (leaves_small_strains(event)) {
     staged_->move_to(before);
-    if (aim) note_overload(load_factor);
+    if (aim && !reference_->driven) path_.note_overload(load_factor);
     return false;
   }
   path_.row.at_constant_load = event.at_constant_load ? 1 : 0;
@@ -134,22 +157,6 @@ bool EventRun::follow_stage() {
   record(load_factor, work, event);
   path_.pending = std::move(event);
   return true;
-}
-
-/// Sets the reason of a run that ends as the body no longer resists the displacements.
-void EventRun::note_mechanism() {
-  // A block that rocks under its weight still carries a load.
-  constexpr double round_off = 1e-9;
-  if (std::abs(path_.row.load) > round_off * std::abs(path_.result.peak_load)) {
-    end(Termination::collapsed,
-        fmt::format("a mechanism: constant loads keep the load at {:.6g} at any further "
-                    "displacement",
-                    path_.row.load));
-  } else if (stage().to_load) {
-    end(Termination::collapsed,
-        fmt::format("the body no longer resists the displacements: it cannot carry the load {}",
-                    *stage().to_load));
-  }
 }
 
 /// Adds the contribution of permanent loads to the axes and the largest energy of a row.

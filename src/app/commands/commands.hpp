@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "results/result_directory.hpp"
+
 namespace perilink {
 
 /// Exit statuses of the program.
@@ -15,10 +17,9 @@ struct RunOptions {
   std::optional<std::string> directory;
   int threads = 0;  ///< 0: all processors
   bool quiet = false;
-  bool force = false;
-  bool resume = false;                ///< goes on with results of the same case
-  bool trust_geometry = false;        ///< gmsh scripts may run commands and write files
-  std::vector<std::string> settings;  ///< KEY=VALUE, other values of keys of the case
+  OldResults old_results = OldResults::refused;  ///< kept: goes on with results of the same case
+  bool trust_geometry = false;                   ///< gmsh scripts may run commands and write files
+  std::vector<std::string> settings;             ///< KEY=VALUE, other values of keys of the case
 };
 
 /// Runs a case, `perilink run`.

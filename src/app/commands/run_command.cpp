@@ -114,9 +114,8 @@ int run_in(const fs::path& directory, const RunOptions& options, const CaseFile&
   Timer timer;
   const std::unique_ptr<RunKind> run = make_run(input, threads, options.quiet);
   if (checkpoint) require_same_model(*checkpoint, run->model_fingerprint(), directory);
-  const ResultDirectory hold(directory, checkpoint                        ? OldResults::kept
-                                        : options.force || options.resume ? OldResults::removed
-                                                                          : OldResults::refused);
+  const bool begins_anew = options.old_results == OldResults::kept && !checkpoint;
+  const ResultDirectory hold(directory, begins_anew ? OldResults::removed : options.old_results);
   catch_stop_signals();
   const auto log = open_files(*run, directory, options.quiet, checkpoint);
   run->seconds.set_up = timer.seconds();
@@ -160,9 +159,9 @@ int run_case(const RunOptions& options) {
                                                : default_result_directory(options.case_path);
   refuse_own_file(directory, "case.toml", options.case_path, "this case with its resolved form");
   // All before the model is built, which may take minutes.
-  refuse_old_results(directory, options.force || options.resume);
+  refuse_old_results(directory, options.old_results != OldResults::refused);
   Resumed found;
-  if (options.resume) found = find_results(input, directory);
+  if (options.old_results == OldResults::kept) found = find_results(input, directory);
   if (found.is_finished) {
     if (!options.quiet) fmt::print("{}: holds the whole run already\n", directory.string());
     return exit_done;

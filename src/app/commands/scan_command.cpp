@@ -79,10 +79,11 @@ void keep_results(ScanRun& run, const std::vector<CaseFile>& cases, bool force) 
 
 std::vector<std::string> words_of_member(const ScanRun& run, std::size_t member,
                                          const RunOptions& options) {
-  std::vector<std::string> words = {"run",       run.scan.case_path,
-                                    "--out",     run.place(member).string(),
-                                    "--threads", std::to_string(std::max(options.threads, 1)),
-                                    "--quiet",   options.force ? "--force" : "--resume"};
+  std::vector<std::string> words = {
+      "run",       run.scan.case_path,
+      "--out",     run.place(member).string(),
+      "--threads", std::to_string(std::max(options.threads, 1)),
+      "--quiet",   options.old_results == OldResults::removed ? "--force" : "--resume"};
   if (options.trust_geometry) words.emplace_back("--trust-geometry");
   for (const CaseSetting& setting : run.scan.members[member].settings) {
     words.push_back("--set");
@@ -159,9 +160,8 @@ int scan(const ScanOptions& options) {
   if (run.scan.title.empty()) run.scan.title = cases.front().title;
   run.directory =
       options.run.directory ? fs::path(*options.run.directory) : default_result_directory(path);
-  const ResultDirectory hold(run.directory,
-                             options.run.force ? OldResults::removed : OldResults::refused);
-  keep_results(run, cases, options.run.force);
+  const ResultDirectory hold(run.directory, options.run.old_results);
+  keep_results(run, cases, options.run.old_results == OldResults::removed);
   catch_stop_signals();
   write_scan_table(run);
   const int jobs = options.jobs > 0

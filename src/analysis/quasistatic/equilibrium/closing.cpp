@@ -27,20 +27,22 @@ constexpr double no_resistance = 1e12;
 /// Rough rates of one core, to choose between a new factor and changes that pass through it.
 constexpr double flops_per_second = 15e9, bytes_per_second = 36e9, seconds_per_element = 1e-7;
 
-}  // namespace
-
-auto Equilibrium::ends_of(Index element) const -> BondEnds {
-  const auto width = static_cast<std::size_t>(network_.width());
-  const std::span<const double> n = network_.bonds.direction(element);
-  BondEnds ends{width * network_.bonds.first[element], width * network_.bonds.second[element], {}};
+/// Returns the offsets of the ends of an element in the displacements, and its direction.
+template <class BondEnds>
+BondEnds ends_of(const Network& network, Index element) {
+  const auto width = static_cast<std::size_t>(network.width());
+  const std::span<const double> n = network.bonds.direction(element);
+  BondEnds ends{width * network.bonds.first[element], width * network.bonds.second[element], {}};
   std::copy(n.begin(), n.end(), ends.n);
   return ends;
 }
 
+}  // namespace
+
 /// Returns the ends of damaged_. They are contiguous in memory since every event reads all of them.
 std::span<const Equilibrium::BondEnds> Equilibrium::damaged_ends() const {
   while (damaged_ends_.size() < damaged_.size()) {
-    damaged_ends_.push_back(ends_of(damaged_[damaged_ends_.size()]));
+    damaged_ends_.push_back(ends_of<BondEnds>(network_, damaged_[damaged_ends_.size()]));
   }
   return damaged_ends_;
 }
@@ -74,8 +76,8 @@ auto Equilibrium::extension_at(const BondEnds& bond) const -> Extension {
 }
 
 auto Equilibrium::extension_of(Index element) const -> Extension {
-  return network_.dim() == 2 ? extension_at<2>(ends_of(element))
-                             : extension_at<3>(ends_of(element));
+  const BondEnds ends = ends_of<BondEnds>(network_, element);
+  return network_.dim() == 2 ? extension_at<2>(ends) : extension_at<3>(ends);
 }
 
 /// Calls visit(element, extension) for all of damaged_.

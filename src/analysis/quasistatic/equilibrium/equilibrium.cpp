@@ -30,6 +30,17 @@ constexpr double cancelled_work = 1e-7;
 /// compliance. It is then summed over the elements again.
 constexpr int most_events_to_follow = 16;
 
+/// Returns the stiffness of elements and ground springs.
+SparseMatrix stiffness_of(const Network& network, Secants secants, const Unknowns& unknowns,
+                          std::span<const double> ground_springs) {
+  SparseMatrix stiffness = assemble_stiffness(network, secants, unknowns);
+  for (std::size_t k = 0; k < ground_springs.size(); ++k) {
+    const Index unknown = static_cast<Index>(k);
+    stiffness.coeffRef(unknown, unknown) += ground_springs[k];
+  }
+  return stiffness;
+}
+
 }  // namespace
 
 Equilibrium::Equilibrium(const LoadedNetwork& problem, const EquilibriumOptions& options,
@@ -118,21 +129,12 @@ void Equilibrium::factorize_anew(bool resists) {
   slot_of_ = unknowns_->slots();
   solution_.assign(static_cast<std::size_t>(unknowns_->count), 0.0);
   if (subdomains_ != nullptr) return subdomains_->begin(*unknowns_, secants(), ground_stiffness_);
-  if (resists) return factor_->factorize(present_stiffness(), unknowns_->owners());
+  const SparseMatrix stiffness = stiffness_of(network_, secants(), *unknowns_, ground_stiffness_);
+  if (resists) return factor_->factorize(stiffness, unknowns_->owners());
   const auto forces_of = [&](std::span<const double> u) {
     return internal_force(network_, secants(), u);
   };
-  factorize_stiffness(*factor_, present_stiffness(), *unknowns_, &network_.particles, forces_of);
-}
-
-/// Returns the stiffness of the present elements and ground springs.
-SparseMatrix Equilibrium::present_stiffness() const {
-  SparseMatrix stiffness = assemble_stiffness(network_, secants(), *unknowns_);
-  for (std::size_t k = 0; k < ground_stiffness_.size(); ++k) {
-    const Index unknown = static_cast<Index>(k);
-    stiffness.coeffRef(unknown, unknown) += ground_stiffness_[k];
-  }
-  return stiffness;
+  factorize_stiffness(*factor_, stiffness, *unknowns_, &network_.particles, forces_of);
 }
 
 /// Finds the equilibrium under the present unknowns with a new factor.
@@ -377,7 +379,7 @@ void Equilibrium::factorize() {
     factorize_anew();
     return refresh();
   }
-  factor_->refactorize(present_stiffness());
+  factor_->refactorize(stiffness_of(network_, secants(), *unknowns_, ground_stiffness_));
   lags_ = false;
   missed_savings_ = 0.0;
   refresh();

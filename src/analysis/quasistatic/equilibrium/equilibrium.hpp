@@ -197,7 +197,6 @@ class Equilibrium {
   void adopt_motion(bool resists = false);
   void adopt_load();
   void factorize_anew(bool resists = false);
-  SparseMatrix present_stiffness() const;
   void find_driven_elements();
   void find_loaded_slots();
   void choose_current_unknowns();
@@ -232,8 +231,6 @@ class Equilibrium {
   void follow(const EventOutcome& outcome);
   void commit(const Removal& removal, Index element, double secant);
   void add_ground_spring(Index unknown);
-  double ground_stiffness_of(Index unknown) const;
-  Index most_mobile_unknown(const SparseVector& x);
   void keep_all_current();
 
   // Several elements at once: batches.cpp.
@@ -270,7 +267,6 @@ class Equilibrium {
     std::size_t first, second;
     double n[3];
   };
-  BondEnds ends_of(Index element) const;
   std::span<const BondEnds> damaged_ends() const;
   template <int Dim>
   Extension extension_at(const BondEnds& bond) const;

@@ -25,6 +25,29 @@ constexpr double least_loaded_share = 1e-12;
 /// Fraction of the load above which the force on a loose part counts as load [-].
 constexpr double least_loaded_force = 1e-6;
 
+/// Returns the unknown that forces along a vector move most.
+Index most_mobile_unknown(Factor& factor, const SparseVector& x) {
+  const std::vector<double> direction = factor.columns({&x, 1});
+  const auto largest = std::max_element(direction.begin(), direction.end(), [](double a, double b) {
+    return std::abs(a) < std::abs(b);
+  });
+  return static_cast<Index>(largest - direction.begin());
+}
+
+/// Returns the stiffness of the stiffest bond; for a rotation the largest bending stiffness.
+/// \param component  of a particle
+double ground_stiffness_of(const Network& network, int component) {
+  if (component < network.dim()) {
+    return *std::max_element(network.stiffness.begin(),
+                             network.stiffness.begin() + network.first_slip_spring);
+  }
+  double largest = 0.0;
+  for (Index e = 0; e < network.first_slip_spring; ++e) {
+    largest = std::max(largest, network.bending[e] * std::pow(network.bonds.length(e), 2));
+  }
+  return largest;
+}
+
 }  // namespace
 
 /// Returns square roots of twice the energies of the vectors. A bar's comes from differences of
@@ -136,7 +159,7 @@ bool Equilibrium::hold_free_modes(Removal& removal, Index element, double unload
       throw SolverError("a part that comes loose cannot be held by ground springs");
     }
     keep_all_current();
-    add_ground_spring(most_mobile_unknown(removal.x[0]));
+    add_ground_spring(most_mobile_unknown(*factor_, removal.x[0]));
     ++springs;
     removal = modes;
     measure_pivots(removal, element, 0.0);
@@ -235,34 +258,13 @@ int Equilibrium::cut(Index element) {
   return springs;
 }
 
-Index Equilibrium::most_mobile_unknown(const SparseVector& x) {
-  const std::vector<double> direction = factor_->columns({&x, 1});
-  const auto largest = std::max_element(direction.begin(), direction.end(), [](double a, double b) {
-    return std::abs(a) < std::abs(b);
-  });
-  return static_cast<Index>(largest - direction.begin());
-}
-
-/// Returns the stiffness of the stiffest bond; for a rotation the largest bending stiffness.
-double Equilibrium::ground_stiffness_of(Index unknown) const {
-  const auto component = static_cast<int>(slot_of_[unknown] % network_.width());
-  if (component < network_.dim()) {
-    return *std::max_element(network_.stiffness.begin(),
-                             network_.stiffness.begin() + network_.first_slip_spring);
-  }
-  double largest = 0.0;
-  for (Index e = 0; e < network_.first_slip_spring; ++e) {
-    largest = std::max(largest, network_.bending[e] * std::pow(network_.bonds.length(e), 2));
-  }
-  return largest;
-}
-
 void Equilibrium::add_ground_spring(Index unknown) {
   if (ground_stiffness_.empty()) {
     ground_stiffness_.assign(solution_.size(), 0.0);
     ground_load_.assign(solution_.size(), 0.0);
   }
-  const double stiffness = ground_stiffness_of(unknown);
+  const auto component = static_cast<int>(slot_of_[unknown] % network_.width());
+  const double stiffness = ground_stiffness_of(network_, component);
   SparseVector x;
   x.add(unknown, std::sqrt(stiffness));
   factor_->update(x);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <vector>
 
@@ -39,6 +40,12 @@ struct LoadState {
   double changed_towards = 0.0;  ///< direction of the last contact state change
   /// Successive contact state changes at changed_at; 0: an element has failed since.
   int changes_there = 0;
+
+  /// Returns whether the last contact state change was at this load factor, without an event since.
+  bool has_changed_at(double factor) const {
+    constexpr double round_off = 1e-12;
+    return changes_there > 0 && std::abs(factor - changed_at) <= round_off * largest_factor;
+  }
 
   template <class Archive>
   void serialize(Archive& archive) {

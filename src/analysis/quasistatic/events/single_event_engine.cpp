@@ -9,6 +9,27 @@
 #include "base/error.hpp"
 
 namespace perilink {
+namespace {
+
+struct NoisyExtension {
+  double value;      ///< [length]
+  double round_off;  ///< from the motions of the two ends [length]
+};
+
+NoisyExtension extension_of(const Network& network, Index element, std::span<const double> u) {
+  constexpr double digits = 1e-12;
+  const std::span<const double> n = network.bonds.direction(element);
+  const std::size_t i = static_cast<std::size_t>(network.bonds.first[element]) * network.width();
+  const std::size_t j = static_cast<std::size_t>(network.bonds.second[element]) * network.width();
+  NoisyExtension change{0.0, 0.0};
+  for (int a = 0; a < network.dim(); ++a) {
+    change.value += n[a] * (u[j + a] - u[i + a]);
+    change.round_off += digits * std::abs(n[a]) * (std::abs(u[j + a]) + std::abs(u[i + a]));
+  }
+  return change;
+}
+
+}  // namespace
 
 SingleEventEngine::SingleEventEngine(const LoadedNetwork& problem,
                                      const EquilibriumOptions& options, const Unknowns& unknowns,
@@ -114,22 +135,8 @@ bool SingleEventEngine::is_within(double noise, const BreakSearch::Hit& hit) con
   if (network_.carries_moments()) {  // the search includes shear and bending
     return hit.ratio * limit_of(element) * network_.bonds.length(element) <= noise;
   }
-  const Extension change = extension_of(element);
+  const NoisyExtension change = extension_of(network_, element, equilibrium_.where_elements_fail());
   return std::abs(change.value) <= change.round_off + noise;
-}
-
-auto SingleEventEngine::extension_of(Index element) const -> Extension {
-  constexpr double digits = 1e-12;
-  const std::span<const double> u = equilibrium_.where_elements_fail();
-  const std::span<const double> n = network_.bonds.direction(element);
-  const std::size_t i = static_cast<std::size_t>(network_.bonds.first[element]) * network_.width();
-  const std::size_t j = static_cast<std::size_t>(network_.bonds.second[element]) * network_.width();
-  Extension change{0.0, 0.0};
-  for (int a = 0; a < network_.dim(); ++a) {
-    change.value += n[a] * (u[j + a] - u[i + a]);
-    change.round_off += digits * std::abs(n[a]) * (std::abs(u[j + a]) + std::abs(u[i + a]));
-  }
-  return change;
 }
 
 /// Accepts that no element is in tension only if other elements are strained far more. Otherwise
@@ -139,7 +146,7 @@ void SingleEventEngine::refuse_hidden_strains(double noise, const BreakSearch::H
   constexpr double far_more = 1e3;
   for (Index e = 0; e < network_.num_elements(); ++e) {
     if (secants()[e] == 0.0) continue;
-    const Extension change = extension_of(e);
+    const NoisyExtension change = extension_of(network_, e, equilibrium_.where_elements_fail());
     const double beyond = std::abs(change.value) - change.round_off - noise;
     const double reached = hit.ratio * limit_of(e) * network_.bonds.length(e);
     if (beyond > far_more * reached) return;

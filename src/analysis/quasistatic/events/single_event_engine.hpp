@@ -77,11 +77,6 @@ class SingleEventEngine : public EventEngine {
   /// Passes the next limits of an element to the search after its event.
   void set_limits(Index element);
 
-  struct Extension {
-    double value;      ///< [length]
-    double round_off;  ///< from the motions of the two ends [length]
-  };
-  Extension extension_of(Index element) const;
   bool is_within(double noise, const BreakSearch::Hit& hit) const;
   void refuse_hidden_strains(double noise, const BreakSearch::Hit& hit);
 

@@ -232,17 +232,11 @@ Event StagedEngine::side_change_within(double distance) {
   return {change.element, loads_.load_factor + change.distance, false, true};
 }
 
-bool StagedEngine::is_last_change(double load_factor) const {
-  constexpr double round_off = 1e-12;
-  return loads_.changes_there > 0 &&
-         std::abs(load_factor - loads_.changed_at) <= round_off * loads_.largest_factor;
-}
-
 /// Returns whether bonds have just changed contact state here in the other direction. Elements
 /// beyond their limits are then loaded more in both directions, so that no nearby load factor is
 /// admissible.
 bool StagedEngine::turns_back(const Event& change) {
-  return is_last_change(change.load_factor) && loads_.direction != loads_.changed_towards &&
+  return loads_.has_changed_at(change.load_factor) && loads_.direction != loads_.changed_towards &&
          worst().ratio > 1.0 + tie_tolerance;
 }
 
@@ -250,7 +244,7 @@ bool StagedEngine::turns_back(const Event& change) {
 /// \throws SolverError after most_changes
 void StagedEngine::count_changes() {
   constexpr int most_changes = 100;
-  loads_.changes_there = is_last_change(loads_.load_factor) ? loads_.changes_there + 1 : 1;
+  loads_.changes_there = loads_.has_changed_at(loads_.load_factor) ? loads_.changes_there + 1 : 1;
   loads_.changed_at = loads_.load_factor;
   loads_.changed_towards = loads_.direction;
   if (loads_.changes_there < most_changes) return;

@@ -64,7 +64,6 @@ class StagedEngine final : public SingleEventEngine {
   BreakSearch::Hit worst();
   std::span<const double> displacement_at(double load_factor);
   Event side_change_within(double distance);
-  bool is_last_change(double load_factor) const;
   bool turns_back(const Event& change);
   /// Returns the limit in the search for crossings. Elements that may fail with others exceed their
   /// own limits by half of the tolerance first.

@@ -202,7 +202,6 @@ void SubdomainFactor::take_in(std::span<const SparseVector> x, Correction* corre
       solver_->solve_block(right_, blocks_.back(), enough, size_of_last).iterations;
   if (first_iterations_ == 0) first_iterations_ = iterations;
   if (iterations > slower * first_iterations_) make_solver();
-  columns_solved_ += static_cast<Index>(x.size());
   for (std::size_t k = 0; correction != nullptr && k < slot_of_.size(); ++k) {
     correction->residual[k] =
         std::exchange(blocks_.back()[slot_of_[k] * block_width + block_width - 1], 0.0);

@@ -1,0 +1,120 @@
+#include "app/run/resume.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/run/run_kind.hpp"
+#include "base/error.hpp"
+#include "base/files.hpp"
+#include "results/summary_file.hpp"
+#include "support/case_texts.hpp"
+#include "support/replaced.hpp"
+#include "support/temporary_directory.hpp"
+
+namespace perilink {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string strip = R"(
+[body]
+x = [0, 40]
+y = [0, 20]
+thickness = 1
+spacing = 4
+horizon_ratio = 2
+[[regions]]
+name = "left"
+x = [0, 1]
+y = [0, 20]
+[[regions]]
+name = "right"
+x = [39, 40]
+y = [0, 20]
+[[materials]]
+youngs_modulus = 1000
+fracture_energy = 0.1
+[[supports]]
+region = "left"
+fix = ["x", "y"]
+[[displacements]]
+region = "right"
+x = 1
+[analysis]
+type = "damage"
+[stop]
+broken_bonds = 12
+[output]
+checkpoint_every = 4
+)";
+
+class Resume : public ::testing::Test {
+ protected:
+  /// Runs a case in the directory, from the checkpoint if there is one.
+  std::string run(const std::string& text) {
+    const CaseFile input = parse_case(text, "strip.toml");
+    const Resumed found = find_results(input, work_.path());
+    const auto run = make_run(input, 1, true);
+    if (found.checkpoint) {
+      require_same_model(*found.checkpoint, run->model_fingerprint(), work_.path());
+    }
+    write_whole_file((work_ / "case.toml").string(), write_case(input));
+    run->open(work_.path(), true, found.checkpoint ? found.checkpoint->state : "");
+    run->analyse();
+    run->files().finish();
+    write_summary_file(work_.path(), summary_of(*run, work_.path()).json);
+    return read_regular_file((work_ / "history.csv").string());
+  }
+  std::string refusal(const std::string& text) const {
+    try {
+      find_results(parse_case(text, "strip.toml"), work_.path());
+    } catch (const FileError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  const test::TemporaryDirectory work_;
+};
+
+TEST_F(Resume, BeginsWhereThereAreNoResults) {
+  const Resumed found = find_results(parse_case(strip, "strip.toml"), work_.path());
+  EXPECT_FALSE(found.is_finished);
+  EXPECT_FALSE(found.checkpoint);
+}
+
+TEST_F(Resume, KnowsARunThatHasEnded) {
+  run(strip);
+  EXPECT_TRUE(find_results(parse_case(strip, "strip.toml"), work_.path()).is_finished);
+}
+
+/// A run that goes on after its stop rule was raised has the bytes of one that was never stopped.
+TEST_F(Resume, GoesOnWithARaisedStopRule) {
+  const std::string more = replaced(strip, "broken_bonds = 12", "broken_bonds = 25");
+  run(strip);
+  const Resumed found = find_results(parse_case(more, "strip.toml"), work_.path());
+  EXPECT_FALSE(found.is_finished);
+  ASSERT_TRUE(found.checkpoint);
+  const std::string gone_on = run(more);
+  std::filesystem::remove_all(work_.path());
+  std::filesystem::create_directories(work_.path());
+  EXPECT_EQ(gone_on, run(more));
+}
+
+TEST_F(Resume, RefusesAnotherCaseAndSaysWhatDiffers) {
+  run(strip);
+  EXPECT_THAT(refusal(replaced(strip, "youngs_modulus = 1000", "youngs_modulus = 2000")),
+              HasSubstr("`youngs_modulus = 1000` there, `youngs_modulus = 2000` here"));
+}
+
+TEST_F(Resume, RefusesAnotherModel) {
+  run(strip);
+  const Resumed found = find_results(
+      parse_case(replaced(strip, "broken_bonds = 12", "broken_bonds = 25"), "strip.toml"),
+      work_.path());
+  ASSERT_TRUE(found.checkpoint);
+  EXPECT_THROW(require_same_model(*found.checkpoint, "another", work_.path()), FileError);
+}
+
+}  // namespace
+}  // namespace perilink
