@@ -75,11 +75,11 @@ void DamageRun::follow() {
   }
   try {
     while (const StepRecord* row = run_->next()) {
-      note_row(*row);
+      add_row(*row, *run_);
       const Index every = records_.checkpoint_rows;
       if (every > 0 && row->step % every == 0) go_on_from_checkpoint();
     }
-    if (!run_->has_failed() && !run_->missed_release()) end();
+    if (!run_->has_failed() && !run_->missed_release()) end(run_->result().last, *run_);
   } catch (const std::exception& error) {
     if (!run_) throw;
     run_->fail(error);
@@ -206,7 +206,7 @@ double DamageRun::scale_of(const StepRecord& record) const {
 
 /// Records the element that failed in the last row. Several failures of one load step are ordered
 /// by number.
-void DamageRun::note_broken(const StepRecord& record) {
+void DamageRun::note_broken(const StepRecord& record, StateSource& source) {
   const std::size_t count = static_cast<std::size_t>(record.broken_bonds);
   if (count == records_.broken.size()) return;
   if (count == records_.broken.size() + 1 && records_.last_element != no_index &&
@@ -215,7 +215,7 @@ void DamageRun::note_broken(const StepRecord& record) {
     is_broken_[records_.last_element] = 1;
     return;
   }
-  const Secants secants = run_->secants();
+  const Secants secants = source.secants();
   for (Index e = 0; e < model_.network.num_elements(); ++e) {
     if (secants[e] != 0.0 || is_broken_[e]) continue;
     records_.broken.push_back(e);
@@ -223,14 +223,14 @@ void DamageRun::note_broken(const StepRecord& record) {
   }
 }
 
-void DamageRun::note_places(const StepRecord& record) {
+void DamageRun::note_places(const StepRecord& record, StateSource& source) {
   if (!input.stages.empty() || !has_several_places(model_) ||
       !(std::abs(record.load) > records_.highest))
     return;
   records_.highest = std::abs(record.load);
   records_.high_rows.push_back({records_.highest, record.load_factor, {}});
   if (model_.prescribed_regions.empty()) return;  // reading the state may cost a solve
-  const StepState state = run_->state();
+  const StepState state = source.state();
   records_.high_rows.back().places =
       region_forces(model_, record.load_factor, state.secants, state.displacement, {}, state.whole);
 }
@@ -279,13 +279,13 @@ ModelState DamageRun::model_state(const StepRecord& record, const StepState& sta
   return now;
 }
 
-void DamageRun::write_state(const StepRecord& record) {
+void DamageRun::write_state(const StepRecord& record, StateSource& source) {
   const Network& network = model_.network;
   files_->write_fields(record.step, record.step, [&] {
     if (neighbourhoods_.rows() == 0) {
       neighbourhoods_ = bonds_of_particles(network.bonds, network.particles.size());
     }
-    const StepState state = run_->state();
+    const StepState state = source.state();
     std::vector<double> motion(state.displacement.begin(), state.displacement.end());
     for (double& u : motion) u *= scale_of(record);
     VtuGrid grid = make_field_grid(network, state.secants, motion, moment_of(record, input, model_),
@@ -341,26 +341,24 @@ void DamageRun::show_progress(const StepRecord& record) {
   files_->bar().draw(state, done);
 }
 
-void DamageRun::note_row(const StepRecord& record) {
+void DamageRun::add_row(const StepRecord& record, StateSource& source) {
   if (record.stage > 0) records_.set_factors[set_of_stage_[record.stage - 1]] = record.load_factor;
-  note_broken(record);
-  note_places(record);
+  note_broken(record, source);
+  note_places(record, source);
   std::vector<double> gauges;
   if (!model_.gauges.empty())
-    gauges = gauge_values(model_, model_state(record, run_->state()), neighbourhoods_);
+    gauges = gauge_values(model_, model_state(record, source.state()), neighbourhoods_);
   files_->add_row(record, gauges);
   show_progress(record);
-  if (wants_fields(record)) write_state(record);
+  if (wants_fields(record)) write_state(record, source);
   records_.last_element = record.element;
   records_.last_events = record.events;
   records_.last_stage = record.stage;
 }
 
-/// Writes the last equilibrium, before any separation.
-void DamageRun::end() {
-  const StepRecord last = run_->result().last;
-  if (last.yield_events > 0) softened_ = softened_energy(model_.network, run_->secants());
-  if (last.step > 0) write_state(last);
+void DamageRun::end(const StepRecord& last, StateSource& source) {
+  if (last.yield_events > 0) softened_ = softened_energy(model_.network, source.secants());
+  if (last.step > 0) write_state(last, source);
 }
 
 }  // namespace perilink

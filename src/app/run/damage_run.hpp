@@ -20,6 +20,11 @@ class DamageRun final : public NetworkRun {
   RunOutcome run_outcome() override { return {result_.termination, result_.reason}; }
   void tell(Summary& summary) const override;
 
+  /// Writes a row, and the fields that are due. \throws FileError
+  void add_row(const StepRecord& record, StateSource& source);
+  /// Writes the fields of the last equilibrium, before any separation. \throws FileError
+  void end(const StepRecord& last, StateSource& source);
+
  private:
   /// A row with the largest |load| so far, recorded where there are several regions.
   struct HighRow {
@@ -59,21 +64,19 @@ class DamageRun final : public NetworkRun {
 
   void restore(const std::string& state) override;
   void follow();
-  void note_row(const StepRecord& record);
-  void end();
   void go_on_from_checkpoint();
   double scale_of(const StepRecord& record) const;
   ModelState model_state(const StepRecord& record, const StepState& state) const;
-  void note_places(const StepRecord& record);
+  void note_places(const StepRecord& record, StateSource& source);
   void note_compression(const StepRecord& record, const VtuGrid& grid);
   std::vector<RegionForce> places_at_peak() const;
   void tell_stresses(Summary& summary, Equilibria& found) const;
   void tell_elements(Summary& summary) const;
   void begin_again(const std::vector<std::uint8_t>& whole);
   void mark_broken();
-  void note_broken(const StepRecord& record);
+  void note_broken(const StepRecord& record, StateSource& source);
   bool wants_fields(const StepRecord& record) const;
-  void write_state(const StepRecord& record);
+  void write_state(const StepRecord& record, StateSource& source);
   void show_progress(const StepRecord& record);
 
   DamageOptions options_;

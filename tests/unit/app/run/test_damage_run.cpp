@@ -30,7 +30,8 @@ class DamageRunTest : public testing::Test, protected StateSource {
   }
   std::unique_ptr<DamageRun> make_run() {
     auto run = std::make_unique<DamageRun>(input_, 1, true);
-    files_ = &run->open(work_.path(), true);
+    run->open(work_.path(), true);
+    files_ = &run->files();
     return run;
   }
 
@@ -38,7 +39,7 @@ class DamageRunTest : public testing::Test, protected StateSource {
   void row(DamageRun& observer, Index next) {
     ++record_.step;
     record_.element = next;
-    observer.on_step(record_, *this);
+    observer.add_row(record_, *this);
   }
   void fail(Index element) {
     secants_[element] = 0.0;
@@ -51,7 +52,7 @@ class DamageRunTest : public testing::Test, protected StateSource {
       fail(element);
     }
     row(observer, 99);
-    observer.on_end(record_, *this);
+    observer.end(record_, *this);
     files_->finish();
   }
   std::vector<std::string> series() const {
@@ -138,7 +139,7 @@ TEST_F(DamageRunTest, BreaksWithinALoadStepAreOrderedByNumber) {
   row(*observer, 3);
   fail(20);
   row(*observer, 20);
-  observer->on_end(record_, *this);
+  observer->end(record_, *this);
   EXPECT_THAT(broken_bonds("fields_000003.vtu"), ElementsAre(ends_of(3), ends_of(70), ends_of(20)));
 }
 
@@ -155,7 +156,7 @@ TEST_F(DamageRunTest, ALoadStepThatPassesACountWritesTheNextOne) {
   fail(40);
   row(*observer, 40);
   EXPECT_THAT(series(), ElementsAre("fields_000001.vtu", "fields_000002.vtu", "fields_000004.vtu"));
-  observer->on_end(record_, *this);
+  observer->end(record_, *this);
   EXPECT_EQ(series().back(), "fields_000005.vtu");
 }
 
@@ -178,7 +179,7 @@ TEST_F(DamageRunTest, YieldingBreaksNothing) {
   row(*observer, 8);
   fail(8);
   row(*observer, 99);
-  observer->on_end(record_, *this);
+  observer->end(record_, *this);
   EXPECT_THAT(broken_bonds("fields_000004.vtu"), ElementsAre(ends_of(17), ends_of(8)));
 }
 
@@ -194,11 +195,10 @@ TEST_F(DamageRunTest, EveryRowGoesToTheHistory) {
 
 TEST_F(DamageRunTest, ARunWithoutRowsLeavesNoFields) {
   const auto observer = make_run();
-  observer->on_end(record_, *this);
+  observer->end(record_, *this);
   files_->finish();
   EXPECT_TRUE(field_files().empty());
   EXPECT_FALSE(fs::exists(work_ / "fields.pvd"));
-  EXPECT_FALSE(observer->stop_requested());
 }
 
 /// The strip pulled by events, unloaded, and pulled again; a gauge follows its upper end.

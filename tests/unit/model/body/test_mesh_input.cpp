@@ -187,7 +187,8 @@ type = "elastic"
                                       (directory_ / "case.toml").string());
     const auto run = make_run(input, 1, true);
     std::filesystem::create_directories(directory_ / "out");
-    RunFiles& files = run->open(directory_ / "out", true);
+    run->open(directory_ / "out", true);
+    RunFiles& files = run->files();
     run->analyse();
     files.finish();
     const CsvTable table = read_csv((directory_ / "out/history.csv").string());
