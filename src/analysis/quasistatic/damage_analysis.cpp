@@ -71,6 +71,19 @@ bool has_broken_enough(PathState& path, const StopRules& stop) {
   return true;
 }
 
+/// Adds the contribution of permanent loads to the axes and the largest energy of a row.
+void measure_permanent(PathState& path, const ReferenceLoad& load, const LoadWork& work,
+                       StepRecord& row) {
+  const double growing = row.load_factor * work.forces + work.constant.growing_forces;
+  if (load.driven) {
+    row.load += (work.constant.growing_supports - work.constant.forces_on_clamps) / load.value;
+  } else {
+    row.displacement = growing / load.value;
+  }
+  path.most_work = std::max(
+      {path.most_work, std::abs(row.external_work), row.strain_energy, row.dissipated_energy});
+}
+
 }  // namespace
 
 /// Records the residual and, if it was summed over the elements, the stored energy.
@@ -134,7 +147,7 @@ void EventRun::record(double load_factor, const LoadWork& work, const Event& eve
   row.displacement = reference_->driven ? load_factor * reference_->value
                      : row.load != 0.0  ? 2.0 * row.strain_energy / row.load
                                         : 0.0;
-  if (staged_ != nullptr) measure_permanent(work, row);
+  if (staged_ != nullptr) measure_permanent(path_, *reference_, work, row);
   row.dissipated_energy = path_.energy.dissipated();
   row.external_work = path_.energy.external_work();
   row.released_energy = path_.energy.released();
@@ -256,16 +269,6 @@ bool EventRun::by_events() {
   return true;
 }
 
-/// Ends a run within a load step with the last equilibrium, at the load factor of the next event.
-/// Constant loads do unbounded work on a separating body. The energies therefore belong to a
-/// load that followed the events since the last step.
-bool EventRun::end_within_step(const Event& event) {
-  path_.energy = path_.following;
-  record(event.load_factor, engine_->load_work(), event);
-  path_.over = true;
-  return true;
-}
-
 /// Goes to the next prescribed load factor. There elements fail, the worst first, until none
 /// exceeds its limit. Within a step, only the number of broken bonds and signals can stop the run.
 /// The other stop rules need equilibrium at the end of a step.
@@ -277,6 +280,15 @@ bool EventRun::by_steps() {
     return false;
   }
   const double load_factor = options_.load_factors[path_.position++];
+  // The run ends with the last equilibrium, at the load factor of the next event. Constant loads do
+  // unbounded work on a separating body. The energies therefore belong to a load that followed the
+  // events since the last step.
+  const auto end_within_step = [&](const Event& event) {
+    path_.energy = path_.following;
+    record(event.load_factor, engine_->load_work(), event);
+    path_.over = true;
+    return true;
+  };
   Event event = next_event_below(load_factor);
   Index last = no_index;
   path_.following = path_.energy;

@@ -56,7 +56,7 @@ EventRun::EventRun(const LoadedNetwork& problem, const DamageOptions& options, D
     motion = &host_release_->hold(newest > 0 ? *motion : problem.embedded->free);
   }
   if (options.stages.empty()) {
-    engine_ = std::make_unique<SingleEventEngine>(problem, options.engine, *motion, &saved.body);
+    engine_ = std::make_unique<SingleEventEngine>(problem, options.engine, &saved.body, motion);
   } else {
     auto engine = std::make_unique<StagedEngine>(problem, options.engine, *motion, saved.body);
     staged_ = engine.get();

@@ -72,7 +72,6 @@ class EventRun final : public StateSource {
   LoadWork begin_work();
   bool by_events();
   bool by_steps();
-  bool end_within_step(const Event& event);
   // Control by stages: staged_run.cpp.
   bool by_stages();
   bool leave_row(const Event& event);
@@ -81,7 +80,6 @@ class EventRun final : public StateSource {
   void follow_rules();
   void end_stage();
   const StageRules& stage() const { return options_.stages[path_.position]; }
-  void measure_permanent(const LoadWork& work, StepRecord& row);
   void record(double load_factor, const LoadWork& work, const Event& event);
   void take_note_of(const Balance& balance);
   void look_after(const EventOutcome& outcome);

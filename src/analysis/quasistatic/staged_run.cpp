@@ -159,17 +159,4 @@ bool EventRun::follow_stage() {
   return true;
 }
 
-/// Adds the contribution of permanent loads to the axes and the largest energy of a row.
-void EventRun::measure_permanent(const LoadWork& work, StepRecord& row) {
-  const double growing = row.load_factor * work.forces + work.constant.growing_forces;
-  if (reference_->driven) {
-    row.load +=
-        (work.constant.growing_supports - work.constant.forces_on_clamps) / reference_->value;
-  } else {
-    row.displacement = growing / reference_->value;
-  }
-  path_.most_work = std::max(
-      {path_.most_work, std::abs(row.external_work), row.strain_energy, row.dissipated_energy});
-}
-
 }  // namespace perilink

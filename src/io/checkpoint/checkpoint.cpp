@@ -41,28 +41,27 @@ std::string fingerprint(std::initializer_list<std::span<const double>> numbers) 
 }
 
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint) {
-  const std::string content = pack(checkpoint.run, checkpoint.model, checkpoint.state);
-  write_whole_file(path, file_mark + pack(this_program(), checksum(content)) + content);
+  const std::string content =
+      pack(this_program(), checkpoint.run, checkpoint.model, checkpoint.state);
+  write_whole_file(path, file_mark + pack(checksum(content)) + content);
 }
 
 std::optional<Checkpoint> read_checkpoint(const std::string& path) {
   if (!std::filesystem::exists(path)) return std::nullopt;
   const std::string bytes = read_regular_file(path, std::string::npos, 3.0);
-  if (!bytes.starts_with(file_mark)) refuse(path, "is no checkpoint");
-  std::string program;
   std::uint32_t sum = 0;
+  const std::size_t begin = file_mark.size() + sizeof sum;
+  if (!bytes.starts_with(file_mark) || bytes.size() < begin) refuse(path, "is no checkpoint");
+  unpack(bytes.substr(file_mark.size()), sum);
+  const std::string content = bytes.substr(begin);
+  if (checksum(content) != sum) refuse(path, "is damaged: its checksum is wrong");
+  std::string program;
   Checkpoint checkpoint;
-  try {
-    unpack(bytes.substr(file_mark.size()), program, sum);
-    if (program != this_program()) {
-      refuse(path, "is of perilink " + program + ", and this is perilink " + this_program());
-    }
-    const std::string content = bytes.substr(file_mark.size() + pack(program, sum).size());
-    if (checksum(content) != sum) refuse(path, "is damaged: its checksum is wrong");
-    unpack(content, checkpoint.run, checkpoint.model, checkpoint.state);
-  } catch (const std::length_error&) {  // a size that is damaged
-    refuse(path, "is damaged");
+  unpack(content, program);
+  if (program != this_program()) {
+    refuse(path, "is of perilink " + program + ", and this is perilink " + this_program());
   }
+  unpack(content, program, checkpoint.run, checkpoint.model, checkpoint.state);
   return checkpoint;
 }
 

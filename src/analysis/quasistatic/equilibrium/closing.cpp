@@ -27,7 +27,6 @@ constexpr double no_resistance = 1e12;
 /// Rough rates of one core, to choose between a new factor and changes that pass through it.
 constexpr double flops_per_second = 15e9, bytes_per_second = 36e9, seconds_per_element = 1e-7;
 
-/// Returns the offsets of the ends of an element in the displacements, and its direction.
 template <class BondEnds>
 BondEnds ends_of(const Network& network, Index element) {
   const auto width = static_cast<std::size_t>(network.width());

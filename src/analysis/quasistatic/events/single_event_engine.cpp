@@ -32,12 +32,13 @@ NoisyExtension extension_of(const Network& network, Index element, std::span<con
 }  // namespace
 
 SingleEventEngine::SingleEventEngine(const LoadedNetwork& problem,
-                                     const EquilibriumOptions& options, const Unknowns& unknowns,
-                                     const BodyState* saved)
+                                     const EquilibriumOptions& options, const BodyState* saved,
+                                     const Unknowns* unknowns)
     : network_(problem.network),
       threads_(options.threads),
       tolerance_(options.event_tolerance),
-      equilibrium_(problem, options, unknowns, saved != nullptr ? &saved->elements : nullptr),
+      equilibrium_(problem, options, unknowns != nullptr ? *unknowns : problem.unknowns,
+                   saved != nullptr ? &saved->elements : nullptr),
       search_(make_break_search(network_)),
       closes_(network_.has_closing()) {
   if (network_.has_crushing()) crushing_.emplace(network_);

@@ -16,12 +16,11 @@ namespace perilink {
 /// displacements.
 class SingleEventEngine : public EventEngine {
  public:
-  SingleEventEngine(const LoadedNetwork& problem, const EquilibriumOptions& options)
-      : SingleEventEngine(problem, options, problem.unknowns, nullptr) {}
-  /// Goes on from a saved state; null: begins with the intact body.
-  /// \param unknowns  motion of the particles in that state; must outlive this object
+  /// \param saved     state to go on from; null: begins with the intact body
+  /// \param unknowns  motion of the particles in that state, must outlive this object; null: that of
+  ///                  the problem
   SingleEventEngine(const LoadedNetwork& problem, const EquilibriumOptions& options,
-                    const Unknowns& unknowns, const BodyState* saved);
+                    const BodyState* saved = nullptr, const Unknowns* unknowns = nullptr);
 
   Event next_event_below(double most) override;
   EventOutcome apply(const Event& event) override;

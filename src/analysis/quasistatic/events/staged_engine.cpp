@@ -25,7 +25,7 @@ StagedEngine::StagedEngine(const LoadedNetwork& problem, const EquilibriumOption
 
 StagedEngine::StagedEngine(const LoadedNetwork& problem, const EquilibriumOptions& options,
                            const Unknowns& held, const BodyState& saved)
-    : SingleEventEngine(problem, options, held, &saved),
+    : SingleEventEngine(problem, options, &saved, &held),
       problem_(problem),
       crossings_(problem.network),
       last_crossing_threads_(options.threads),

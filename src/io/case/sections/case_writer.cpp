@@ -36,7 +36,7 @@ void write_body(TomlWriter& out, const BodySection& body) {
   if (is_lattice(body)) return write_lattice_body(out, body);
   out.write("mesh", body.mesh);
   out.write("mesh_size", body.mesh_size);
-  if (!body.mesh) out.write("pattern", word_of(body.pattern));
+  if (!body.mesh && !is_beam(body)) out.write("pattern", word_of(body.pattern));
   const bool has_horizon = bonds && !is_particles(body);
   if (has_horizon) out.write("surface", word_of(body.surface));
   out.write("columns", body.columns);

@@ -9,6 +9,7 @@
 #include "results/summary_file.hpp"
 #include "support/case_texts.hpp"
 #include "support/replaced.hpp"
+#include "support/strip_case.hpp"
 #include "support/temporary_directory.hpp"
 
 namespace perilink {
@@ -16,32 +17,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::string strip = R"(
-[body]
-x = [0, 40]
-y = [0, 20]
-thickness = 1
-spacing = 4
-horizon_ratio = 2
-[[regions]]
-name = "left"
-x = [0, 1]
-y = [0, 20]
-[[regions]]
-name = "right"
-x = [39, 40]
-y = [0, 20]
-[[materials]]
-youngs_modulus = 1000
-fracture_energy = 0.1
-[[supports]]
-region = "left"
-fix = ["x", "y"]
-[[displacements]]
-region = "right"
-x = 1
-[analysis]
-type = "damage"
+const std::string strip = std::string(test::strip_text) + R"(
 [stop]
 broken_bonds = 12
 [output]

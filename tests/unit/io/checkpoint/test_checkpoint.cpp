@@ -84,16 +84,6 @@ TEST_F(CheckpointFile, IsRefusedWhereAByteIsWrong) {
   EXPECT_THAT(refusal(), HasSubstr("--force")) << "half of it";
 }
 
-TEST_F(CheckpointFile, OfAnotherVersionIsNamed) {
-  write_checkpoint(path_, written_);
-  std::string bytes = read_regular_file(path_);
-  const std::size_t version = bytes.find("(commit ");
-  ASSERT_NE(version, std::string::npos);
-  bytes[version + 8] = '#';
-  write_whole_file(path_, bytes);
-  EXPECT_THAT(refusal(), HasSubstr("and this is perilink"));
-}
-
 TEST(Fingerprint, ChangesWithAnyNumberAndWithTheSizes) {
   const std::vector<double> a = {1.0, 2.0}, b = {3.0}, c = {1.0, 2.0000000000000004},
                             all = {1, 2, 3};

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <random>
 #include <string>
 
@@ -40,6 +41,22 @@ TEST(CaseWriter, WritesWhatItReads) {
     EXPECT_EQ(again.stop.displacement, input.stop.displacement);
     EXPECT_EQ(again.output.fields_at, input.output.fields_at);
   }
+}
+
+/// Every example reads back from what is written, so that results run again.
+TEST(CaseWriter, WritesExamplesThatReadBack) {
+  int examples = 0;
+  for (const char* folder : {"/meshes", "/tests/cli/malformed/bases"}) {
+    const std::filesystem::path place = std::string(PERILINK_SOURCE_DIR) + folder;
+    for (const auto& entry : std::filesystem::directory_iterator(place)) {
+      if (entry.path().extension() != ".toml") continue;
+      SCOPED_TRACE(entry.path());
+      const std::string written = write_case(read_case_file(entry.path().string()));
+      EXPECT_EQ(write_case(parse_case(written, entry.path().string())), written);
+      ++examples;
+    }
+  }
+  EXPECT_GT(examples, 40);
 }
 
 TEST(CaseWriter, WritesNumbersThatReadBackExactly) {
