@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "app/process/signals.hpp"
 #include "app/run/run_notes.hpp"
 #include "app/run/run_warnings.hpp"
 #include "app/run/separated_body.hpp"
@@ -16,8 +15,8 @@
 
 namespace perilink {
 
-DamageRun::DamageRun(const CaseFile& of_case, int on_threads, bool quiet)
-    : NetworkRun(of_case, on_threads, quiet),
+DamageRun::DamageRun(const CaseFile& of_case, int on_threads, const RunCallbacks& calls)
+    : NetworkRun(of_case, on_threads, calls),
       is_broken_(static_cast<std::size_t>(model_.network.num_elements()), 0) {
   // Pre-cracks cut these.
   for (const Index element : model_.network.cut_elements) is_broken_[element] = 1;
@@ -291,6 +290,6 @@ void DamageRun::on_end(const StepRecord& last, StateSource& source) {
   if (last.step > 0) write_state(last, source);
 }
 
-bool DamageRun::stop_requested() { return stop_signal_received(); }
+bool DamageRun::stop_requested() { return callbacks.asks_to_stop(); }
 
 }  // namespace perilink

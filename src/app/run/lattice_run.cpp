@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "app/process/signals.hpp"
 #include "app/run/run_kind.hpp"
 #include "app/run/run_warnings.hpp"
 #include "model/from_case/lattice_case.hpp"
@@ -14,8 +13,8 @@ namespace {
 /// A run with type = "explicit" of a body with model = "lattice".
 class LatticeRun final : public RunKind, private ExplicitObserver {
  public:
-  LatticeRun(const CaseFile& of_case, int on_threads)
-      : RunKind(of_case, on_threads), built_(build_explicit_case(of_case)) {
+  LatticeRun(const CaseFile& of_case, int on_threads, const RunCallbacks& calls)
+      : RunKind(of_case, on_threads, calls), built_(build_explicit_case(of_case)) {
     built_.options.threads = threads;
     notes = built_.notes;
     plan = fmt::format("{} particles, {} bonds, {} steps of {:.4g} (critical {:.4g})",
@@ -67,7 +66,7 @@ class LatticeRun final : public RunKind, private ExplicitObserver {
     write_state(last, state);
   }
 
-  bool stop_requested() override { return stop_signal_received(); }
+  bool stop_requested() override { return callbacks.asks_to_stop(); }
 
   void write_state(const ExplicitRecord& record, const ExplicitState& state) {
     files_->write_fields(record.step, record.time, [&] {
@@ -97,8 +96,9 @@ class LatticeRun final : public RunKind, private ExplicitObserver {
 
 }  // namespace
 
-std::unique_ptr<RunKind> make_lattice_run(const CaseFile& input, int threads) {
-  return std::make_unique<LatticeRun>(input, threads);
+std::unique_ptr<RunKind> make_lattice_run(const CaseFile& input, int threads,
+                                          const RunCallbacks& calls) {
+  return std::make_unique<LatticeRun>(input, threads, calls);
 }
 
 }  // namespace perilink

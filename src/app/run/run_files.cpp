@@ -30,16 +30,20 @@ std::string cracks_text(const CaseFile& input, const ExplicitRecord& record) {
              : fmt::format("{} broken bonds", record.broken_bonds);
 }
 
-RunFiles::RunFiles(const CaseFile& input, std::filesystem::path directory, bool quiet)
+RunFiles::RunFiles(const CaseFile& input, std::filesystem::path directory, RunCallbacks calls)
     : input_(input),
+      callbacks_(std::move(calls)),
       directory_(std::move(directory)),
-      bar_(quiet),
+      bar_(callbacks_.quiet),
       history_(std::in_place, directory_.string(), input),
       peaks_(is_relaxation(input) ? 1 : vibrating_rows) {}
 
 void RunFiles::add_row(const StepRecord& record, std::span<const double> gauges) {
   history_->append(record, gauges);
   ++rows_;
+  if (!callbacks_.on_row) return;
+  callbacks_.on_row({rows_, record.step, 0.0, record.load_factor, record.load, record.displacement,
+                     record.broken_bonds});
 }
 
 void RunFiles::add_row(const ExplicitRecord& record, std::span<const double> gauges) {
@@ -47,6 +51,9 @@ void RunFiles::add_row(const ExplicitRecord& record, std::span<const double> gau
   ++rows_;
   const bool intact = record.broken_bonds == 0 && record.cracked_particles == 0;
   peaks_.add({record.displacement, record.load}, intact);
+  if (!callbacks_.on_row) return;
+  callbacks_.on_row({rows_, record.step, record.time, record.load_factor, record.load,
+                     record.displacement, record.broken_bonds + record.cracked_particles});
 }
 
 void RunFiles::begin_again() {

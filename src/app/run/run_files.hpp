@@ -10,6 +10,7 @@
 
 #include "analysis/quasistatic/load_curve.hpp"
 #include "app/process/progress.hpp"
+#include "app/process/run_callbacks.hpp"
 #include "io/case/case_file.hpp"
 #include "io/fields/vtu.hpp"
 #include "model/model.hpp"
@@ -24,7 +25,7 @@ class RunFiles {
  public:
   /// \param directory  existing directory
   /// \throws FileError
-  RunFiles(const CaseFile& input, std::filesystem::path directory, bool quiet);
+  RunFiles(const CaseFile& input, std::filesystem::path directory, RunCallbacks calls);
 
   /// \param gauges  gauge values, in the order of the case
   void add_row(const StepRecord& record, std::span<const double> gauges);
@@ -57,6 +58,7 @@ class RunFiles {
   void add_to_series(double at, const std::string& name, const std::function<void()>& write);
 
   const CaseFile& input_;
+  RunCallbacks callbacks_;
   std::filesystem::path directory_;
   ProgressBar bar_;
   std::optional<HistoryFile> history_;

@@ -11,8 +11,8 @@
 
 namespace perilink {
 
-NetworkRun::NetworkRun(const CaseFile& of_case, int on_threads, bool quiet)
-    : RunKind(of_case, on_threads), model_(build_model_visibly(of_case, quiet)) {
+NetworkRun::NetworkRun(const CaseFile& of_case, int on_threads, const RunCallbacks& calls)
+    : RunKind(of_case, on_threads, calls), model_(build_model_visibly(of_case, calls)) {
   plan = size_text(model_);
   notes = model_.notes;
   if (!model_.network.calibration) return;
@@ -69,10 +69,12 @@ Summary summary_of(RunKind& run, const std::filesystem::path& directory) {
   return summary;
 }
 
-Model build_model_visibly(const CaseFile& input, bool quiet) {
-  CalibrationProgress progress(quiet);
-  return build_model(input,
-                     [&](int search, double unbalanced) { progress.update(search, unbalanced); });
+Model build_model_visibly(const CaseFile& input, const RunCallbacks& calls) {
+  CalibrationProgress progress(calls.quiet);
+  return build_model(input, [&](int search, double unbalanced) {
+    progress.update(search, unbalanced);
+    if (calls.on_calibration) calls.on_calibration(search, unbalanced);
+  });
 }
 
 }  // namespace perilink

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/process/run_callbacks.hpp"
 #include "app/run/run_files.hpp"
 #include "app/run/summary.hpp"
 #include "model/from_case/configure.hpp"
@@ -33,12 +34,13 @@ struct RunOutcome {
 class RunKind {
  public:
   /// \param of_case  must outlive the run
-  RunKind(const CaseFile& of_case, int on_threads) : input(of_case), threads(on_threads) {}
+  RunKind(const CaseFile& of_case, int on_threads, RunCallbacks to_call = {})
+      : input(of_case), threads(on_threads), callbacks(std::move(to_call)) {}
   virtual ~RunKind() = default;
 
   /// Opens the files in the directory of the run. \throws FileError
-  RunFiles& open(const std::filesystem::path& directory, bool quiet) {
-    return *(files_ = std::make_unique<RunFiles>(input, directory, quiet));
+  RunFiles& open(const std::filesystem::path& directory, const RunCallbacks& calls) {
+    return *(files_ = std::make_unique<RunFiles>(input, directory, calls));
   }
   RunFiles& files() const { return *files_; }
   /// Runs the analysis. Its termination status is in run_outcome().
@@ -49,6 +51,7 @@ class RunKind {
 
   const CaseFile& input;
   const int threads;
+  const RunCallbacks callbacks;
   std::string plan;                        ///< sizes and steps to come, for the log
   std::vector<std::string> notes;          ///< known before the analysis
   std::optional<std::string> calibration;  ///< result of the bond calibration, if there is one
@@ -61,7 +64,7 @@ class RunKind {
 /// A run on a network of bonds, or on linear elements.
 class NetworkRun : public RunKind {
  public:
-  NetworkRun(const CaseFile& of_case, int on_threads, bool quiet);
+  NetworkRun(const CaseFile& of_case, int on_threads, const RunCallbacks& calls);
 
  protected:
   /// Returns a rate, "3.2 M bond-steps/s".
@@ -78,13 +81,17 @@ class NetworkRun : public RunKind {
 /// Builds the model of a case and its run.
 /// \param input  must outlive the run
 /// \throws InputError where the case does not fit its body
-std::unique_ptr<RunKind> make_run(const CaseFile& input, int threads, bool quiet);
+std::unique_ptr<RunKind> make_run(const CaseFile& input, int threads, const RunCallbacks& calls);
 
 /// Builds a run of one analysis type, see make_run().
-std::unique_ptr<RunKind> make_elastic_run(const CaseFile& input, int threads, bool quiet);
-std::unique_ptr<RunKind> make_relaxation_run(const CaseFile& input, int threads, bool quiet);
-std::unique_ptr<RunKind> make_bond_run(const CaseFile& input, int threads, bool quiet);
-std::unique_ptr<RunKind> make_lattice_run(const CaseFile& input, int threads);
+std::unique_ptr<RunKind> make_elastic_run(const CaseFile& input, int threads,
+                                          const RunCallbacks& calls);
+std::unique_ptr<RunKind> make_relaxation_run(const CaseFile& input, int threads,
+                                             const RunCallbacks& calls);
+std::unique_ptr<RunKind> make_bond_run(const CaseFile& input, int threads,
+                                       const RunCallbacks& calls);
+std::unique_ptr<RunKind> make_lattice_run(const CaseFile& input, int threads,
+                                          const RunCallbacks& calls);
 
 /// Formats a rate, "3.2 M particle-steps/s"; zero for no time.
 std::string rate_text(double count, double seconds, const std::string& unit);
@@ -93,6 +100,6 @@ std::string rate_text(double count, double seconds, const std::string& unit);
 Summary summary_of(RunKind& run, const std::filesystem::path& directory);
 
 /// Calls build_model() and shows the progress of the calibration on a terminal.
-Model build_model_visibly(const CaseFile& input, bool quiet);
+Model build_model_visibly(const CaseFile& input, const RunCallbacks& calls);
 
 }  // namespace perilink
