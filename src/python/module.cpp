@@ -41,6 +41,14 @@ void translate(std::exception_ptr pointer) {
   }
 }
 
+/// Reads a case from text.
+/// \param has_lines  later messages give lines of the text
+CaseFile read_text(const std::string& text, const std::string& path, bool has_lines) {
+  CaseFile input = parse_case(text, path);
+  if (!has_lines) input.lines.clear();
+  return input;
+}
+
 }  // namespace
 }  // namespace perilink
 
@@ -55,10 +63,7 @@ PYBIND11_MODULE(_core, module) {
       .def_property_readonly("path", [](const CaseFile& input) { return input.path; })
       .def_readwrite("trust_geometry", &CaseFile::trust_geometry)
       .def("resolved", write_case);
-  module.def(
-      "parse_case",
-      [](const std::string& text, const std::string& path) { return parse_case(text, path); },
-      py::arg("text"), py::arg("path"));
+  module.def("parse_case", read_text, py::arg("text"), py::arg("path"), py::arg("has_lines"));
   module.def("read_case", read_case, py::arg("path"));
   bind_runs(module);
   bind_problems(module);

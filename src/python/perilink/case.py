@@ -51,16 +51,17 @@ class Case(dict[str, Any]):
         return copy.deepcopy(self)
 
     def toml(self) -> str:
-        """Returns the text of the case file: of the file itself while nothing has changed."""
-        if self._source is not None and tomllib.loads(self._source) == self:
-            return self._source
-        return _toml(self, {})
+        """Returns the text of the case file: of the file itself while nothing has changed.
+
+        A `Mesh` has the name of the file that `write` gives it.
+        """
+        return self._unchanged() or _toml(self, {id(m): f"{t}.msh" for t, m in self._meshes()})
 
     def write(self, path: str | PathLike[str]) -> None:
         """Writes the case file. A `Mesh` is written beside it as body.msh or elements.msh."""
         target = Path(path)
-        names = self._write_meshes(target.parent, relative=True)
-        target.write_text(_toml(self, names) if names else self.toml(), encoding="utf-8")
+        self._write_meshes(target.parent)
+        target.write_text(self.toml(), encoding="utf-8")
 
     def check(self) -> Case:
         """Checks all values and returns the case with all defaults.
@@ -69,28 +70,32 @@ class Case(dict[str, Any]):
             InputError: the first value at fault. Faults that depend on the body are found by
                 `build` and `run`.
         """
-        resolved = Case(tomllib.loads(self._parse().resolved()), path=self.path)
-        return resolved
+        return Case(tomllib.loads(self._parse().resolved()), path=self.path)
 
     def _parse(self, mesh_folder: Path | None = None) -> _core.CaseFile:
-        """Reads and checks the case. Meshes are written to a folder, or only named without one."""
-        if mesh_folder is not None:
-            names = self._write_meshes(mesh_folder, relative=False)
-        else:
-            names = {id(mesh): "mesh.msh" for _, mesh in self._meshes()}
-        unchanged = self.toml() is self._source
-        text = self.toml() if not names else _toml(self, names)
-        try:
-            return _core.parse_case(text, self.path)
-        except InputError as error:
-            raise self._without_line(error) if not unchanged else error from None
+        """Reads and checks the case.
 
-    def _without_line(self, error: InputError) -> InputError:
-        """Takes off the line of a text that the user has not seen."""
-        message = str(error)
-        if error.line > 0:
-            message = message.replace(f"{self.path}:{error.line}: ", f"{self.path}: ", 1)
-        return InputError(message, error.path, 0, error.key)
+        Args:
+            mesh_folder: receives the meshes; without one they are only named
+        """
+        source = self._unchanged()
+        if source is not None:
+            return _core.parse_case(source, self.path, True)
+        text = self.toml()
+        if mesh_folder is not None:
+            text = _toml(self, self._write_meshes(mesh_folder))
+        try:  # lines of this text mean nothing to the user
+            return _core.parse_case(text, self.path, False)
+        except InputError as error:
+            line = f":{error.line}" if error.line > 0 else ""
+            message = str(error).replace(f"{self.path}{line}: ", f"{self.path}: ", 1)
+            raise InputError(message, error.path, 0, error.key) from None
+
+    def _unchanged(self) -> str | None:
+        """Returns the text that the case was read from, if nothing has changed since."""
+        if self._source is not None and tomllib.loads(self._source) == self:
+            return self._source
+        return None
 
     def _meshes(self) -> list[tuple[str, Mesh]]:
         found = []
@@ -100,13 +105,14 @@ class Case(dict[str, Any]):
                 found.append((table, entry["mesh"]))
         return found
 
-    def _write_meshes(self, folder: Path, relative: bool) -> dict[int, str]:
-        names = {}
+    def _write_meshes(self, folder: Path) -> dict[int, str]:
+        """Writes the meshes and returns the paths of their files."""
+        paths = {}
         for table, mesh in self._meshes():
             file = folder / f"{table}.msh"
             mesh.write(file)
-            names[id(mesh)] = file.name if relative else str(file.resolve())
-        return names
+            paths[id(mesh)] = str(file.resolve())
+        return paths
 
 
 def parse_case(text: str, path: str | PathLike[str] = "case") -> Case:
@@ -119,7 +125,7 @@ def parse_case(text: str, path: str | PathLike[str] = "case") -> Case:
     Raises:
         InputError: with file, line, key, value, what is allowed and a suggestion
     """
-    _core.parse_case(text, fspath(path))
+    _core.parse_case(text, fspath(path), True)
     case = Case(tomllib.loads(text), path=path)
     case._source = text
     return case
