@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import csv
 import json
+import shutil
 import tempfile
+import weakref
 from collections.abc import Callable
 from os import PathLike, fspath
 from pathlib import Path
@@ -34,7 +36,6 @@ class Result:
         _core.require_result(fspath(self.directory))
         self.text: str = ""  #: the lines that ``perilink run`` prints
         self._history: Arrays | None = None
-        self._temporary: tempfile.TemporaryDirectory[str] | None = None
 
     @property
     def summary(self) -> dict[str, Any]:
@@ -164,11 +165,24 @@ def run(
         FileError: the directory holds results, or files cannot be written
         SolverError: the solver cannot continue; rows before are in the directory
     """
-    temporary = None
-    if directory is None:
-        temporary = tempfile.TemporaryDirectory(prefix="perilink-")
-        directory = temporary.name
-    target = Path(directory)
+    target = Path(tempfile.mkdtemp(prefix="perilink-") if directory is None else directory)
+    try:
+        return _run(case, target, directory is None, threads, force, progress, trust_geometry)
+    except BaseException:
+        if directory is None:
+            shutil.rmtree(target, ignore_errors=True)
+        raise
+
+
+def _run(
+    case: Case,
+    target: Path,
+    is_temporary: bool,
+    threads: int | None,
+    force: bool,
+    progress: Callable[[_core.Row], object] | None,
+    trust_geometry: bool,
+) -> Result:
     meshes = None
     if case._meshes():
         _core.refuse_old_results(fspath(target), force)
@@ -181,5 +195,6 @@ def run(
     _, _, text = _core.run(parsed, fspath(target), threads or 0, force, progress)
     result = Result(target)
     result.text = text
-    result._temporary = temporary
+    if is_temporary:
+        weakref.finalize(result, shutil.rmtree, target, ignore_errors=True)
     return result
