@@ -37,8 +37,8 @@ const Network& network_of(const py::object& self) {
 
 py::ssize_t elements_of(const Network& network) { return network.num_elements(); }
 
-/// Returns the ends of the elements, shape (elements, 2). Both ends are in vectors of their own: the
-/// step along the second axis is the distance of these vectors.
+/// Returns the ends of the elements, shape (elements, 2). First and second ends are separate
+/// vectors: the step along the second axis is the distance between them.
 py::array_t<Index> ends_of_elements(const py::object& self) {
   const Bonds& bonds = network_of(self).bonds;
   const auto step = reinterpret_cast<std::intptr_t>(bonds.second.data()) -
@@ -154,12 +154,10 @@ py::dict solve_problem(const BuiltCase& built, int threads) {
   return result;
 }
 
-}  // namespace
+using ProblemClass = py::class_<BuiltCase>;
 
-void bind_problems(py::module_& module) {
-  py::class_<BuiltCase>(module, "Problem",
-                        "Particles, bonds, supports and loads of a case. Arrays are views of its "
-                        "memory; do not change them.")
+void add_sizes(ProblemClass& problem) {
+  problem
       .def_property_readonly(
           "dim", [](const BuiltCase& b) { return b.model.network.dim(); },
           "Number of dimensions, 2 or 3.")
@@ -182,7 +180,11 @@ void bind_problems(py::module_& module) {
           "Number of the first bond-slip spring; bonds come before.")
       .def_property_readonly(
           "first_bar_element", [](const BuiltCase& b) { return b.model.network.first_bar_element; },
-          "Number of the first bar element; slip springs come before.")
+          "Number of the first bar element; slip springs come before.");
+}
+
+void add_arrays(ProblemClass& problem) {
+  problem
       .def_property_readonly(
           "positions",
           [](const py::object& self) {
@@ -225,6 +227,16 @@ void bind_problems(py::module_& module) {
       .def_property_readonly(
           "regions", particles_of_regions,
           "Numbers of the particles of each region by its name, ascending. Copies.");
+}
+
+}  // namespace
+
+void bind_problems(py::module_& module) {
+  ProblemClass problem(module, "Problem",
+                       "Particles, bonds, supports and loads of a case. Arrays are views of its "
+                       "memory; do not change them.");
+  add_sizes(problem);
+  add_arrays(problem);
   module.def("build", build_case, py::arg("case"), py::arg("threads") = 0);
   module.def("solve", solve_problem, py::arg("problem"), py::arg("threads") = 0);
 }

@@ -20,7 +20,7 @@ VERSION = re.search(r"project\(perilink VERSION ([0-9.]+)", (ROOT / "CMakeLists.
 
 class CMakeBuild(build_ext):
     def build_extension(self, ext):
-        build = Path(self.build_temp).resolve() / "cmake"
+        build = ROOT / "build" / "pip"  # apart from the sources
         subprocess.run(
             ["cmake", "-S", ROOT, "-B", build, "-DCMAKE_BUILD_TYPE=Release",
              "-DCMAKE_UNITY_BUILD=ON", "-DPERILINK_PYTHON=ON", "-DPERILINK_TESTS=OFF",

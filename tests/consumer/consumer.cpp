@@ -1,5 +1,5 @@
-// Builds a case from text, solves it and runs it to collapse. The first argument is the directory of
-// the results.
+// Builds a case from text, solves it and runs it to collapse. The first argument is the directory
+// of the results.
 
 #include <cmath>
 #include <cstdio>
