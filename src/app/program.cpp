@@ -150,6 +150,10 @@ int run_program(int argc, char** argv) {
   CLI::App* run_command = app.add_subcommand("run", "Run a case and write its results");
   run_command->add_option("case", run.case_path, "Case file (.toml)")->required();
   add_run_options(*run_command, run);
+  run_command
+      ->add_flag("--resume", run.resume,
+                 "Go on from the last checkpoint of the results, or begin where there are none")
+      ->excludes("--force");
 
   RunOptions study;
   CLI::App* converge_command = app.add_subcommand(

@@ -162,6 +162,18 @@ LineFile::LineFile(std::string path) : path_(std::move(path)), temporary_(tempor
   if (descriptor_ < 0) fail_to_write(path_, errno);
 }
 
+LineFile::LineFile(std::string path, std::size_t size) : path_(std::move(path)), size_(size) {
+  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC);
+  if (descriptor_ < 0) fail_to_write(path_, errno);
+  struct stat status {};
+  if (::fstat(descriptor_, &status) == 0 && static_cast<std::size_t>(status.st_size) >= size &&
+      ::ftruncate(descriptor_, static_cast<off_t>(size)) == 0) {
+    return;
+  }
+  ::close(descriptor_);
+  throw FileError(path_ + ": is shorter than when the state of its run was saved");
+}
+
 LineFile::~LineFile() {
   ::close(descriptor_);
   if (!temporary_.empty()) ::unlink(temporary_.c_str());

@@ -43,6 +43,10 @@ class LineFile {
  public:
   /// \throws FileError
   explicit LineFile(std::string path);
+  /// Goes on with an existing file.
+  /// \param size  bytes of its lines to keep; the rest is removed
+  /// \throws FileError  also where the file is shorter
+  LineFile(std::string path, std::size_t size);
   ~LineFile();
   LineFile(const LineFile&) = delete;
   LineFile& operator=(const LineFile&) = delete;
@@ -54,6 +58,7 @@ class LineFile {
   /// Syncs the file to the disk. \throws FileError
   void sync();
   const std::string& path() const { return path_; }
+  std::size_t size() const { return size_; }  ///< [bytes]
 
  private:
   std::string path_;

@@ -70,6 +70,11 @@ class ReactionBalance {
   /// Returns a warning about the first row with reactions out of balance.
   std::optional<std::string> warning() const;
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(size_, row_, imbalance_);
+  }
+
  private:
   double size_ = 0.0;       // largest sum of magnitudes of loads and reactions so far [force]
   Index row_ = 0;           // first row out of balance; 0: none

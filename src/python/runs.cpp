@@ -79,14 +79,14 @@ class PythonCaller {
   std::exception_ptr error_;
 };
 
-py::tuple run(const CaseFile& input, const std::string& directory, int threads, bool force,
+py::tuple run(const CaseFile& input, const std::string& directory, int threads, OldRun old_results,
               py::object progress) {
   PythonCaller caller(std::move(progress));
   RunEnd end;
   {
     const py::gil_scoped_release unlocked;
     const ThreadScope scope(threads);
-    RunSettings settings{scope.threads(), force, true};
+    RunSettings settings{scope.threads(), old_results, true};
     settings.callbacks.stop_requested = [&] { return caller.stop_requested(); };
     settings.callbacks.on_row = [&](const RowProgress& row) { caller.on_row(row); };
     settings.callbacks.on_calibration = [&](int, double) { caller.raise_if_stopped(); };
@@ -157,8 +157,12 @@ void bind_runs(py::module_& module) {
         return fmt::format("Row(row={}, load={:.6g}, displacement={:.6g}, broken_bonds={})",
                            row.row, row.load, row.displacement, row.broken_bonds);
       });
+  py::enum_<OldRun>(module, "OldRun")
+      .value("refused", OldRun::refused)
+      .value("overwritten", OldRun::overwritten)
+      .value("resumed", OldRun::resumed);
   module.def("run", run, py::arg("case"), py::arg("directory"), py::arg("threads") = 0,
-             py::arg("force") = false, py::arg("progress") = py::none());
+             py::arg("old_results") = OldRun::refused, py::arg("progress") = py::none());
   module.def("refuse_old_results", [](const std::string& directory, bool force) {
     refuse_old_results(directory, force);
   });

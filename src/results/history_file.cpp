@@ -150,6 +150,17 @@ HistoryFile::HistoryFile(const std::string& directory, const CaseFile& input)
     : bonds_break_(!has_state_based_particles(input.body)),
       history_(directory + "/history.csv", all_columns(input)),
       timing_(directory + "/timing.csv", {"step", "seconds"}) {
+  choose_columns(input);
+}
+
+HistoryFile::HistoryFile(const std::string& directory, const CaseFile& input, Sizes kept)
+    : bonds_break_(!has_state_based_particles(input.body)),
+      history_(directory + "/history.csv", all_columns(input), kept.history),
+      timing_(directory + "/timing.csv", {"step", "seconds"}, kept.timing) {
+  choose_columns(input);
+}
+
+void HistoryFile::choose_columns(const CaseFile& input) {
   for (std::size_t k = 0; k < columns.size(); ++k) {
     if (columns[k].is_shown(input)) shown_.push_back(k);
   }

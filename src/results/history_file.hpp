@@ -23,8 +23,22 @@ bool is_history_column(const std::string& name);
 /// second, and by the destructor.
 class HistoryFile {
  public:
+  /// Sizes of the two files [bytes].
+  struct Sizes {
+    std::size_t history = 0, timing = 0;
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(history, timing);
+    }
+  };
+
   /// \throws FileError
   HistoryFile(const std::string& directory, const CaseFile& input);
+  /// Goes on with existing files.
+  /// \param kept  the rest is removed
+  /// \throws FileError
+  HistoryFile(const std::string& directory, const CaseFile& input, Sizes kept);
 
   /// Appends a row of a quasistatic run.
   /// \param gauges  gauge values, in the order of the case
@@ -34,8 +48,11 @@ class HistoryFile {
   /// Flushes all rows; call it at the end to detect a full disk.
   /// \throws FileError
   void finish();
+  /// Returns the sizes after finish().
+  Sizes sizes() const { return {history_.size(), timing_.size()}; }
 
  private:
+  void choose_columns(const CaseFile& input);
   void write(std::vector<double> row, std::span<const double> gauges, double seconds);
 
   bool bonds_break_;                ///< else particles crack

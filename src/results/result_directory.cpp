@@ -22,9 +22,9 @@ namespace {
 
 /// Whether a run of this program writes a file of this name.
 bool is_result_file(const std::string& name) {
-  constexpr std::array<std::string_view, 9> names = {
-      "case.toml",  "history.csv",           "timing.csv", "summary.json", "fields.pvd", "log.txt",
-      "study.toml", "load_displacement.svg", "table.csv"};
+  constexpr std::array<std::string_view, 10> names = {
+      "case.toml", "history.csv", "timing.csv", "summary.json",          "fields.pvd",
+      "log.txt",   "study.toml",  "table.csv",  "load_displacement.svg", "checkpoint.bin"};
   for (const std::string_view known : names) {
     if (name == known) return true;
   }
@@ -38,8 +38,8 @@ bool is_result_file(const std::string& name) {
 /// first, so that an interrupted removal leaves no dangling summary or list.
 int rank_of_removal(const fs::path& file) {
   const std::string name = file.filename().string();
-  if (name == "summary.json" || name == "fields.pvd") return name == "fields.pvd" ? 1 : 0;
-  return 2;
+  if (name == "summary.json" || name == "checkpoint.bin") return 0;
+  return name == "fields.pvd" ? 1 : 2;
 }
 
 /// Whether a file is the unfinished output of a killed run.
@@ -120,7 +120,8 @@ void require_result(const fs::path& directory) {
       fmt::format("{}: is not a result of a run: it has no history.csv ({})", place, hint));
 }
 
-ResultDirectory::ResultDirectory(const fs::path& directory, bool force) {
+ResultDirectory::ResultDirectory(const fs::path& directory, OldResults old) {
+  const bool force = old != OldResults::refused;
   std::error_code error;
   if (!fs::is_directory(directory, error)) {
     refuse_old_results(directory, force);  // also refuses a file of this name
@@ -139,6 +140,7 @@ ResultDirectory::ResultDirectory(const fs::path& directory, bool force) {
   }
   try {
     for (const fs::path& file : refuse_old_results(directory, force)) {
+      if (old == OldResults::kept && !is_left_over(file.filename().string())) continue;
       if (fs::remove(file, error)) continue;
       throw FileError(fmt::format("{}: cannot be removed: {}", file.string(), error.message()));
     }

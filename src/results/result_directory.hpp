@@ -25,12 +25,15 @@ void refuse_own_file(const std::filesystem::path& directory, const char* copy,
 /// Refuses a path that is not a result of a run and says what it is. \throws FileError
 void require_result(const std::filesystem::path& directory);
 
-/// Locked directory of a run. An existing result is refused unless `force` is set; then only files
-/// that a run writes are removed. The lock excludes other runs and ends with the process.
+/// Treatment of an existing result: refused; removed, but only files that a run writes; or kept
+/// except for unfinished files of a killed run.
+enum class OldResults { refused, removed, kept };
+
+/// Locked directory of a run. The lock excludes other runs and ends with the process.
 class ResultDirectory {
  public:
   /// Creates and locks the directory. \throws FileError
-  ResultDirectory(const std::filesystem::path& directory, bool force);
+  ResultDirectory(const std::filesystem::path& directory, OldResults old);
   ~ResultDirectory();
   ResultDirectory(const ResultDirectory&) = delete;
   ResultDirectory& operator=(const ResultDirectory&) = delete;

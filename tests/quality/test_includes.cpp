@@ -35,8 +35,7 @@ const std::map<std::string, std::set<std::string>>& allowed_modules() {
       {"app",
        {"base", "material", "solver", "discretization", "calibration", "network", "assembly",
         "analysis", "io", "results", "model"}},
-      {"perilink.hpp",
-       {"base", "discretization", "analysis", "io", "results", "model", "app"}},
+      {"perilink.hpp", {"base", "discretization", "analysis", "io", "results", "model", "app"}},
       {"python", {"perilink.hpp"}},
   };
   return table;
@@ -58,6 +57,7 @@ const std::vector<Confinement>& confined_headers() {
       {std::regex("^pugi(xml|config)\\.hpp$"), {"io/"}},
       {std::regex("^muParser.*\\.h$"), {"io/text/formula.cpp"}},
       {std::regex("^zlib\\.h$"), {"io/"}},
+      {std::regex("^cereal/.*"), {"io/checkpoint/"}},
       {std::regex("^gmshc?\\.h(_cwrap)?$"), {"io/"}},
       {std::regex("^CLI/.*"), {"app/"}},
       {std::regex("^pybind11/.*"), {"python/"}},

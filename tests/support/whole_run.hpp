@@ -16,10 +16,10 @@ class WholeRun {
  public:
   explicit WholeRun(CaseFile of_case, int threads = 1)
       : input(std::move(of_case)), run(make_run(input, threads, true)) {
-    RunFiles& files = run->open(work.path(), true);
+    run->open(work.path(), true);
     run->analyse();
     run->seconds.analysis = 2.0;
-    files.finish();
+    run->files().finish();
     summary = summary_of(*run, work.path());
   }
   explicit WholeRun(const std::string& text, int threads = 1)

@@ -43,6 +43,11 @@ struct StageResult {
   CurvePoint peak;     ///< highest row of its load case so far, see DamageResult::peak_load
   CurvePoint largest;  ///< row with the largest |load| of its load case so far
   std::optional<double> smoothed_peak_load;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(termination, reason, last, peak, largest, smoothed_peak_load);
+  }
 };
 
 struct DamageOptions {
@@ -51,18 +56,11 @@ struct DamageOptions {
   StopRules stop;
   std::vector<StageRules> stages;  ///< in order; they replace `load_factors` and `stop`
   int check_interval = 50;         ///< events between residual checks
-  /// Called after each row. Returns unknowns that move the particles from then on and outlive the
-  /// run, or null to keep the present ones. If empty, the unknowns never change.
-  std::function<const Unknowns*(StateSource&)> new_motion;
-  /// Whether a missed host release ends the analysis with a MissedRelease, so that it can start
-  /// again. Otherwise missed releases are counted.
+  /// Whether a missed host release ends the analysis, so that it can start again: a bond that a
+  /// release freed had exceeded its limit before. Otherwise missed releases are counted.
   bool begins_again = false;
-};
-
-/// Thrown if a bond that a host release freed had exceeded its limit before. The analysis must
-/// start again with only these hosts active.
-struct MissedRelease {
-  std::vector<std::uint8_t> whole;  ///< as EmbeddedBody::whole
+  /// Returns whether to stop now, for example after a signal; asked between events.
+  std::function<bool()> stop_requested = {};
 };
 
 struct DamageResult {
@@ -91,6 +89,14 @@ struct DamageResult {
   double energy_error = 0.0;
   bool beyond_small_strains = false;  ///< a bond shortened beyond small strains (StrainWatch)
   FactorStatistics factor;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(termination, reason, stages, last, broken_bonds, peak_load, peak_displacement, peaks,
+            broken_as_gave_way, smoothed_peak_load, initial_stiffness, largest_residual,
+            conversions, missed_releases, elements, unknowns, energy_error, beyond_small_strains,
+            factor.factorizations, factor.iterations);
+  }
 };
 
 }  // namespace perilink

@@ -6,11 +6,12 @@
 
 namespace perilink {
 
-HostRelease::HostRelease(const Network& network, const EmbeddedBody& body)
+HostRelease::HostRelease(const Network& network, const EmbeddedBody& body,
+                         std::vector<std::uint8_t> whole)
     : network_(network),
       body_(body),
       free_(&body.free),
-      whole_(body.whole),
+      whole_(std::move(whole)),
       host_(host_of_particles(body.hosts, whole_, network.particles.size())),
       num_whole_(static_cast<Index>(std::count(whole_.begin(), whole_.end(), 1))),
       by_lower_x_(whole_.size()) {

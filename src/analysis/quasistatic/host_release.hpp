@@ -20,7 +20,10 @@ namespace perilink {
 class HostRelease {
  public:
   /// \param body  must outlive this object
-  HostRelease(const Network& network, const EmbeddedBody& body);
+  HostRelease(const Network& network, const EmbeddedBody& body)
+      : HostRelease(network, body, body.whole) {}
+  /// \param whole  flag per element: it is an active host now
+  HostRelease(const Network& network, const EmbeddedBody& body, std::vector<std::uint8_t> whole);
 
   bool is_embedded(Index bond) const {
     return host_[network_.bonds.first[bond]] != no_index ||

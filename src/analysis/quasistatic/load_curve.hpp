@@ -16,6 +16,11 @@ namespace perilink {
 struct CurvePoint {
   double displacement = 0.0;
   double load = 0.0;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(displacement, load);
+  }
 };
 
 /// Returns the rows of a history as a path of single events. Its area is the energy that the events
@@ -86,6 +91,11 @@ class PeakWatch {
   bool gave_way() const { return gave_way_; }
   /// Returns whether the load exceeded its first peak after the body gave way.
   bool climbed_again() const { return std::abs(highest_.load) > std::abs(first().load); }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(rows_, below_, gave_way_, reached_, last_, highest_, first_);
+  }
 
  private:
   int rows_ = 1;

@@ -35,6 +35,14 @@ struct StepRecord {
   Index elements = 0;              ///< active hosts in this equilibrium
   double constraint_energy = 0.0;  ///< PathEnergy::freed() so far [force length]
   double seconds = 0.0;            ///< wall time of this step; in timing.csv only
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(step, broken_bonds, yield_events, load_factor, load, displacement, strain_energy,
+            dissipated_energy, external_work, released_energy, residual, factorizations, element,
+            events, others, stage, at_constant_load, side_change, elements, constraint_energy,
+            seconds);
+  }
 };
 
 /// State for observers, valid during the call only.

@@ -62,6 +62,12 @@ class PathEnergy {
                .at(load_factor_);
   }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(load_factor_, work_, growth_, freedom_, permanent_growth_, external_, dissipated_,
+            freed_, released_);
+  }
+
  private:
   /// Adds the contribution of permanent loads: their work, and the work of growing loads
   /// on the displacements they cause.

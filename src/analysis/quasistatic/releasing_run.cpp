@@ -15,7 +15,8 @@ constexpr double as_near = 0.9;
 /// nearly as close to their limits, or the most strained hosts.
 /// \param sense  1 if the load factor grows, -1 if it falls
 /// \param most   load factor up to which events and releases count
-/// \return whether hosts were released; then the event must be searched for again
+/// \return whether hosts were released; then the event must be searched for again. Not if a missed
+///         release ends the run.
 bool EventRun::converts(const Event& event, double sense, double most) {
   if (!host_release_ || event.changes_side) return false;
   const bool fails = event.element != no_index && event.load_factor <= most;
@@ -47,17 +48,17 @@ bool EventRun::converts(const Event& event, double sense, double most) {
 void EventRun::take_over(const Unknowns& unknowns, double load_factor) {
   adopt(unknowns);
   engine_->set_release_threshold(host_release_->freed(), 1.0);
-  freed_.emplace_back(host_release_->freed(), load_factor);
-  ++result_.conversions;
-  result_.unknowns = unknowns.count;
-  result_.elements = host_release_->num_whole();
+  path_.freed.emplace_back(host_release_->freed(), load_factor);
+  ++path_.result.conversions;
+  path_.result.unknowns = unknowns.count;
+  path_.result.elements = host_release_->num_whole();
 }
 
 /// Records missed releases. A freed bond that fails before the load factor of its release exceeded
 /// its limit by more than the release threshold allows.
-/// \throws MissedRelease if DamageOptions::begins_again
+/// It ends the run if DamageOptions::begins_again.
 void EventRun::note_missed_releases(const Event& event, double sense) {
-  for (const auto& [bonds, released_at] : freed_) {
+  for (const auto& [bonds, released_at] : path_.freed) {
     const auto is_freed = [&](Index element) {
       return std::binary_search(bonds.begin(), bonds.end(), element);
     };
@@ -65,12 +66,15 @@ void EventRun::note_missed_releases(const Event& event, double sense) {
     const double near = std::max(tie_tolerance, options_.engine.event_tolerance);
     const bool earlier = event.at_constant_load ||
                          sense * (released_at - event.load_factor) > near * std::abs(released_at);
-    const bool begins = row_.step == 0 && events_ == 0;  // no event by then
+    const bool begins = path_.row.step == 0 && path_.events == 0;  // no event by then
     if (begins || !freed || !earlier) continue;
-    if (options_.begins_again) throw MissedRelease{host_release_->whole()};
-    ++result_.missed_releases;
+    if (options_.begins_again) {
+      missed_ = host_release_->whole();
+      return;
+    }
+    ++path_.result.missed_releases;
   }
-  freed_.clear();
+  path_.freed.clear();
 }
 
 }  // namespace perilink

@@ -15,18 +15,19 @@ bool StrainWatch::is_due(double motion) {
   return true;
 }
 
-bool StrainWatch::is_beyond(std::span<const double> motion, double factor, const Secants& secants) {
-  const auto width = static_cast<std::size_t>(network_.width());
+bool StrainWatch::is_beyond(const Network& network, std::span<const double> motion, double factor,
+                            const Secants& secants) {
+  const auto width = static_cast<std::size_t>(network.width());
   double largest = 0.0;  // shortening over its limit
-  for (Index e = 0; e < network_.first_slip_spring; ++e) {
-    if (!network_.can_break(e) || network_.law(e).crushes() || !(secants.axial(e) > 0.0)) continue;
-    const double* const from = motion.data() + width * network_.bonds.first[e];
-    const double* const to = motion.data() + width * network_.bonds.second[e];
-    const std::span<const double> n = network_.bonds.direction(e);
+  for (Index e = 0; e < network.first_slip_spring; ++e) {
+    if (!network.can_break(e) || network.law(e).crushes() || !(secants.axial(e) > 0.0)) continue;
+    const double* const from = motion.data() + width * network.bonds.first[e];
+    const double* const to = motion.data() + width * network.bonds.second[e];
+    const std::span<const double> n = network.bonds.direction(e);
     double extension = 0.0;
-    for (int a = 0; a < network_.dim(); ++a) extension += n[a] * (to[a] - from[a]);
-    const double most = std::max(0.1, 10.0 * network_.critical_stretch[e]);
-    largest = std::max(largest, -factor * extension / (most * network_.bonds.length(e)));
+    for (int a = 0; a < network.dim(); ++a) extension += n[a] * (to[a] - from[a]);
+    const double most = std::max(0.1, 10.0 * network.critical_stretch[e]);
+    largest = std::max(largest, -factor * extension / (most * network.bonds.length(e)));
   }
   if (largest > 0.5) due_at_ = looked_at_ / largest;
   return largest > 1.0;

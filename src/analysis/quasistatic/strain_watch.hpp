@@ -11,8 +11,6 @@ namespace perilink {
 /// closed bonds.
 class StrainWatch {
  public:
-  explicit StrainWatch(const Network& network) : network_(network) {}
-
   /// Returns whether is_beyond(), a pass over the bonds, is due. It is due if the motion has
   /// doubled since the last pass, could bring the shortest bond to its limit, and at every
   /// hundredth event.
@@ -26,10 +24,15 @@ class StrainWatch {
   /// critical stretch if that is larger. Only unbroken bonds without a law in compression count.
   /// \param motion  shape (particles, width)
   /// \param factor  scales the motion
-  bool is_beyond(std::span<const double> motion, double factor, const Secants& secants);
+  bool is_beyond(const Network& network, std::span<const double> motion, double factor,
+                 const Secants& secants);
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(looked_at_, due_at_, events_);
+  }
 
  private:
-  const Network& network_;
   double looked_at_ = 0.0;
   double due_at_ = 0.0;  ///< size of the motion at which the next pass is due
   int events_ = 0;       ///< since the last pass

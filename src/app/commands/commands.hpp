@@ -15,6 +15,7 @@ struct RunOptions {
   int threads = 0;  ///< 0: all processors
   bool quiet = false;
   bool force = false;
+  bool resume = false;          ///< goes on with results of the same case
   bool trust_geometry = false;  ///< gmsh scripts may run commands and write files
 };
 /// Runs a case, `perilink run`.

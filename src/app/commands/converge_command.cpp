@@ -128,7 +128,7 @@ int converge(const RunOptions& options) {
   const fs::path directory = options.directory ? fs::path(*options.directory)
                                                : default_result_directory(options.case_path);
   refuse_own_file(directory, "study.toml", options.case_path, "this study");
-  const ResultDirectory hold(directory, options.force);
+  const ResultDirectory hold(directory, options.force ? OldResults::removed : OldResults::refused);
   catch_stop_signals();
   write_text(directory / "study.toml", write_study(results.study, directory.string()));
   const bool complete = run_members(directory, results, threads, options.quiet);

@@ -20,7 +20,9 @@ int exit_status_of(Termination termination) {
 }  // namespace
 
 int run_case(const RunOptions& options) {
-  RunSettings settings{set_threads(options.threads), options.force, options.quiet};
+  RunSettings settings{set_threads(options.threads), OldRun::refused, options.quiet};
+  if (options.force) settings.old_results = OldRun::overwritten;
+  if (options.resume) settings.old_results = OldRun::resumed;
   settings.callbacks.on_start = catch_stop_signals;
   settings.callbacks.stop_requested = stop_signal_received;
   settings.callbacks.on_fault = complain;
@@ -30,7 +32,12 @@ int run_case(const RunOptions& options) {
                                               ? std::filesystem::path(*options.directory)
                                               : default_result_directory(options.case_path);
   const RunEnd end = run_case(input, directory, settings);
-  if (!options.quiet) fmt::print("{}", end.summary.text);
+  if (options.quiet) return exit_status_of(end.termination);
+  if (end.ran) {
+    fmt::print("{}", end.summary.text);
+  } else {
+    fmt::print("{}: holds the whole run already\n", directory.string());
+  }
   return exit_status_of(end.termination);
 }
 

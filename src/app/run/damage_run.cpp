@@ -6,20 +6,38 @@
 #include <cmath>
 #include <utility>
 
+#include "app/run/resume.hpp"
 #include "app/run/run_notes.hpp"
 #include "app/run/run_warnings.hpp"
-#include "app/run/separated_body.hpp"
 #include "discretization/bonds.hpp"
+#include "io/checkpoint/pack.hpp"
+#include "model/from_case/separated_body.hpp"
 #include "model/gauges.hpp"
 #include "results/bar_file.hpp"
+#include "solver/ranks/process_ranks.hpp"
 
 namespace perilink {
+namespace {
+
+/// Returns the number of rows between checkpoints for which they take about 2 % of the run time,
+/// by counted work: a new engine over an event.
+Index rows_between_checkpoints(const FactorStatistics& factor, const Network& network) {
+  constexpr double flops_per_second = 10e9, bytes_per_second = 10e9, part = 0.02;
+  constexpr double per_unknown = 3e-6, per_element = 1e-6, per_event = 5e-5;
+  const double elements = network.num_elements();
+  const double rebuild = per_unknown * factor.size + per_element * elements +
+                         factor.flops / flops_per_second + 4.0 * factor.bytes / bytes_per_second;
+  const double event = per_event + 1e-9 * elements + factor.bytes / bytes_per_second;
+  return static_cast<Index>(std::clamp(rebuild / (part * event), 1e3, 1e6));
+}
+
+}  // namespace
 
 DamageRun::DamageRun(const CaseFile& of_case, int on_threads, const RunCallbacks& calls)
-    : NetworkRun(of_case, on_threads, calls),
-      is_broken_(static_cast<std::size_t>(model_.network.num_elements()), 0) {
-  // Pre-cracks cut these.
-  for (const Index element : model_.network.cut_elements) is_broken_[element] = 1;
+    : NetworkRun(of_case, on_threads, calls), options_(damage_options(input, threads)) {
+  options_.begins_again = true;
+  options_.stop_requested = callbacks.stop_requested;
+  mark_broken();
   if (const auto note = note_of_separated_body(input, model_, threads)) notes.push_back(*note);
   plan += fmt::format(", {} unknowns", model_.unknowns.count);
   places_held_ = support_regions(input, model_);
@@ -29,41 +47,80 @@ DamageRun::DamageRun(const CaseFile& of_case, int on_threads, const RunCallbacks
                      [&](const StageSection& s) { return s.loads == stage.loads; });
     const auto number = static_cast<std::size_t>(earlier - input.stages.begin());
     const bool is_new = number == set_of_stage_.size();
-    set_of_stage_.push_back(is_new ? set_factors_.size() : set_of_stage_[number]);
-    if (is_new) set_factors_.push_back(0.0);
+    set_of_stage_.push_back(is_new ? records_.set_factors.size() : set_of_stage_[number]);
+    if (is_new) records_.set_factors.push_back(0.0);
   }
 }
 
 void DamageRun::analyse() {
-  DamageOptions options = damage_options(input, threads);
-  options.begins_again = true;
-  for (bool done = false; !done;) {
-    try {
-      result_ = run_damage_analysis(model_, options, *this);
-      done = true;
-    } catch (const MissedRelease& late) {
-      begin_again(late);
+  if (!run_) run_.emplace(model_, options_);
+  follow();
+  while (run_->missed_release()) {
+    begin_again(*run_->missed_release());
+    run_.emplace(model_, options_);
+    follow();
+  }
+  result_ = run_->result();
+}
+
+/// Follows the analysis to its end. A failure to write ends it with the results so far.
+void DamageRun::follow() {
+  if (records_.checkpoint_rows == 0) {
+    records_.checkpoint_rows = input.output.checkpoint_every.value_or(
+        rows_between_checkpoints(run_->result().factor, model_.network));
+  }
+  try {
+    while (const StepRecord* row = run_->next()) {
+      note_row(*row);
+      const Index every = records_.checkpoint_rows;
+      if (every > 0 && row->step % every == 0) go_on_from_checkpoint();
     }
+    if (!run_->has_failed() && !run_->missed_release()) end();
+  } catch (const std::exception& error) {
+    run_->fail(error);
   }
 }
 
+/// Saves the state, and goes on from it as a run that is taken up again does.
+void DamageRun::go_on_from_checkpoint() {
+  DamageState state = run_->save();
+  if (ranks() == nullptr) save(pack(records_, state));
+  run_.reset();  // two factors may not fit the memory
+  run_.emplace(model_, options_, std::move(state));
+}
+
+void DamageRun::restore(const std::string& saved) {
+  DamageState state;
+  unpack(saved, records_, state);
+  if (model_.embedded && !records_.whole.empty()) {
+    EmbeddedBody& body = *model_.embedded;
+    body.whole = records_.whole;
+    model_.unknowns = embedded_motion(body.hosts, body.free, body.whole);
+  }
+  mark_broken();
+  run_.emplace(model_, options_, std::move(state));
+}
+
+/// Marks the broken elements, and those that pre-cracks cut.
+void DamageRun::mark_broken() {
+  is_broken_.assign(static_cast<std::size_t>(model_.network.num_elements()), 0);
+  for (const Index element : model_.network.cut_elements) is_broken_[element] = 1;
+  for (const Index element : records_.broken) is_broken_[element] = 1;
+}
+
 /// Restarts the run with the elements released so far.
-void DamageRun::begin_again(const MissedRelease& late) {
-  ++missed_releases_;
+void DamageRun::begin_again(const std::vector<std::uint8_t>& whole) {
+  std::filesystem::remove(directory_ / checkpoint_name);  // before the files that it refers to
   EmbeddedBody& body = *model_.embedded;
-  body.whole = late.whole;
+  body.whole = whole;
   model_.unknowns = embedded_motion(body.hosts, body.free, body.whole);
   files_->begin_again();
-  broken_.clear();
-  std::fill(is_broken_.begin(), is_broken_.end(), 0);
-  for (const Index element : model_.network.cut_elements) is_broken_[element] = 1;
-  balance_ = {};
-  high_rows_.clear();
-  compression_ = {};
-  std::fill(set_factors_.begin(), set_factors_.end(), 0.0);
-  last_element_ = no_index;
-  broken_at_fields_ = last_stage_ = 0;
-  highest_ = 0.0;
+  Records anew;
+  anew.missed_releases = records_.missed_releases + 1;
+  anew.whole = whole;
+  anew.set_factors.assign(records_.set_factors.size(), 0.0);
+  records_ = std::move(anew);
+  mark_broken();
 }
 
 void DamageRun::tell(Summary& summary) const {
@@ -78,23 +135,23 @@ void DamageRun::tell(Summary& summary) const {
   } else if (auto end = warning_about_end(result_.last.displacement, length)) {
     found.warnings.push_back(std::move(*end));
   }
-  if (auto warning = balance_.warning()) found.warnings.push_back(std::move(*warning));
-  if (missed_releases_ > 0) {
+  if (auto warning = records_.balance.warning()) found.warnings.push_back(std::move(*warning));
+  if (records_.missed_releases > 0) {
     summary.add_note(
         fmt::format("{} missed releases: a bond was past its limit before its host element "
                     "released it. Each time the run was restarted with these elements "
                     "released from the beginning. A smaller `alert` in [elements] avoids "
                     "restarts",
-                    missed_releases_));
+                    records_.missed_releases));
   }
-  summary.add_note(note_of_clamps(model_, broken_));
-  if (const auto text = text_of_peaks(result_, model_, broken_)) {
+  summary.add_note(note_of_clamps(model_, records_.broken));
+  if (const auto text = text_of_peaks(result_, model_, records_.broken)) {
     (input.rebar.empty() ? found.warnings : summary.notes).push_back(*text);
   }
   tell_stresses(summary, found);
   tell_quasistatic(summary, input, model_, found, seconds.analysis);
   tell_stages(summary, input, result_.stages);
-  tell_cracks(summary, cracks_);
+  tell_cracks(summary, records_.cracks);
   if (model_.embedded) tell_elements(summary);
 }
 
@@ -102,7 +159,7 @@ void DamageRun::tell(Summary& summary) const {
 void DamageRun::tell_stresses(Summary& summary, Equilibria& found) const {
   const auto at = [&](double load) {
     const double scale = input.stages.empty() ? std::abs(load) : 1.0;
-    return Compression{scale * compression_.stress, scale * compression_.times};
+    return Compression{scale * records_.compression.stress, scale * records_.compression.times};
   };
   constexpr double round_off = 1e-6;
   const Compression at_peak = at(result_.peak_load);
@@ -119,7 +176,7 @@ void DamageRun::tell_stresses(Summary& summary, Equilibria& found) const {
 void DamageRun::tell_elements(Summary& summary) const {
   summary.add("elements_at_end", result_.elements);
   summary.add("conversions", result_.conversions);
-  summary.add("late_conversions", missed_releases_);
+  summary.add("late_conversions", records_.missed_releases);
   summary.add("unknowns_at_end", result_.unknowns);
   summary.add("freed_energy", result_.last.constraint_energy);
   const double work = std::abs(result_.last.external_work);
@@ -136,36 +193,37 @@ double DamageRun::scale_of(const StepRecord& record) const {
 
 /// Records the element that failed in the last row. Several failures of one load step are ordered
 /// by number.
-void DamageRun::note_broken(const StepRecord& record, StateSource& source) {
+void DamageRun::note_broken(const StepRecord& record) {
   const std::size_t count = static_cast<std::size_t>(record.broken_bonds);
-  if (count == broken_.size()) return;
-  if (count == broken_.size() + 1 && last_element_ != no_index && last_events_ == 1 &&
-      input.analysis.control == LoadControl::events) {
-    broken_.push_back(last_element_);
-    is_broken_[last_element_] = 1;
+  if (count == records_.broken.size()) return;
+  if (count == records_.broken.size() + 1 && records_.last_element != no_index &&
+      records_.last_events == 1 && input.analysis.control == LoadControl::events) {
+    records_.broken.push_back(records_.last_element);
+    is_broken_[records_.last_element] = 1;
     return;
   }
-  const Secants secants = source.secants();
+  const Secants secants = run_->secants();
   for (Index e = 0; e < model_.network.num_elements(); ++e) {
     if (secants[e] != 0.0 || is_broken_[e]) continue;
-    broken_.push_back(e);
+    records_.broken.push_back(e);
     is_broken_[e] = 1;
   }
 }
 
-void DamageRun::note_places(const StepRecord& record, StateSource& source) {
-  if (!input.stages.empty() || !has_several_places(model_) || !(std::abs(record.load) > highest_))
+void DamageRun::note_places(const StepRecord& record) {
+  if (!input.stages.empty() || !has_several_places(model_) ||
+      !(std::abs(record.load) > records_.highest))
     return;
-  highest_ = std::abs(record.load);
-  high_rows_.push_back({highest_, record.load_factor, {}});
+  records_.highest = std::abs(record.load);
+  records_.high_rows.push_back({records_.highest, record.load_factor, {}});
   if (model_.prescribed_regions.empty()) return;  // reading the state may cost a solve
-  const StepState state = source.state();
-  high_rows_.back().places =
+  const StepState state = run_->state();
+  records_.high_rows.back().places =
       region_forces(model_, record.load_factor, state.secants, state.displacement, {}, state.whole);
 }
 
 std::vector<RegionForce> DamageRun::places_at_peak() const {
-  for (const HighRow& row : high_rows_) {
+  for (const HighRow& row : records_.high_rows) {
     if (row.load != std::abs(result_.peak_load)) continue;
     return model_.prescribed_regions.empty() ? region_forces(model_, row.load_factor, {}, {})
                                              : row.places;
@@ -180,18 +238,18 @@ void DamageRun::note_compression(const StepRecord& record, const VtuGrid& grid) 
   if (!(load > 0.0) || (!by_stages && files_->has_fields())) return;
   const Compression here =
       largest_compression(model_.network, grid.find_point_data("principal_stress")->values);
-  if (here.times / load > compression_.times) {
-    compression_ = {here.stress / load, here.times / load};
+  if (here.times / load > records_.compression.times) {
+    records_.compression = {here.stress / load, here.times / load};
   }
 }
 
 /// Whether fields are due: at the first row of the run and of each stage, and at requested rows and
 /// numbers of broken bonds. A load step may skip such a number; the next row counts then.
 bool DamageRun::wants_fields(const StepRecord& record) const {
-  if (!files_->has_fields() || record.stage != last_stage_) return true;
+  if (!files_->has_fields() || record.stage != records_.last_stage) return true;
   const std::optional<int>& rows = input.output.fields_every_rows;
   if (rows && record.step % *rows == 0) return true;
-  const Index last = broken_at_fields_, broken_bonds = record.broken_bonds;
+  const Index last = records_.broken_at_fields, broken_bonds = record.broken_bonds;
   if (broken_bonds == last) return false;
   const std::vector<int>& at = input.output.fields_at;
   if (std::any_of(at.begin(), at.end(), [&](int n) { return n > last && n <= broken_bonds; })) {
@@ -203,22 +261,22 @@ bool DamageRun::wants_fields(const StepRecord& record) const {
 
 ModelState DamageRun::model_state(const StepRecord& record, const StepState& state) const {
   ModelState now{state.secants, state.displacement, scale_of(record), record.load_factor,
-                 set_factors_};
+                 records_.set_factors};
   now.whole = state.whole;
   return now;
 }
 
-void DamageRun::write_state(const StepRecord& record, StateSource& source) {
+void DamageRun::write_state(const StepRecord& record) {
   const Network& network = model_.network;
   files_->write_fields(record.step, record.step, [&] {
     if (neighbourhoods_.rows() == 0) {
       neighbourhoods_ = bonds_of_particles(network.bonds, network.particles.size());
     }
-    const StepState state = source.state();
+    const StepState state = run_->state();
     std::vector<double> motion(state.displacement.begin(), state.displacement.end());
     for (double& u : motion) u *= scale_of(record);
     VtuGrid grid = make_field_grid(network, state.secants, motion, moment_of(record, input, model_),
-                                   broken_, neighbourhoods_);
+                                   records_.broken, neighbourhoods_);
     if (network.is_beam()) {
       add_section_forces(grid, section_forces(network, state.secants, motion));
     }
@@ -229,10 +287,10 @@ void DamageRun::write_state(const StepRecord& record, StateSource& source) {
       note_compression(record, grid);
       const CrackOpenings openings =
           crack_openings(network, neighbourhoods_, state.secants, motion);
-      add_openings(grid, network, openings, broken_);
-      cracks_ = widest_cracks(network, openings);
+      add_openings(grid, network, openings, records_.broken);
+      records_.cracks = widest_cracks(network, openings);
     }
-    write_reactions(record, places_held_, model_state(record, state));
+    write_reactions(record, places_held_, model_state(record, state), records_.balance);
     if (!network.bars.bar.empty()) {
       const BarState bars = bar_state(network, state.secants, motion);
       add_bars(grid, bars);
@@ -243,7 +301,7 @@ void DamageRun::write_state(const StepRecord& record, StateSource& source) {
     }
     return grid;
   });
-  broken_at_fields_ = record.broken_bonds;
+  records_.broken_at_fields = record.broken_bonds;
 }
 
 void DamageRun::show_progress(const StepRecord& record) {
@@ -270,26 +328,26 @@ void DamageRun::show_progress(const StepRecord& record) {
   files_->bar().draw(state, done);
 }
 
-void DamageRun::on_step(const StepRecord& record, StateSource& source) {
-  if (record.stage > 0) set_factors_[set_of_stage_[record.stage - 1]] = record.load_factor;
-  note_broken(record, source);
-  note_places(record, source);
+void DamageRun::note_row(const StepRecord& record) {
+  if (record.stage > 0) records_.set_factors[set_of_stage_[record.stage - 1]] = record.load_factor;
+  note_broken(record);
+  note_places(record);
   std::vector<double> gauges;
   if (!model_.gauges.empty())
-    gauges = gauge_values(model_, model_state(record, source.state()), neighbourhoods_);
+    gauges = gauge_values(model_, model_state(record, run_->state()), neighbourhoods_);
   files_->add_row(record, gauges);
   show_progress(record);
-  if (wants_fields(record)) write_state(record, source);
-  last_element_ = record.element;
-  last_events_ = record.events;
-  last_stage_ = record.stage;
+  if (wants_fields(record)) write_state(record);
+  records_.last_element = record.element;
+  records_.last_events = record.events;
+  records_.last_stage = record.stage;
 }
 
-void DamageRun::on_end(const StepRecord& last, StateSource& source) {
-  if (last.yield_events > 0) softened_ = softened_energy(model_.network, source.secants());
-  if (last.step > 0) write_state(last, source);
+/// Writes the last equilibrium, before any separation.
+void DamageRun::end() {
+  const StepRecord last = run_->result().last;
+  if (last.yield_events > 0) softened_ = softened_energy(model_.network, run_->secants());
+  if (last.step > 0) write_state(last);
 }
-
-bool DamageRun::stop_requested() { return callbacks.asks_to_stop(); }
 
 }  // namespace perilink

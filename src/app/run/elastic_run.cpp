@@ -4,8 +4,8 @@
 #include "app/run/quasistatic.hpp"
 #include "app/run/run_kind.hpp"
 #include "app/run/run_warnings.hpp"
-#include "app/run/separated_body.hpp"
 #include "discretization/bonds.hpp"
+#include "model/from_case/separated_body.hpp"
 #include "model/gauges.hpp"
 #include "results/bar_file.hpp"
 
@@ -82,7 +82,7 @@ class ElasticRun final : public NetworkRun {
     const FieldMoment moment = moment_of(row, input, model_);
     Csr neighbourhoods;
     files_->add_row(row, gauge_values(model_, state, neighbourhoods));
-    write_reactions(row, support_regions(input, model_), state);
+    write_reactions(row, support_regions(input, model_), state, balance_);
     std::optional<BarState> bars;
     if (!model_.network.bars.bar.empty()) {
       bars = bar_state(model_.network, secants, displacement);
@@ -119,6 +119,7 @@ class ElasticRun final : public NetworkRun {
  private:
   ElasticAnswer answer_;
   std::vector<RegionForce> places_;
+  ReactionBalance balance_;
 };
 
 }  // namespace

@@ -31,6 +31,11 @@ ElasticAnswer solve_elastic(const Model& model, const ElasticOptions& options);
 struct RegionForce {
   std::string name;
   std::vector<double> force;  ///< size dim [force]
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(name, force);
+  }
 };
 
 /// Whether there are several load or boundary regions; a single one carries the whole load.

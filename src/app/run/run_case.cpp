@@ -5,7 +5,10 @@
 #include <spdlog/spdlog.h>
 
 #include <memory>
+#include <optional>
+#include <utility>
 
+#include "app/run/resume.hpp"
 #include "app/run/run_kind.hpp"
 #include "base/files.hpp"
 #include "base/memory.hpp"
@@ -23,7 +26,8 @@ namespace fs = std::filesystem;
 /// Log sink that writes whole lines of printable text to DIR/log.txt.
 class LogSink final : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {
  public:
-  explicit LogSink(const fs::path& directory) : file_((directory / "log.txt").string()) {}
+  explicit LogSink(const std::string& path) : file_(path) {}
+  LogSink(const std::string& path, std::size_t size) : file_(path, size) {}
 
  private:
   void sink_it_(const spdlog::details::log_msg& message) override {
@@ -37,8 +41,14 @@ class LogSink final : public spdlog::sinks::base_sink<spdlog::details::null_mute
   LineFile file_;
 };
 
-std::shared_ptr<spdlog::logger> open_log(const fs::path& directory, const RunCallbacks& calls) {
-  auto log = std::make_shared<spdlog::logger>("perilink", std::make_shared<LogSink>(directory));
+/// \param goes_on  an existing log is kept
+std::shared_ptr<spdlog::logger> open_log(const fs::path& directory, const RunCallbacks& calls,
+                                         bool goes_on) {
+  const std::string path = (directory / "log.txt").string();
+  const bool keeps = goes_on && fs::exists(path);
+  auto sink = keeps ? std::make_shared<LogSink>(path, fs::file_size(path))
+                    : std::make_shared<LogSink>(path);
+  auto log = std::make_shared<spdlog::logger>("perilink", std::move(sink));
   log->set_error_handler([on_fault = calls.on_fault](const std::string& fault) {
     if (on_fault) on_fault(fault);
   });
@@ -74,16 +84,18 @@ void attempt(const RunOutcome& run_outcome, RunEnd& end, const Action& action) {
 }
 
 /// Opens all files of a run. On failure nothing is computed and the summary gives the reason.
-std::shared_ptr<spdlog::logger> open_files(RunKind& run, const fs::path& directory) {
+std::shared_ptr<spdlog::logger> open_files(RunKind& run, const fs::path& directory,
+                                           const std::optional<Checkpoint>& checkpoint) {
   try {
     const CaseFile seen = seen_from(run.input, directory);
     write_running_summary(directory, seen);
     write_whole_file((directory / "case.toml").string(), write_case(seen));
-    const auto log = open_log(directory, run.callbacks);
+    const auto log = open_log(directory, run.callbacks, checkpoint.has_value());
     log->info("{} : {}, {} threads", run.input.path, run.plan, run.threads);
     if (run.calibration) log->info("calibration: {}", *run.calibration);
     for (const std::string& note : run.notes) log->info("note: {}", note);
-    run.open(directory, run.callbacks);
+    run.open(directory, run.callbacks, checkpoint ? checkpoint->state : "");
+    if (checkpoint) log->info("goes on after row {}", run.files().rows());
     return log;
   } catch (const std::exception& error) {
     tell_of_failure(directory, run.input, error);
@@ -113,13 +125,21 @@ void write_summary(RunKind& run, const fs::path& directory, RunEnd& end) {
 RunEnd run_case(const CaseFile& input, const fs::path& directory, const RunSettings& settings) {
   const RunCallbacks& calls = settings.callbacks;
   refuse_own_file(directory, "case.toml", input.path, "this case with its resolved form");
-  refuse_old_results(directory,
-                     settings.force);  // before the model is built, which may take minutes
+  // All before the model is built, which may take minutes.
+  refuse_old_results(directory, settings.old_results != OldRun::refused);
+  Resumed found;
+  if (settings.old_results == OldRun::resumed) found = find_results(input, directory);
+  if (found.is_finished) return {.ran = false};
+
   Timer timer;
   const std::unique_ptr<RunKind> run = make_run(input, settings.threads, calls);
-  const ResultDirectory hold(directory, settings.force);
+  if (found.checkpoint) require_same_model(*found.checkpoint, run->model_fingerprint(), directory);
+  const ResultDirectory hold(directory, found.checkpoint ? OldResults::kept
+                                        : settings.old_results == OldRun::refused
+                                            ? OldResults::refused
+                                            : OldResults::removed);
   if (calls.on_start) calls.on_start();
-  const auto log = open_files(*run, directory);
+  const auto log = open_files(*run, directory, found.checkpoint);
   run->seconds.set_up = timer.seconds();
 
   timer.restart();
@@ -128,7 +148,7 @@ RunEnd run_case(const CaseFile& input, const fs::path& directory, const RunSetti
   attempt(run_outcome, end, [&] { run->analyse(); });
   attempt(run_outcome, end, [&] { run->files().finish(); });
   run->seconds.output = run->files().seconds_writing();
-  run->seconds.analysis = timer.seconds() - run->seconds.output;
+  run->seconds.analysis += timer.seconds() - run->seconds.output;
   const bool failed = run_outcome.termination == Termination::failed;
   if (failed && calls.on_fault) calls.on_fault(run_outcome.reason);
   write_summary(*run, directory, end);

@@ -11,24 +11,29 @@
 
 namespace perilink {
 
+/// Treatment of the results of an earlier run: refused; overwritten; or, those of the same case, taken
+/// up again at their checkpoint.
+enum class OldRun { refused, overwritten, resumed };
+
 struct RunSettings {
-  int threads = 1;     ///< number of threads, see set_threads()
-  bool force = false;  ///< overwrite the results of an earlier run
+  int threads = 1;  ///< number of threads, see set_threads()
+  OldRun old_results = OldRun::refused;
   RunCallbacks callbacks = {};
 };
 
 /// End of a run that began. Its files are complete, whatever the termination.
 struct RunEnd {
   Termination termination = Termination::completed;
-  std::string reason;
-  Summary summary;           ///< contents of summary.json
-  std::exception_ptr error;  ///< the failure, where the run failed by an exception
+  std::string reason = {};
+  Summary summary = {};           ///< contents of summary.json
+  std::exception_ptr error = {};  ///< the failure, where the run failed by an exception
+  bool ran = true;  ///< false: the directory held the whole run, which was not repeated
 };
 
 /// Runs a case of any analysis type and writes its results.
 /// \param directory  made where it does not exist, locked during the run
 /// \throws InputError  where the case does not fit its body
-/// \throws FileError   where the directory has results and `force` is not set, or cannot be written
+/// \throws FileError   where the directory has results that are refused, or cannot be written
 RunEnd run_case(const CaseFile& input, const std::filesystem::path& directory,
                 const RunSettings& settings = {});
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "base/files.hpp"
@@ -35,24 +36,63 @@ RunFiles::RunFiles(const CaseFile& input, std::filesystem::path directory, RunCa
       callbacks_(std::move(calls)),
       directory_(std::move(directory)),
       bar_(callbacks_.quiet),
-      history_(std::in_place, directory_.string(), input),
-      peaks_(is_relaxation(input) ? 1 : vibrating_rows) {}
+      history_(std::in_place, directory_.string(), input) {
+  state_.peaks = PeakWatch(is_relaxation(input) ? 1 : vibrating_rows);
+}
+
+RunFiles::RunFiles(const CaseFile& input, std::filesystem::path directory, RunCallbacks calls,
+                   const State& saved)
+    : input_(input),
+      callbacks_(std::move(calls)),
+      directory_(std::move(directory)),
+      bar_(callbacks_.quiet),
+      history_(std::in_place, directory_.string(), input, saved.sizes),
+      state_(saved) {
+  write_pvd((directory_ / "fields.pvd").string(), state_.series);
+  remove_later_files();
+}
+
+/// Removes field files and tables that are not of the series.
+void RunFiles::remove_later_files() const {
+  const auto is_known = [&](const std::string& name) {
+    return std::ranges::any_of(state_.series, [&](const PvdEntry& entry) {
+      constexpr std::size_t before = std::string_view("fields_").size();
+      const std::string step =
+          entry.file.substr(before, entry.file.size() - before - std::string_view(".vtu").size());
+      return name == entry.file || name == "bars_" + step + ".csv" ||
+             name == "reactions_" + step + ".csv";
+    });
+  };
+  for (const auto& entry : std::filesystem::directory_iterator(directory_)) {
+    const std::string name = entry.path().filename().string();
+    const bool is_field_file =
+        (name.starts_with("fields_") && name.ends_with(".vtu")) ||
+        ((name.starts_with("bars_") || name.starts_with("reactions_")) && name.ends_with(".csv"));
+    if (is_field_file && !is_known(name)) std::filesystem::remove(entry.path());
+  }
+}
+
+RunFiles::State RunFiles::save() {
+  history_->finish();
+  state_.sizes = history_->sizes();
+  return state_;
+}
 
 void RunFiles::add_row(const StepRecord& record, std::span<const double> gauges) {
   history_->append(record, gauges);
-  ++rows_;
+  ++state_.rows;
   if (!callbacks_.on_row) return;
-  callbacks_.on_row({rows_, record.step, 0.0, record.load_factor, record.load, record.displacement,
-                     record.broken_bonds});
+  callbacks_.on_row({state_.rows, record.step, 0.0, record.load_factor, record.load,
+                     record.displacement, record.broken_bonds});
 }
 
 void RunFiles::add_row(const ExplicitRecord& record, std::span<const double> gauges) {
   history_->append(record, gauges);
-  ++rows_;
+  ++state_.rows;
   const bool intact = record.broken_bonds == 0 && record.cracked_particles == 0;
-  peaks_.add({record.displacement, record.load}, intact);
+  state_.peaks.add({record.displacement, record.load}, intact);
   if (!callbacks_.on_row) return;
-  callbacks_.on_row({rows_, record.step, record.time, record.load_factor, record.load,
+  callbacks_.on_row({state_.rows, record.step, record.time, record.load_factor, record.load,
                      record.displacement, record.broken_bonds + record.cracked_particles});
 }
 
@@ -60,21 +100,22 @@ void RunFiles::begin_again() {
   history_.reset();
   history_.emplace(directory_.string(), input_);
   std::filesystem::remove(directory_ / "fields.pvd");  // before the files that it names
-  for (const PvdEntry& entry : series_) {
+  for (const PvdEntry& entry : state_.series) {
     std::filesystem::remove(directory_ / entry.file);
     for (const char* kind : tables) {
       std::filesystem::remove(directory_ / table_name(kind, static_cast<Index>(entry.time)));
     }
   }
-  series_.clear();
-  rows_ = 0;
+  state_.series.clear();
+  state_.rows = 0;
 }
 
 bool RunFiles::fields_are_due(double time) {
   const std::vector<double>& times = input_.output.fields_times;
-  bool due = rows_ == 1 || is_relaxation(input_);
+  bool due = state_.rows == 1 || is_relaxation(input_);
   const double now = time * (1.0 + round_off);
-  for (; next_time_ < times.size() && times[next_time_] <= now; ++next_time_) due = true;
+  for (; state_.next_time < times.size() && times[state_.next_time] <= now; ++state_.next_time)
+    due = true;
   return due;
 }
 
@@ -85,11 +126,11 @@ void RunFiles::write_fields(Index step, double at, const std::function<VtuGrid()
 
 void RunFiles::add_to_series(double at, const std::string& name,
                              const std::function<void()>& write) {
-  if (!series_.empty() && series_.back().file == name) return;
+  if (!state_.series.empty() && state_.series.back().file == name) return;
   const Timer timer;
   write();
-  series_.push_back({at, name});
-  write_pvd((directory_ / "fields.pvd").string(), series_);
+  state_.series.push_back({at, name});
+  write_pvd((directory_ / "fields.pvd").string(), state_.series);
   seconds_writing_ += timer.seconds();
 }
 

@@ -23,9 +23,30 @@ namespace perilink {
 /// line. The analysis types supply the contents.
 class RunFiles {
  public:
+  /// State of the files, to go on with them.
+  struct State {
+    HistoryFile::Sizes sizes;
+    Index rows = 0;
+    PeakWatch peaks;
+    std::size_t next_time = 0;  ///< next entry of the case's output.fields_times
+    std::vector<PvdEntry> series;
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(sizes, rows, peaks, next_time, series);
+    }
+  };
+
   /// \param directory  existing directory
   /// \throws FileError
   RunFiles(const CaseFile& input, std::filesystem::path directory, RunCallbacks calls);
+  /// Goes on with the files of a saved run; what was written later is removed.
+  /// \throws FileError
+  RunFiles(const CaseFile& input, std::filesystem::path directory, RunCallbacks calls,
+           const State& saved);
+
+  /// Syncs all files and returns their state. \throws FileError
+  State save();
 
   /// \param gauges  gauge values, in the order of the case
   void add_row(const StepRecord& record, std::span<const double> gauges);
@@ -46,26 +67,24 @@ class RunFiles {
   /// \param steps  number of steps of the whole run
   void show_steps(const ExplicitRecord& record, Index steps);
   ProgressBar& bar() { return bar_; }
-  bool has_fields() const { return !series_.empty(); }
+  bool has_fields() const { return !state_.series.empty(); }
   /// Flushes all files and ends the progress line. \throws FileError
   void finish();
-  Index rows() const { return rows_; }
+  Index rows() const { return state_.rows; }
   /// Returns the peaks of the time rows so far.
-  const PeakWatch& peaks() const { return peaks_; }
+  const PeakWatch& peaks() const { return state_.peaks; }
   double seconds_writing() const { return seconds_writing_; }
 
  private:
   void add_to_series(double at, const std::string& name, const std::function<void()>& write);
+  void remove_later_files() const;
 
   const CaseFile& input_;
   RunCallbacks callbacks_;
   std::filesystem::path directory_;
   ProgressBar bar_;
   std::optional<HistoryFile> history_;
-  Index rows_ = 0;
-  PeakWatch peaks_;
-  std::size_t next_time_ = 0;  ///< next entry of the case's output.fields_times
-  std::vector<PvdEntry> series_;
+  State state_;
   double seconds_writing_ = 0.0;
 };
 

@@ -4,12 +4,41 @@
 #include <cmath>
 
 #include "app/process/progress.hpp"
+#include "app/run/resume.hpp"
 #include "app/run/run_warnings.hpp"
 #include "base/build_info.hpp"
+#include "io/checkpoint/checkpoint.hpp"
+#include "io/checkpoint/pack.hpp"
 #include "results/calibration_text.hpp"
 #include "results/summary_file.hpp"
 
 namespace perilink {
+
+void RunKind::open(const std::filesystem::path& directory, const RunCallbacks& calls,
+                   const std::string& saved) {
+  directory_ = directory;
+  since_opened_.restart();
+  if (saved.empty()) {
+    files_ = std::make_unique<RunFiles>(input, directory, calls);
+    return;
+  }
+  RunFiles::State files;
+  std::string state;
+  unpack(saved, files, seconds.analysis, state);
+  files_ = std::make_unique<RunFiles>(input, directory, calls, files);
+  restore(state);
+}
+
+void RunKind::save(const std::string& state) {
+  write_checkpoint((directory_ / checkpoint_name).string(),
+                   {resumable_case(input, directory_), model_fingerprint(),
+                    pack(files_->save(), seconds.analysis + since_opened_.seconds(), state)});
+}
+
+std::string NetworkRun::model_fingerprint() const {
+  const Network& network = model_.network;
+  return fingerprint({network.particles.positions, network.stiffness, network.critical_stretch});
+}
 
 NetworkRun::NetworkRun(const CaseFile& of_case, int on_threads, const RunCallbacks& calls)
     : RunKind(of_case, on_threads, calls), model_(build_model_visibly(of_case, calls)) {
@@ -25,14 +54,14 @@ std::string NetworkRun::bond_rate(Index steps) const {
 }
 
 void NetworkRun::write_reactions(const StepRecord& row, const std::vector<SupportRegion>& places,
-                                 const ModelState& state) {
+                                 const ModelState& state, ReactionBalance& balance) {
   if (places.empty()) return;
   const ReactionTable table = reaction_table(places, model_, state);
   files_->write_table("reactions", row.step, table.text);
   // A sum of n numbers is at most sqrt(n) times the root of the sum of their squares.
   const double numbers = static_cast<double>(model_.unknowns.number.size());
-  balance_.add(row.step, table.sum, longest_side(model_.network.particles),
-               std::max(1e-8, std::sqrt(numbers) * row.residual));
+  balance.add(row.step, table.sum, longest_side(model_.network.particles),
+              std::max(1e-8, std::sqrt(numbers) * row.residual));
 }
 
 std::string rate_text(double count, double seconds, const std::string& unit) {

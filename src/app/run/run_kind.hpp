@@ -10,6 +10,7 @@
 #include "app/process/run_callbacks.hpp"
 #include "app/run/run_files.hpp"
 #include "app/run/summary.hpp"
+#include "base/timer.hpp"
 #include "model/from_case/configure.hpp"
 #include "model/reactions.hpp"
 
@@ -38,14 +39,17 @@ class RunKind {
       : input(of_case), threads(on_threads), callbacks(std::move(to_call)) {}
   virtual ~RunKind() = default;
 
-  /// Opens the files in the directory of the run. \throws FileError
-  RunFiles& open(const std::filesystem::path& directory, const RunCallbacks& calls) {
-    return *(files_ = std::make_unique<RunFiles>(input, directory, calls));
-  }
+  /// Opens the files in the directory of the run.
+  /// \param saved  state to go on from; empty: the run begins
+  /// \throws FileError
+  void open(const std::filesystem::path& directory, const RunCallbacks& calls,
+            const std::string& saved = {});
   RunFiles& files() const { return *files_; }
   /// Runs the analysis. Its termination status is in run_outcome().
   virtual void analyse() = 0;
   virtual RunOutcome run_outcome() = 0;
+  /// Returns a text that identifies the model; empty if runs of this type are not saved.
+  virtual std::string model_fingerprint() const { return {}; }
   /// Adds the results of this analysis type to the summary.
   virtual void tell(Summary& summary) const = 0;
 
@@ -58,6 +62,13 @@ class RunKind {
   PhaseSeconds seconds;
 
  protected:
+  /// Writes a checkpoint. \param state  bytes of pack() \throws FileError
+  void save(const std::string& state);
+  /// Goes on from the bytes given to save(). \throws FileError
+  virtual void restore(const std::string& /*state*/) {}
+
+  std::filesystem::path directory_;
+  Timer since_opened_;
   std::unique_ptr<RunFiles> files_;
 };
 
@@ -65,6 +76,7 @@ class RunKind {
 class NetworkRun : public RunKind {
  public:
   NetworkRun(const CaseFile& of_case, int on_threads, const RunCallbacks& calls);
+  std::string model_fingerprint() const override;
 
  protected:
   /// Returns a rate, "3.2 M bond-steps/s".
@@ -72,10 +84,9 @@ class NetworkRun : public RunKind {
   /// Writes reactions_STEP.csv of an equilibrium and checks that its sum vanishes, to 1e-8 or to
   /// the bound from the residual of the equilibrium.
   void write_reactions(const StepRecord& row, const std::vector<SupportRegion>& places,
-                       const ModelState& state);
+                       const ModelState& state, ReactionBalance& balance);
 
   Model model_;
-  ReactionBalance balance_;
 };
 
 /// Builds the model of a case and its run.

@@ -72,6 +72,11 @@ std::optional<std::string> warning_about_motion(double share);
 struct Compression {
   double stress = 0.0;  ///< largest compressive principal stress [force/length^2]
   double times = 0.0;   ///< stress over the tensile strength [-]
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(stress, times);
+  }
 };
 
 /// Returns the largest compression of particles without a crushing law.

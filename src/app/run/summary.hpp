@@ -65,6 +65,11 @@ void tell_motion(Summary& summary, const CaseFile& input, const RunFiles& files,
 struct ToldCrack {
   CrackState state;
   std::vector<double> at;  ///< middle of its widest bond, size dim [length]
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(state, at);
+  }
 };
 
 /// Returns the cracks with the most bonds, ten at most.

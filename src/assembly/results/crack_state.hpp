@@ -13,6 +13,11 @@ struct CrackState {
   Index bonds = 0;
   double mean = 0.0, largest = 0.0;  ///< opening [length]
   Index widest = no_index;           ///< bond with the largest opening
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(bonds, mean, largest, widest);
+  }
 };
 
 /// Openings of the bonds that have lost more than half of their axial stiffness.

@@ -269,6 +269,8 @@ struct OutputSection {
   std::optional<int> fields_every;       ///< number of broken bonds between fields
   std::optional<int> fields_every_rows;  ///< rows of history.csv between fields
   std::vector<double> fields_times;      ///< for type = explicit: times of fields [time]
+  /// Rows of history.csv between checkpoints; 0: none; absent: chosen by the cost.
+  std::optional<int> checkpoint_every;
 };
 
 /// A whole case.

@@ -381,7 +381,8 @@ const std::vector<TableSchema>& case_schema() {
        {{"fields_at", of_damage},
         {"fields_every", of_damage},
         {"fields_every_rows", of_damage},
-        {"fields_times", of_time}}},
+        {"fields_times", of_time},
+        {"checkpoint_every", set_aside(elastic)}}},
   };
   return schema;
 }

@@ -54,6 +54,11 @@ VtuGrid read_vtu(const std::string& path);
 struct PvdEntry {
   double time = 0.0;  ///< row of the history, or time
   std::string file;   ///< its name, in the folder of the .pvd file
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(time, file);
+  }
 };
 
 /// \throws FileError

@@ -14,6 +14,11 @@ class CsvWriter {
  public:
   /// \throws FileError
   CsvWriter(const std::string& path, const std::vector<std::string>& columns);
+  /// Goes on with an existing table.
+  /// \param size  bytes of the table to keep; the rest is removed
+  /// \throws FileError
+  CsvWriter(const std::string& path, const std::vector<std::string>& columns, std::size_t size)
+      : file_(path, size), columns_(columns.size()) {}
   ~CsvWriter();
   CsvWriter(const CsvWriter&) = delete;
   CsvWriter& operator=(const CsvWriter&) = delete;
@@ -24,6 +29,7 @@ class CsvWriter {
   void flush();
   /// Flushes and waits until all data are on the disk. \throws FileError
   void finish();
+  std::size_t size() const { return file_.size(); }  ///< of the rows that are flushed [bytes]
 
  private:
   LineFile file_;

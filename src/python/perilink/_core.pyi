@@ -14,6 +14,11 @@ class CaseFile:
     def path(self) -> str: ...
     def resolved(self) -> str: ...
 
+class OldRun:
+    refused: OldRun
+    overwritten: OldRun
+    resumed: OldRun
+
 class Row:
     """A row of the history."""
 
@@ -80,7 +85,7 @@ def run(
     case: CaseFile,
     directory: str,
     threads: int = 0,
-    force: bool = False,
+    old_results: OldRun = ...,
     progress: Callable[[Row], object] | None = None,
 ) -> tuple[str, str, str]: ...
 def refuse_old_results(directory: str, force: bool) -> None: ...

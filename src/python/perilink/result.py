@@ -142,6 +142,7 @@ def run(
     *,
     threads: int | None = None,
     force: bool = False,
+    resume: bool = False,
     progress: Callable[[_core.Row], object] | None = None,
     trust_geometry: bool = False,
 ) -> Result:
@@ -156,6 +157,7 @@ def run(
         directory: directory of the files; by default a temporary one, deleted with the result
         threads: most threads; by default OMP_NUM_THREADS or all processors
         force: overwrite the results of an earlier run
+        resume: go on with the run of this case that the directory holds, if there is one
         progress: called with the latest row, at most 20 times a second; ends the run by returning
             ``False``
         trust_geometry: allow any gmsh script as mesh
@@ -165,9 +167,13 @@ def run(
         FileError: the directory holds results, or files cannot be written
         SolverError: the solver cannot continue; rows before are in the directory
     """
+    if force and resume:
+        raise ValueError("force overwrites the results that resume goes on with; give one of them")
+    old = (_core.OldRun.overwritten if force else _core.OldRun.resumed if resume
+           else _core.OldRun.refused)
     target = Path(tempfile.mkdtemp(prefix="perilink-") if directory is None else directory)
     try:
-        return _run(case, target, directory is None, threads, force, progress, trust_geometry)
+        return _run(case, target, directory is None, threads, old, progress, trust_geometry)
     except BaseException:
         if directory is None:
             shutil.rmtree(target, ignore_errors=True)
@@ -179,20 +185,20 @@ def _run(
     target: Path,
     is_temporary: bool,
     threads: int | None,
-    force: bool,
+    old_results: _core.OldRun,
     progress: Callable[[_core.Row], object] | None,
     trust_geometry: bool,
 ) -> Result:
     meshes = None
     if case._meshes():
-        _core.refuse_old_results(fspath(target), force)
+        _core.refuse_old_results(fspath(target), old_results != _core.OldRun.refused)
         case._parse()  # before the mesh is written
         target.mkdir(parents=True, exist_ok=True)
         meshes = target
     with MeshFolder(case, meshes) as folder:
         parsed = case._parse(folder)
     parsed.trust_geometry = trust_geometry
-    _, _, text = _core.run(parsed, fspath(target), threads or 0, force, progress)
+    _, _, text = _core.run(parsed, fspath(target), threads or 0, old_results, progress)
     result = Result(target)
     result.text = text
     if is_temporary:

@@ -15,6 +15,11 @@ struct Beside {
     linear += other.linear;
     constant += other.constant;
   }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(linear, constant);
+  }
 };
 
 /// Work products at load factor 1 [force length]. Constant loads f_c, d_c cause displacements u_c
@@ -26,6 +31,11 @@ struct ConstantWork {
   double growing_forces = 0.0;    ///< f_p'u_c
   double growing_supports = 0.0;  ///< R_c'd_p
   double forces_on_clamps = 0.0;  ///< f_c'd_p: part of the reactions' work that f_c does
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(forces, forces_on_motion, supports, growing_forces, growing_supports, forces_on_clamps);
+  }
 };
 
 /// Returns the contribution of permanent loads to the growth of f'u - R'd. By Betti's theorem the

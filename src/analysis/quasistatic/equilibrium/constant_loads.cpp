@@ -55,6 +55,12 @@ void Equilibrium::begin_stage(const Unknowns& unknowns, const Loads& loads,
   adopt_load();
 }
 
+void Equilibrium::go_on(const ElementState& saved) {
+  if (saved.ground_load.empty()) return;
+  ground_load_ = saved.ground_load;
+  refresh();
+}
+
 void Equilibrium::restore(std::span<const Index> elements) {
   for (const Index element : elements) set_secant(element, 1.0);
   restored_ = restored_ || !elements.empty();

@@ -31,9 +31,10 @@ constexpr int most_events_to_follow = 16;
 
 }  // namespace
 
-Equilibrium::Equilibrium(const LoadedNetwork& problem, const EquilibriumOptions& options)
+Equilibrium::Equilibrium(const LoadedNetwork& problem, const EquilibriumOptions& options,
+                         const Unknowns& unknowns, const ElementState* saved)
     : network_(problem.network),
-      unknowns_(&problem.unknowns),
+      unknowns_(&unknowns),
       loads_(&problem.loads),
       options_(options),
       secants_(static_cast<std::size_t>(network_.num_elements()), 1.0),
@@ -53,9 +54,24 @@ Equilibrium::Equilibrium(const LoadedNetwork& problem, const EquilibriumOptions&
   if (network_.has_closing() || has_kept_) axial_ = secants_;
   for (const Index element : network_.cut_elements) secants_[element] = 0.0;  // closed at first
   damaged_ = network_.cut_elements;
+  if (saved != nullptr) {
+    secants_ = saved->secants;
+    axial_ = saved->axial;
+    damaged_ = saved->damaged;
+    ground_stiffness_ = saved->ground_stiffness;
+    ground_load_ = problem.sets.empty() ? saved->ground_load : saved->constant_ground_load;
+  }
   find_driven_elements();
-  adopt_motion();
-  if (problem.sets.empty()) open_cut_elements();  // stages open them as their loads begin to grow
+  adopt_motion(saved != nullptr);
+  if (!ground_stiffness_.empty()) keep_all_current();
+  // Stages open cracks as their loads begin to grow.
+  if (saved == nullptr && problem.sets.empty()) open_cut_elements();
+}
+
+ElementState Equilibrium::state() const {
+  return {secants_,     axial_,
+          damaged_,     ground_stiffness_,
+          ground_load_, constant_ ? constant_->ground_load : std::vector<double>()};
 }
 
 double Equilibrium::norm(std::span<const double> values) {
@@ -94,24 +110,35 @@ void Equilibrium::find_loaded_slots() {
 }
 
 /// Makes a new factor for the present unknowns.
-void Equilibrium::factorize_anew() {
+/// \param resists  the body is known to resist its loads, and is not examined for mechanisms
+void Equilibrium::factorize_anew(bool resists) {
   lags_ = false;
   missed_savings_ = 0.0;
   slot_of_ = unknowns_->slots();
   solution_.assign(static_cast<std::size_t>(unknowns_->count), 0.0);
   if (subdomains_ != nullptr) return subdomains_->begin(*unknowns_, secants(), ground_stiffness_);
+  if (resists) return factor_->factorize(present_stiffness(), unknowns_->owners());
   const auto forces_of = [&](std::span<const double> u) {
     return internal_force(network_, secants(), u);
   };
-  factorize_stiffness(*factor_, assemble_stiffness(network_, secants(), *unknowns_), *unknowns_,
-                      &network_.particles, forces_of);
+  factorize_stiffness(*factor_, present_stiffness(), *unknowns_, &network_.particles, forces_of);
+}
+
+/// Returns the stiffness of the present elements and ground springs.
+SparseMatrix Equilibrium::present_stiffness() const {
+  SparseMatrix stiffness = assemble_stiffness(network_, secants(), *unknowns_);
+  for (std::size_t k = 0; k < ground_stiffness_.size(); ++k) {
+    const Index unknown = static_cast<Index>(k);
+    stiffness.coeffRef(unknown, unknown) += ground_stiffness_[k];
+  }
+  return stiffness;
 }
 
 /// Finds the equilibrium under the present unknowns with a new factor.
-void Equilibrium::adopt_motion() {
+void Equilibrium::adopt_motion(bool resists) {
   displacement_ = unknowns_->prescribed;
   find_loaded_slots();
-  factorize_anew();
+  factorize_anew(resists);
   choose_current_unknowns();
   adopt_load();
 }
@@ -348,12 +375,7 @@ void Equilibrium::factorize() {
     factorize_anew();
     return refresh();
   }
-  auto stiffness = assemble_stiffness(network_, secants(), *unknowns_);
-  for (std::size_t k = 0; k < ground_stiffness_.size(); ++k) {
-    const Index unknown = static_cast<Index>(k);
-    stiffness.coeffRef(unknown, unknown) += ground_stiffness_[k];
-  }
-  factor_->refactorize(stiffness);
+  factor_->refactorize(present_stiffness());
   lags_ = false;
   missed_savings_ = 0.0;
   refresh();

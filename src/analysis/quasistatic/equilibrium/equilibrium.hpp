@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/quasistatic/equilibrium/constant_field.hpp"
+#include "analysis/quasistatic/equilibrium/element_state.hpp"
 #include "analysis/quasistatic/equilibrium/event_batch.hpp"
 #include "analysis/quasistatic/equilibrium/event_outcome.hpp"
 #include "analysis/quasistatic/equilibrium/removal.hpp"
@@ -54,7 +55,16 @@ class Equilibrium {
  public:
   /// \throws SolverError if the stiffness matrix is not positive definite
   /// \throws std::invalid_argument if conjugate gradients are asked for and particles are embedded
-  Equilibrium(const LoadedNetwork& problem, const EquilibriumOptions& options);
+  Equilibrium(const LoadedNetwork& problem, const EquilibriumOptions& options)
+      : Equilibrium(problem, options, problem.unknowns, nullptr) {}
+
+  /// Finds the equilibrium of a damaged body.
+  /// \param unknowns  motion of the particles; must outlive this object
+  /// \param saved     state of this network with these unknowns; null: the intact body
+  Equilibrium(const LoadedNetwork& problem, const EquilibriumOptions& options,
+              const Unknowns& unknowns, const ElementState* saved);
+
+  ElementState state() const;
 
   /// Returns the present stiffness of every element over its intact stiffness.
   Secants secants() const { return axial_.empty() ? Secants(secants_) : Secants(secants_, axial_); }
@@ -149,6 +159,9 @@ class Equilibrium {
   ///                  this object, as must the loads
   void begin_stage(const Unknowns& unknowns, const Loads& loads, ConstantField constant);
 
+  /// Goes on with a stage of a saved run, after begin_stage(): ground springs keep their loads.
+  void go_on(const ElementState& saved);
+
   /// Restores the intact stiffness of elements at the start of the next stage.
   void restore(std::span<const Index> elements);
 
@@ -181,9 +194,10 @@ class Equilibrium {
   void commit_both(const Removal& removal);
   void move_constant(const Removal& removal);
   void use_motion(const Unknowns& unknowns);
-  void adopt_motion();
+  void adopt_motion(bool resists = false);
   void adopt_load();
-  void factorize_anew();
+  void factorize_anew(bool resists = false);
+  SparseMatrix present_stiffness() const;
   void find_driven_elements();
   void find_loaded_slots();
   void choose_current_unknowns();

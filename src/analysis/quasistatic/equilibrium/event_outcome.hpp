@@ -63,12 +63,22 @@ struct LoadWork {
   bool separated = false;
   ConstantWork constant = {};  ///< contribution of permanent loads
   double compliance() const { return forces - supports; }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(forces, supports, separated, constant);
+  }
 };
 
 /// Growth of the compliance f'u - R'd without an event, at load factor 1 [force length].
 struct Freedom {
   double growth = 0.0;
   Beside beside = {};  ///< contribution of permanent loads
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(growth, beside);
+  }
 };
 
 /// Result of a residual check.

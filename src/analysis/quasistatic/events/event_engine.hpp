@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/quasistatic/equilibrium/equilibrium.hpp"
+#include "analysis/quasistatic/events/body_state.hpp"
 #include "base/types.hpp"
 
 namespace perilink {
@@ -17,6 +18,11 @@ struct Event {
   bool at_constant_load = false;   ///< the element is beyond its limit at a constant load
   bool changes_side = false;       ///< a damaged bond closes or opens, and no element fails
   std::vector<Index> others = {};  ///< elements that fail with it, within the event tolerance
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(element, load_factor, at_constant_load, changes_side, others);
+  }
 };
 
 /// Moves a network from event to event at unit load factor. The damage analysis uses the solver
@@ -67,6 +73,10 @@ class EventEngine {
   virtual int factorizations() const = 0;
 
   virtual FactorStatistics factor_statistics() const = 0;
+
+  /// Returns what an engine needs to go on from here. It makes a new factor, so that results
+  /// differ by round-off from those of this engine.
+  virtual BodyState state() const = 0;
 };
 
 /// Relative difference within which load factors count as equal.

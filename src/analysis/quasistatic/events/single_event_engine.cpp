@@ -11,15 +11,21 @@
 namespace perilink {
 
 SingleEventEngine::SingleEventEngine(const LoadedNetwork& problem,
-                                     const EquilibriumOptions& options)
+                                     const EquilibriumOptions& options, const Unknowns& unknowns,
+                                     const BodyState* saved)
     : network_(problem.network),
       threads_(options.threads),
       tolerance_(options.event_tolerance),
-      equilibrium_(problem, options),
+      equilibrium_(problem, options, unknowns, saved != nullptr ? &saved->elements : nullptr),
       search_(make_break_search(network_)),
-      closes_(network_.has_closing()),
-      segments_(static_cast<std::size_t>(network_.num_elements()), 0) {
+      closes_(network_.has_closing()) {
   if (network_.has_crushing()) crushing_.emplace(network_);
+  progress_.segments.resize(static_cast<std::size_t>(network_.num_elements()), 0);
+  if (saved == nullptr) return;
+  progress_ = saved->progress;
+  for (Index e = 0; e < network_.num_elements(); ++e) {
+    if (progress_.segments[e] != 0) set_limits(e);
+  }
 }
 
 Event SingleEventEngine::next_event_below(double most) {
@@ -74,8 +80,9 @@ void SingleEventEngine::limit_batch(const Event& event, double energy,
                                     std::vector<BreakSearch::Hit>& hits) {
   constexpr double most_lost = 0.5, most_fall = 0.25, growth = 1.5;
   const double factor = std::abs(event.load_factor);
-  const bool fell = factor < (1.0 - most_fall * tolerance_) * last_factor_;
-  most_at_once_ = fell ? std::max(1.0, 0.5 * last_count_) : growth * most_at_once_;
+  const bool fell = factor < (1.0 - most_fall * tolerance_) * progress_.last_factor;
+  progress_.most_at_once =
+      fell ? std::max(1.0, 0.5 * progress_.last_count) : growth * progress_.most_at_once;
   double left = most_lost * tolerance_ * energy;
   std::ranges::stable_sort(hits, std::greater(), &BreakSearch::Hit::ratio);
   // Ties are sorted by number, since their last digits are round-off.
@@ -87,7 +94,7 @@ void SingleEventEngine::limit_batch(const Event& event, double energy,
     begin = end;
   }
   std::size_t count = 0;
-  for (; count < hits.size() && static_cast<double>(count) < most_at_once_; ++count) {
+  for (; count < hits.size() && static_cast<double>(count) < progress_.most_at_once; ++count) {
     const Index element = hits[count].element;
     if (!fails_with_others(element)) continue;
     left -=
@@ -96,8 +103,8 @@ void SingleEventEngine::limit_batch(const Event& event, double energy,
   }
   // Round-off may have left `hits` empty.
   hits.resize(std::min(hits.size(), std::max<std::size_t>(count, 1)));
-  last_count_ = std::max(1.0, static_cast<double>(hits.size()));
-  last_factor_ = factor;
+  progress_.last_count = std::max(1.0, static_cast<double>(hits.size()));
+  progress_.last_factor = factor;
 }
 
 /// Returns whether the extension of the next element is noise, or round-off of the motion of its
@@ -206,12 +213,12 @@ EventOutcome SingleEventEngine::apply_all(std::span<const Index> elements, doubl
 int SingleEventEngine::next_segment(Index element) const {
   const bool compressed = law_of(element).crushes() &&
                           is_shorter(network_, element, equilibrium_.where_elements_fail());
-  return BondLaw::after(segments_[element], compressed);
+  return BondLaw::after(progress_.segments[element], compressed);
 }
 
 void SingleEventEngine::pass_limit(Index element, int segment, EventOutcome& outcome) {
   const double secant = law_of(element).segment(segment).secant;
-  segments_[element] = segment;
+  progress_.segments[element] = segment;
   set_limits(element);
   ++(secant == 0.0 ? outcome.broken : outcome.yielded);
   if (network_.law(element).is_exhausted(secant)) outcome.exhausted = element;
@@ -220,7 +227,7 @@ void SingleEventEngine::pass_limit(Index element, int segment, EventOutcome& out
 void SingleEventEngine::set_limits(Index element) {
   const double limit = limit_of(element);
   if (!network_.law(element).crushes()) return search_->set_limit(element, limit);
-  const int segment = segments_[element];
+  const int segment = progress_.segments[element];
   constexpr double none = std::numeric_limits<double>::infinity();
   double tension = segment >= 0 ? limit : none, compression = segment >= 0 ? none : limit;
   if (segment == 0 && secants()[element] > 0.0 && crushing_->is_active(element)) {
@@ -228,14 +235,14 @@ void SingleEventEngine::set_limits(Index element) {
                   network_.law(element).first_in_compression().limit;
   }
   search_->set_limits(element, tension, compression);
-  if (segment != 1) return;
+  if (segment < 1) return;
   for (const Index woken : crushing_->wake(element)) {
-    if (segments_[woken] == 0 && secants()[woken] > 0.0) set_limits(woken);
+    if (progress_.segments[woken] == 0 && secants()[woken] > 0.0) set_limits(woken);
   }
 }
 
 double SingleEventEngine::limit_of(Index element) const {
-  const Segment segment = law_of(element).segment(segments_[element]);
+  const Segment segment = law_of(element).segment(progress_.segments[element]);
   if (segment.secant == 0.0) return std::numeric_limits<double>::infinity();
   return release_threshold_of(element) * stretch_of(element) * segment.limit;
 }
@@ -251,7 +258,7 @@ double SingleEventEngine::stretch_of(Index element) const {
 }
 
 void SingleEventEngine::set_release_threshold(std::span<const Index> elements, double fraction) {
-  release_threshold_.resize(segments_.size(), 1.0);
+  release_threshold_.resize(progress_.segments.size(), 1.0);
   for (const Index element : elements) {
     if (!network_.has_limit(element) || secants()[element] == 0.0) continue;
     release_threshold_[element] = fraction;

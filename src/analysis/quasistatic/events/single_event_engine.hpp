@@ -16,7 +16,12 @@ namespace perilink {
 /// displacements.
 class SingleEventEngine : public EventEngine {
  public:
-  SingleEventEngine(const LoadedNetwork& problem, const EquilibriumOptions& options);
+  SingleEventEngine(const LoadedNetwork& problem, const EquilibriumOptions& options)
+      : SingleEventEngine(problem, options, problem.unknowns, nullptr) {}
+  /// Goes on from a saved state; null: begins with the intact body.
+  /// \param unknowns  motion of the particles in that state; must outlive this object
+  SingleEventEngine(const LoadedNetwork& problem, const EquilibriumOptions& options,
+                    const Unknowns& unknowns, const BodyState* saved);
 
   Event next_event_below(double most) override;
   EventOutcome apply(const Event& event) override;
@@ -35,6 +40,7 @@ class SingleEventEngine : public EventEngine {
   std::vector<Index> near_events(const Event& event, double fraction) override;
   int factorizations() const override { return equilibrium_.factor().factorizations(); }
   FactorStatistics factor_statistics() const override { return equilibrium_.factor_statistics(); }
+  BodyState state() const override { return {equilibrium_.state(), progress_, {}}; }
 
   /// Removes elements, see Equilibrium::cut(); they have no more events.
   /// \return number of ground springs added
@@ -82,14 +88,12 @@ class SingleEventEngine : public EventEngine {
   const Network& network_;
   ThreadChoice threads_;
   double tolerance_;  ///< EquilibriumOptions::event_tolerance
-  // Largest size of the next batch; size and load factor of the last one.
-  double most_at_once_ = 1.0, last_count_ = 1.0, last_factor_ = 0.0;
   Equilibrium equilibrium_;
   std::unique_ptr<BreakSearch> search_;
   bool closes_;  ///< Network::has_closing()
   /// Present if there are bonds with segments in compression.
   std::optional<CrushingBonds> crushing_;
-  std::vector<int> segments_;  ///< present segment of each element
+  EventProgress progress_;
   /// Law and reference stretch of a bar that has flowed.
   struct OwnLaw {
     BondLaw law;

@@ -16,13 +16,35 @@ StagedEngine::StagedEngine(const LoadedNetwork& problem, const EquilibriumOption
       crossings_(problem.network),
       last_crossing_threads_(options.threads),
       next_crossing_threads_(options.threads),
-      unknowns_(std::make_unique<Unknowns>(problem.unknowns)),
-      gripped_at_(problem.unknowns.prescribed.size(), 0.0),
-      load_factors_(problem.sets.size(), 0.0) {
-  for (Index e = 0; tolerance_ > 0.0 && e < network_.num_elements(); ++e) {
+      unknowns_(std::make_unique<Unknowns>(problem.unknowns)) {
+  loads_.clamped_at.assign(problem.unknowns.prescribed.size(), 0.0);
+  loads_.load_factors.assign(problem.sets.size(), 0.0);
+  if (tolerance_ > 0.0) set_crossing_limits();
+  begin_stage(0, *unknowns_);
+}
+
+StagedEngine::StagedEngine(const LoadedNetwork& problem, const EquilibriumOptions& options,
+                           const Unknowns& held, const BodyState& saved)
+    : SingleEventEngine(problem, options, held, &saved),
+      problem_(problem),
+      crossings_(problem.network),
+      last_crossing_threads_(options.threads),
+      next_crossing_threads_(options.threads),
+      unknowns_(std::make_unique<Unknowns>(held)),
+      loads_(saved.loads) {
+  for (const auto& [element, flow] : loads_.flow) {
+    harden(element);
+    set_limits(element);
+  }
+  set_crossing_limits();
+  apply_loads();
+  equilibrium_.go_on(saved.elements);
+}
+
+void StagedEngine::set_crossing_limits() {
+  for (Index e = 0; e < network_.num_elements(); ++e) {
     if (network_.has_limit(e)) crossings_.set_limit(e, limit_of_crossings(e));
   }
-  begin_stage(0, *unknowns_);
 }
 
 /// Clamps the slots that a load case is the first to prescribe, at their present displacements.
@@ -30,11 +52,11 @@ void StagedEngine::clamped(std::size_t set, const Unknowns& held) {
   const std::span<const double> motion = displacement();
   for (std::size_t slot = 0; slot < motion.size(); ++slot) {
     const bool is_new = held.number[slot] == no_index && unknowns_->number[slot] != no_index;
-    if (is_new) gripped_at_[slot] = motion[slot];
+    if (is_new) loads_.clamped_at[slot] = motion[slot];
   }
-  follow_particles(problem_.network, gripped_at_);
+  follow_particles(problem_.network, loads_.clamped_at);
   *unknowns_ = held;
-  newest_ = set;
+  loads_.newest = set;
 }
 
 bool StagedEngine::leave_flow() {
@@ -43,17 +65,17 @@ bool StagedEngine::leave_flow() {
   std::vector<Index> flown;
   for (Index e = network.first_bar_element; e < network.num_elements(); ++e) {
     const double secant = secants()[e];
-    if (!network.is_embedded(e) || segments_[e] == 0 || secant == 0.0) continue;
+    if (!network.is_embedded(e) || progress_.segments[e] == 0 || secant == 0.0) continue;
     const auto n = network.bonds.direction(e);
     const auto width = static_cast<std::size_t>(network.width());
     const std::size_t i = network.bonds.first[e] * width, j = network.bonds.second[e] * width;
     double extension = 0.0;
     for (std::size_t a = 0; a < n.size(); ++a) extension += n[a] * (motion[j + a] - motion[i + a]);
     const double plastic = (1.0 - secant) * extension;
-    flowed_.resize(motion.size(), 0.0);
-    for (std::size_t a = 0; a < n.size(); ++a) flowed_[j + a] -= plastic * n[a];
-    flow_[e] += std::abs(plastic) / network.bonds.length(e);
-    segments_[e] = 0;
+    loads_.flowed.resize(motion.size(), 0.0);
+    for (std::size_t a = 0; a < n.size(); ++a) loads_.flowed[j + a] -= plastic * n[a];
+    loads_.flow[e] += std::abs(plastic) / network.bonds.length(e);
+    progress_.segments[e] = 0;
     harden(e);
     flown.push_back(e);
   }
@@ -72,46 +94,52 @@ void StagedEngine::harden(Index segment) {
   const ForceCurve& curve = network.bars.curves[bar];
   if (curve.points.empty()) return;  // a plateau
   const double yield = network.critical_stretch[segment];
-  const ForceCurve rest = curve_behind(curve, flow_[segment] / yield);
+  const ForceCurve rest = curve_behind(curve, loads_.flow[segment] / yield);
   own_laws_.insert_or_assign(
       segment, OwnLaw{perilink::law_of(rest, BondLaw::usual_ratio), yield * rest.points[0][0]});
 }
 
 void StagedEngine::begin_stage(std::size_t set, const Unknowns& held) {
   if (is_new(set)) clamped(set, held);
-  load_factors_[set_] = load_factor_;
-  set_ = set;
-  load_factor_ = load_factors_[set];
-  changes_there_ = 0;
-  largest_factor_ = last_factor_ = 0.0;
+  loads_.load_factors[loads_.set] = loads_.load_factor;
+  loads_.set = set;
+  loads_.load_factor = loads_.load_factors[set];
+  loads_.changes_there = 0;
+  loads_.largest_factor = progress_.last_factor = 0.0;
+  apply_loads();
+}
+
+/// Finds the equilibrium under the growing and the constant loads.
+void StagedEngine::apply_loads() {
   ConstantField constant;
   constant.unknowns = *unknowns_;
-  constant.unknowns.prescribed = gripped_at_;
-  for (std::size_t slot = 0; slot < flowed_.size(); ++slot) {
-    constant.unknowns.prescribed[slot] += flowed_[slot];
+  constant.unknowns.prescribed = loads_.clamped_at;
+  for (std::size_t slot = 0; slot < loads_.flowed.size(); ++slot) {
+    constant.unknowns.prescribed[slot] += loads_.flowed[slot];
   }
   constant.loads.forces.assign(problem_.loads.forces.size(), 0.0);
-  constant.load_factor = load_factor_;
+  constant.load_factor = loads_.load_factor;
   for (std::size_t other = 0; other < problem_.sets.size(); ++other) {
-    const double factor = load_factors_[other];
-    if (other == set || factor == 0.0) continue;
+    const double factor = loads_.load_factors[other];
+    if (other == loads_.set || factor == 0.0) continue;
     const LoadCase& loads = problem_.sets[other];
-    for (std::size_t slot = 0; slot < gripped_at_.size(); ++slot) {
+    for (std::size_t slot = 0; slot < loads_.clamped_at.size(); ++slot) {
       constant.loads.forces[slot] += factor * loads.loads.forces[slot];
       constant.unknowns.prescribed[slot] += factor * loads.unknowns.prescribed[slot];
     }
   }
-  unknowns_->prescribed = problem_.sets[set].unknowns.prescribed;
-  equilibrium_.begin_stage(*unknowns_, problem_.sets[set].loads, std::move(constant));
+  const LoadCase& growing = problem_.sets[loads_.set];
+  unknowns_->prescribed = growing.unknowns.prescribed;
+  equilibrium_.begin_stage(*unknowns_, growing.loads, std::move(constant));
 }
 
 void StagedEngine::move_to(double load_factor) {
-  load_factor_ = load_factor;
-  largest_factor_ = std::max(largest_factor_, std::abs(load_factor));
+  loads_.load_factor = load_factor;
+  loads_.largest_factor = std::max(loads_.largest_factor, std::abs(load_factor));
   equilibrium_.move_to(load_factor);
 }
 
-std::span<const double> StagedEngine::displacement() { return displacement_at(load_factor_); }
+std::span<const double> StagedEngine::displacement() { return displacement_at(loads_.load_factor); }
 
 std::span<const double> StagedEngine::displacement_at(double load_factor) {
   const std::span<const double> growing = equilibrium_.where_elements_fail();
@@ -138,17 +166,17 @@ Event StagedEngine::next_event_below(double /*most*/) {
   });
   if (last.element == no_index && !(last.distance > 0.0)) {
     for (const Index bond : last.conflict) {
-      if (release_threshold_of(bond) < 1.0) return {bond, load_factor_, true};
+      if (release_threshold_of(bond) < 1.0) return {bond, loads_.load_factor, true};
     }
-    return with_others({worst().element, load_factor_, true});
+    return with_others({worst().element, loads_.load_factor, true});
   }
   const double distance =
       last.element != no_index ? last.distance : std::numeric_limits<double>::infinity();
   if (const Event change = side_change_within(distance); change.element != no_index) {
-    return turns_back(change) ? with_others({worst().element, load_factor_, true}) : change;
+    return turns_back(change) ? with_others({worst().element, loads_.load_factor, true}) : change;
   }
   if (last.element == no_index) return {};
-  return with_others({last.element, load_factor_ + last.distance});
+  return with_others({last.element, loads_.load_factor + last.distance});
 }
 
 /// Adds elements that fail with the event. They are within half of the tolerance of their limits at
@@ -167,8 +195,8 @@ Event StagedEngine::with_others(Event event) {
     const LoadWork work = load_work();
     const Beside beside{2.0 * (work.constant.forces_on_motion + work.constant.growing_supports),
                         work.constant.forces + work.constant.supports};
-    const double growing = load_factor_ * load_factor_ * (work.forces + work.supports);
-    limit_batch(event, growing + beside.at(load_factor_), hits);
+    const double growing = loads_.load_factor * loads_.load_factor * (work.forces + work.supports);
+    limit_batch(event, growing + beside.at(loads_.load_factor), hits);
   }
   for (const BreakSearch::Hit& hit : hits) {
     if (hit.element == event.element || !fails_with_others(hit.element)) continue;
@@ -181,18 +209,18 @@ Event StagedEngine::next_event_towards(double target) {
   const BreakSearch::Hit hit = worst();
   const bool shares = hit.element != no_index && fails_with_others(hit.element);
   if (hit.ratio > 1.0 + (shares ? 0.5 * tolerance_ : 0.0) + tie_tolerance) {
-    return with_others({hit.element, load_factor_, true});
+    return with_others({hit.element, loads_.load_factor, true});
   }
   CrossingSearch::Crossing next;
   next_crossing_threads_.run([&](int threads) {
     next = crossings_.ahead(now_, equilibrium_.where_elements_fail(),
-                            target < load_factor_ ? -1 : 1, tie_tolerance, threads);
+                            target < loads_.load_factor ? -1 : 1, tie_tolerance, threads);
   });
   const bool reached =
-      next.element != no_index && std::abs(next.distance) <= std::abs(target - load_factor_);
-  const double distance = reached ? next.distance : target - load_factor_;
+      next.element != no_index && std::abs(next.distance) <= std::abs(target - loads_.load_factor);
+  const double distance = reached ? next.distance : target - loads_.load_factor;
   if (const Event change = side_change_within(distance); change.element != no_index) return change;
-  return reached ? with_others({next.element, load_factor_ + next.distance}) : Event{};
+  return reached ? with_others({next.element, loads_.load_factor + next.distance}) : Event{};
 }
 
 /// Returns the next contact state change of a damaged bond within a distance of the load factor.
@@ -200,20 +228,21 @@ Event StagedEngine::side_change_within(double distance) {
   if (!closes_ || distance == 0.0) return {};
   const Equilibrium::SideChange change = equilibrium_.next_side_change(distance);
   if (change.element == no_index) return {};
-  direction_ = std::copysign(1.0, distance);
-  return {change.element, load_factor_ + change.distance, false, true};
+  loads_.direction = std::copysign(1.0, distance);
+  return {change.element, loads_.load_factor + change.distance, false, true};
 }
 
 bool StagedEngine::is_last_change(double load_factor) const {
   constexpr double round_off = 1e-12;
-  return changes_there_ > 0 && std::abs(load_factor - changed_at_) <= round_off * largest_factor_;
+  return loads_.changes_there > 0 &&
+         std::abs(load_factor - loads_.changed_at) <= round_off * loads_.largest_factor;
 }
 
 /// Returns whether bonds have just changed contact state here in the other direction. Elements
 /// beyond their limits are then loaded more in both directions, so that no nearby load factor is
 /// admissible.
 bool StagedEngine::turns_back(const Event& change) {
-  return is_last_change(change.load_factor) && direction_ != changed_towards_ &&
+  return is_last_change(change.load_factor) && loads_.direction != loads_.changed_towards &&
          worst().ratio > 1.0 + tie_tolerance;
 }
 
@@ -221,22 +250,22 @@ bool StagedEngine::turns_back(const Event& change) {
 /// \throws SolverError after most_changes
 void StagedEngine::count_changes() {
   constexpr int most_changes = 100;
-  changes_there_ = is_last_change(load_factor_) ? changes_there_ + 1 : 1;
-  changed_at_ = load_factor_;
-  changed_towards_ = direction_;
-  if (changes_there_ < most_changes) return;
+  loads_.changes_there = is_last_change(loads_.load_factor) ? loads_.changes_there + 1 : 1;
+  loads_.changed_at = loads_.load_factor;
+  loads_.changed_towards = loads_.direction;
+  if (loads_.changes_there < most_changes) return;
   throw SolverError(fmt::format(
       "damaged bonds open and close again and again at the load factor {:.6g}: their contact "
       "states do not settle",
-      load_factor_));
+      loads_.load_factor));
 }
 
 EventOutcome StagedEngine::apply(const Event& event) {
   if (event.changes_side) {
     count_changes();
-    return equilibrium_.pass_side_change(direction_);
+    return equilibrium_.pass_side_change(loads_.direction);
   }
-  changes_there_ = 0;
+  loads_.changes_there = 0;
   const EventOutcome outcome = SingleEventEngine::apply(event);
   if (outcome.mechanism) return outcome;
   crossings_.set_limit(event.element, limit_of_crossings(event.element));

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <limits>
-#include <map>
 #include <vector>
 
 #include "analysis/quasistatic/events/crossing_search.hpp"
@@ -15,6 +14,10 @@ namespace perilink {
 class StagedEngine final : public SingleEventEngine {
  public:
   StagedEngine(const LoadedNetwork& problem, const EquilibriumOptions& options);
+  /// Goes on from a saved state.
+  /// \param held  motion of the particles in that state
+  StagedEngine(const LoadedNetwork& problem, const EquilibriumOptions& options,
+               const Unknowns& held, const BodyState& saved);
 
   /// Starts a stage: a load case grows from its present load factor, 0 at first, and the others
   /// stay constant. Particles that it moves are clamped at their present positions.
@@ -27,14 +30,14 @@ class StagedEngine final : public SingleEventEngine {
   bool leave_flow();
 
   /// Returns whether neither this load case nor a later one has grown yet.
-  bool is_new(std::size_t set) const { return set > newest_; }
+  bool is_new(std::size_t set) const { return set > loads_.newest; }
 
   /// Sets the contact states of damaged bonds for the first loads. Precedes the first event.
   /// \param direction  1 if the load factor grows first, -1 if it falls
   EventOutcome open_for(double direction) { return equilibrium_.pass_side_change(direction); }
 
   /// Returns the load factor of the growing load case.
-  double load_factor() const { return load_factor_; }
+  double load_factor() const { return loads_.load_factor; }
   void move_to(double load_factor);
 
   /// Finds the event at the largest load factor at which every element is within its limit. If
@@ -54,6 +57,7 @@ class StagedEngine final : public SingleEventEngine {
   Balance check_cheaply() override { return check_equilibrium(); }
   Freedom change_motion(const Unknowns& unknowns) override;
   void set_release_threshold(std::span<const Index> elements, double fraction) override;
+  BodyState state() const override { return {equilibrium_.state(), progress_, loads_}; }
 
  private:
   std::vector<BreakSearch::Hit> near_hits(const Event& event, double fraction) override;
@@ -73,25 +77,13 @@ class StagedEngine final : public SingleEventEngine {
   const LoadedNetwork& problem_;
   CrossingSearch crossings_;
   ThreadChoice last_crossing_threads_, next_crossing_threads_;
+  void set_crossing_limits();
   void clamped(std::size_t set, const Unknowns& held);
+  void apply_loads();
   void harden(Index segment);
 
   std::unique_ptr<Unknowns> unknowns_;  ///< with the motions of the growing load case
-  /// Displacements at which slots were clamped, shape (particles, width).
-  std::vector<double> gripped_at_;
-  /// Motion of slots by plastic flow, shape (particles, width); empty: none.
-  std::vector<double> flowed_;
-  std::map<Index, double> flow_;      ///< per bar element: sum of the absolute plastic strains [-]
-  std::vector<double> load_factors_;  ///< per load case, while it does not grow
-  std::size_t set_ = 0;
-  std::size_t newest_ = 0;  ///< last load case that has grown
-  double load_factor_ = 0.0;
-  double direction_ = 0.0;        ///< sign of the load change towards the next contact state change
-  double largest_factor_ = 0.0;   ///< largest |load factor| of this stage
-  double changed_at_ = 0.0;       ///< load factor of the last contact state change
-  double changed_towards_ = 0.0;  ///< direction of the last contact state change
-  /// Successive contact state changes at changed_at_; 0: an element has failed since.
-  int changes_there_ = 0;
+  LoadState loads_;
   std::vector<double> now_;  ///< displacements at the load factor of the last query
 };
 

@@ -73,6 +73,8 @@ void write_relaxation(TomlWriter& out, const CaseFile& input) {
   out.write("tolerance", *input.analysis.tolerance);
   out.write("iterations", input.analysis.iterations);
   out.write("rigid_body_modes", word_of(input.analysis.rigid_body_modes));
+  out.header("[output]");
+  out.write("checkpoint_every", input.output.checkpoint_every);
 }
 
 void check_moving_bonds(const CaseFile& input) {

@@ -193,6 +193,7 @@ OutputSection read_output(const CaseTable& table, AnalysisType type) {
   }
   output.fields_every = table.integer("fields_every", 1, largest_count);
   output.fields_every_rows = table.integer("fields_every_rows", 1, largest_count);
+  output.checkpoint_every = table.integer("checkpoint_every", 0, largest_count);
   assign(output.fields_times, table.numbers("fields_times"));
   for (std::size_t i = 0; i < output.fields_times.size(); ++i) {
     const double before = i > 0 ? output.fields_times[i - 1] : 0.0;
@@ -209,6 +210,7 @@ OutputSection read_output(const CaseTable& table, AnalysisType type) {
     output.fields_every_rows.reset();
   }
   if (type != AnalysisType::explicit_) output.fields_times.clear();
+  if (type == AnalysisType::elastic) output.checkpoint_every.reset();
   return output;
 }
 

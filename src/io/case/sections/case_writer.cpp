@@ -160,6 +160,7 @@ void write_run(TomlWriter& out, const CaseFile& input) {
     write_explicit_analysis(out, input);
     out.header("[output]");
     out.write("fields_times", input.output.fields_times);
+    out.write("checkpoint_every", input.output.checkpoint_every);
     return;
   }
   if (input.analysis.type == AnalysisType::relaxation) return write_relaxation(out, input);
@@ -187,6 +188,7 @@ void write_run(TomlWriter& out, const CaseFile& input) {
   out.write("fields_at", input.output.fields_at);
   out.write("fields_every", input.output.fields_every);
   out.write("fields_every_rows", input.output.fields_every_rows);
+  out.write("checkpoint_every", input.output.checkpoint_every);
 }
 
 }  // namespace

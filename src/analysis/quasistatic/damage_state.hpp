@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "analysis/quasistatic/damage_options.hpp"
+#include "analysis/quasistatic/events/body_state.hpp"
+#include "analysis/quasistatic/events/event_engine.hpp"
+#include "analysis/quasistatic/path_energy.hpp"
+#include "analysis/quasistatic/strain_watch.hpp"
+
+namespace perilink {
+
+/// Position of a damage analysis on its load path, with all that it has recorded.
+struct PathState {
+  StepRecord row;                ///< last row
+  std::vector<StepRecord> rows;  ///< rows of the present load case; empty under control by steps
+  DamageResult result;           ///< so far; `factor` is of former engines
+  std::optional<Event> pending;  ///< event of the last row, not applied yet
+  std::size_t position = 0;      ///< index of the next load factor, or of the present stage
+  bool in_stage = false;         ///< the stage has begun
+  bool over = false;             ///< the last row ended the run
+  PathEnergy energy;
+  PathEnergy following;  ///< within a load step: energies of a load that follows the events
+  StrainWatch strains;
+  double compliance = 0.0;          ///< f'u - R'd at load factor 1 [force length]
+  double checked_compliance = 0.0;  ///< compliance at the last full residual check
+  double stored_by_elements = std::numeric_limits<double>::quiet_NaN();
+  Beside stored_by_permanent;  ///< contribution of permanent loads to the stored energy
+  double most_work = 0.0;      ///< largest work or energy so far, for stages [force length]
+  int events = 0;
+  int looks = 0;       ///< scheduled residual checks so far
+  int rows_below = 0;  ///< successive rows below the load fraction of the stop rule
+  Index broken_bonds = 0;
+  Index yield_events = 0;
+  /// Bonds that host releases freed since the last event, with the load factor of each release.
+  std::vector<std::pair<std::vector<Index>, double>> freed;
+  std::vector<std::uint8_t> whole;  ///< per finite element: it is an active host; empty: none
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(row, rows, result, pending, position, in_stage, over, energy, following, strains,
+            compliance, checked_compliance, stored_by_elements, stored_by_permanent, most_work,
+            events, looks, rows_below, broken_bonds, yield_events, freed, whole);
+  }
+};
+
+/// State of a damage analysis between two rows: all that the run cannot rebuild from its problem
+/// and options.
+struct DamageState {
+  BodyState body;
+  PathState path;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(body, path);
+  }
+};
+
+}  // namespace perilink

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "io/case/case_file.hpp"
+#include "io/checkpoint/checkpoint.hpp"
+
+/// \file
+/// Runs that go on from a checkpoint, `perilink run CASE --resume`.
+
+namespace perilink {
+
+/// Name of the file with the state of a run, in its directory.
+inline constexpr const char* checkpoint_name = "checkpoint.bin";
+
+/// Returns the text of a case as its result directory sees it, without the rules that may change
+/// before a run is taken up again: its stop rules.
+std::string resumable_case(const CaseFile& input, const std::filesystem::path& directory);
+
+/// Results that `--resume` finds in a directory.
+struct Resumed {
+  bool is_finished = false;              ///< this case has been run to its end
+  std::optional<Checkpoint> checkpoint;  ///< empty: the run begins anew
+};
+
+/// Looks for results of a case to go on with. \throws FileError if the directory holds results of
+/// another case, or the checkpoint cannot be used
+Resumed find_results(const CaseFile& input, const std::filesystem::path& directory);
+
+/// Refuses a state that was saved with another model of the case. \throws FileError
+void require_same_model(const Checkpoint& checkpoint, const std::string& fingerprint,
+                        const std::filesystem::path& directory);
+
+}  // namespace perilink
