@@ -3,10 +3,11 @@
 #include <filesystem>
 #include <string>
 
-#include "analysis/quasistatic/damage_analysis.hpp"
+#include "analysis/quasistatic/event_run.hpp"
 #include "app/process/threads.hpp"
 #include "app/run/quasistatic.hpp"
 #include "app/run/run_case.hpp"
+#include "assembly/fields.hpp"
 #include "base/build_info.hpp"
 #include "base/error.hpp"
 #include "discretization/bonds.hpp"
@@ -14,10 +15,12 @@
 #include "io/fields/vtu.hpp"
 #include "io/text/csv.hpp"
 #include "model/from_case/configure.hpp"
+#include "model/from_case/separated_body.hpp"
 #include "model/gauges.hpp"
 #include "model/model_regions.hpp"
 #include "model/reactions.hpp"
 #include "results/result_directory.hpp"
+#include "results/state_file.hpp"
 
 /// \file
 /// Public interface of the library (find_package(perilink), target perilink::perilink):
@@ -27,7 +30,10 @@
 ///
 ///     const Model model = build(input);                       // particles, bonds, loads
 ///     const ElasticAnswer answer = solve(input, model);       // without files
-///     run_damage_analysis(model, damage_options(input, 1), observer);
+///
+///     const DamageOptions options = damage_options(input, 1);
+///     EventRun run(model, options);                           // event by event
+///     while (const StepRecord* row = run.next()) ...          // run.state(), run.save()
 ///
 /// set_threads() sets the number of threads of all later work. Errors are exceptions: InputError,
 /// FileError and SolverError. Functions may not be called from several threads at once.

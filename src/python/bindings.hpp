@@ -6,15 +6,26 @@
 #include <utility>
 #include <vector>
 
+#include "perilink.hpp"
+
 /// \file
 /// Parts of the extension module perilink._core, and arrays that share memory with C++.
 
 namespace perilink {
 
+/// A case with its model. Arrays of Python share the memory of the model, which never changes.
+struct BuiltCase {
+  CaseFile input;
+  Model model;
+};
+
 /// Adds the functions that run cases and read results.
 void bind_runs(pybind11::module_& module);
 /// Adds the class Problem and the elastic solution.
 void bind_problems(pybind11::module_& module);
+
+/// Adds the class EventRun. Problem must be bound before.
+void bind_events(pybind11::module_& module);
 
 using ArrayShape = std::vector<pybind11::ssize_t>;
 

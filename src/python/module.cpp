@@ -67,4 +67,5 @@ PYBIND11_MODULE(_core, module) {
   module.def("read_case", read_case, py::arg("path"));
   bind_runs(module);
   bind_problems(module);
+  bind_events(module);
 }

@@ -14,15 +14,10 @@ namespace {
 
 namespace py = pybind11;
 
-/// A case with its model. Arrays of Python share the memory of the model, which never changes.
-struct BuiltCase {
-  CaseFile input;
-  Model model;
-};
-
 std::unique_ptr<BuiltCase> build_case(const CaseFile& input, int threads) {
   const py::gil_scoped_release unlocked;
-  const ThreadScope scope(threads);
+  const ThreadScope scope;
+  set_threads(threads);
   // Ctrl-C in a calibration of minutes: the exception of Python passes through the builder.
   const auto raise_on_signal = [](int, double) {
     const py::gil_scoped_acquire lock;
@@ -99,9 +94,9 @@ struct ElasticState {
 
 ElasticState solve_case(const BuiltCase& built, int threads) {
   const Model& model = built.model;
-  const ThreadScope scope(threads);
+  const ThreadScope scope;
   ElasticState found;
-  found.answer = solve(built.input, model, scope.threads());
+  found.answer = solve(built.input, model, set_threads(threads));
   const ElasticResult& solution = found.answer.solution;
   const Secants secants(solution.secants, solution.axial);
   ModelState state{secants, solution.displacement};

@@ -1,92 +1,25 @@
 #include <pybind11/stl.h>
 
-#include <chrono>
 #include <exception>
 #include <string>
 
 #include "perilink.hpp"
 #include "python/bindings.hpp"
+#include "python/python_caller.hpp"
 #include "python/thread_scope.hpp"
 
 namespace perilink {
 namespace {
 
 namespace py = pybind11;
-using Clock = std::chrono::steady_clock;
-
-/// Time between two calls into Python, so that calls at every row cost nothing.
-constexpr std::chrono::milliseconds call_interval{50};
-
-/// True once in every interval.
-class Throttle {
- public:
-  bool is_due() {
-    const Clock::time_point now = Clock::now();
-    if (now < next_) return false;
-    next_ = now + call_interval;
-    return true;
-  }
-
- private:
-  Clock::time_point next_ = Clock::time_point::min();
-};
-
-/// Calls Python from a run that has released the interpreter's lock. An exception of Python
-/// (KeyboardInterrupt, or one of the progress function) ends the run and is raised after it.
-class PythonCaller {
- public:
-  explicit PythonCaller(py::object progress) : progress_(std::move(progress)) {}
-
-  /// Whether Ctrl-C, an exception or the progress function ends the run.
-  bool stop_requested() {
-    if (stop_ || !signals_.is_due()) return stop_;
-    const py::gil_scoped_acquire lock;
-    if (PyErr_CheckSignals() != 0) keep_error();
-    return stop_;
-  }
-
-  void on_row(const RowProgress& row) {
-    if (stop_ || progress_.is_none() || !rows_.is_due()) return;
-    const py::gil_scoped_acquire lock;
-    try {
-      if (progress_(row).is(py::handle(Py_False))) stop_ = true;
-    } catch (py::error_already_set& error) {
-      error.restore();
-      keep_error();
-    }
-  }
-
-  /// Raises the exception that ended the run, if there is one. Needs the lock.
-  void raise() const {
-    if (error_) std::rethrow_exception(error_);
-  }
-  void raise_if_stopped() {
-    if (!stop_requested()) return;
-    const py::gil_scoped_acquire lock;
-    raise();
-  }
-
- private:
-  /// Takes the error that Python has set.
-  void keep_error() {
-    stop_ = true;
-    error_ = std::make_exception_ptr(py::error_already_set());
-  }
-
-  py::object progress_;
-  Throttle signals_, rows_;
-  bool stop_ = false;
-  std::exception_ptr error_;
-};
-
 py::tuple run(const CaseFile& input, const std::string& directory, int threads, OldRun old_results,
               py::object progress) {
   PythonCaller caller(std::move(progress));
   RunEnd end;
   {
     const py::gil_scoped_release unlocked;
-    const ThreadScope scope(threads);
-    RunSettings settings{scope.threads(), old_results, true};
+    const ThreadScope scope;
+    RunSettings settings{set_threads(threads), old_results, true};
     settings.callbacks.stop_requested = [&] { return caller.stop_requested(); };
     settings.callbacks.on_row = [&](const RowProgress& row) { caller.on_row(row); };
     settings.callbacks.on_calibration = [&](int, double) { caller.raise_if_stopped(); };

@@ -35,7 +35,8 @@ const std::map<std::string, std::set<std::string>>& allowed_modules() {
       {"app",
        {"base", "material", "solver", "discretization", "calibration", "network", "assembly",
         "analysis", "io", "results", "model"}},
-      {"perilink.hpp", {"base", "discretization", "analysis", "io", "results", "model", "app"}},
+      {"perilink.hpp",
+       {"base", "discretization", "assembly", "analysis", "io", "results", "model", "app"}},
       {"python", {"perilink.hpp"}},
   };
   return table;

@@ -40,6 +40,7 @@ const std::map<std::string, std::string>& tested_elsewhere() {
       {"discretization/mesh_faces.cpp", "a part of make_mesh_body: test_mesh_body.cpp"},
       {"io/mesh/gmsh_cursor.cpp", "a part of parse_gmsh: test_gmsh_file.cpp"},
       {"io/mesh/gmsh_sections.cpp", "a part of parse_gmsh: test_gmsh_file.cpp"},
+      {"python/events.cpp", "tests/python"},
       {"python/module.cpp", "tests/python"},
       {"python/problems.cpp", "tests/python"},
       {"python/runs.cpp", "tests/python"},
