@@ -77,6 +77,7 @@ void DamageRun::follow() {
     }
     if (!run_->has_failed() && !run_->missed_release()) end();
   } catch (const std::exception& error) {
+    failure = std::current_exception();
     run_->fail(error);
   }
 }

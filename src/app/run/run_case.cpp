@@ -158,6 +158,7 @@ RunEnd run_case(const CaseFile& input, const fs::path& directory, const RunSetti
   }
   log->info("{}: {}; {}", to_string(run_outcome.termination), run_outcome.reason, summary.outcome);
   for (const std::string& warning : summary.warnings) log->info("doubt: {}", warning);
+  if (!end.error) end.error = run->failure;
   end.termination = run_outcome.termination;
   end.reason = run_outcome.reason;
   return end;

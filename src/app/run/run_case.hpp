@@ -11,8 +11,8 @@
 
 namespace perilink {
 
-/// Treatment of the results of an earlier run: refused; overwritten; or, those of the same case, taken
-/// up again at their checkpoint.
+/// Treatment of the results of an earlier run: refused; overwritten; or taken up again at their
+/// checkpoint, where they are of the same case.
 enum class OldRun { refused, overwritten, resumed };
 
 struct RunSettings {

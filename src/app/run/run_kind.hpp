@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -60,6 +61,7 @@ class RunKind {
   std::vector<std::string> notes;          ///< known before the analysis
   std::optional<std::string> calibration;  ///< result of the bond calibration, if there is one
   PhaseSeconds seconds;
+  std::exception_ptr failure;  ///< exception that ended the analysis, if one did
 
  protected:
   /// Writes a checkpoint. \param state  bytes of pack() \throws FileError

@@ -68,6 +68,7 @@ TEST_F(RunCase, KeepsTheFailureOfItsCallbacks) {
   settings_.callbacks.on_fault = [&](const std::string& text) { faults.push_back(text); };
   const RunEnd end = run_case(input_, work_ / "out", settings_);
   EXPECT_EQ(end.termination, Termination::failed);
+  ASSERT_TRUE(end.error);
   EXPECT_THROW(std::rethrow_exception(end.error), DiskFull);
   EXPECT_THAT(faults, testing::ElementsAre("no room"));
   EXPECT_EQ(status(), "failed");
