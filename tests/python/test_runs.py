@@ -149,6 +149,23 @@ class Runs(unittest.TestCase):
         with self.assertRaises(perilink.FileError):
             perilink.read_result(self.folder)
 
+    def test_an_ended_run_is_taken_up_again(self):
+        case = notched_beam()
+        case["output"]["checkpoint_every"] = 20
+        whole = perilink.run(case, self.folder / "whole")
+        count = len(whole.history["load"])
+        ended = perilink.run(case, self.folder / "out", progress=lambda row: row.row < 30)
+        self.assertEqual(ended.status, "interrupted")
+        self.assertLess(len(ended.history["load"]), count)
+        result = perilink.run(case, self.folder / "out", resume=True)
+        self.assertEqual(result.status, "completed")
+        self.assertEqual((result.directory / "history.csv").read_bytes(),
+                         (whole.directory / "history.csv").read_bytes())
+        again = perilink.run(case, self.folder / "out", resume=True)
+        self.assertEqual(again.summary, result.summary, "it is complete and has not run")
+        with self.assertRaisesRegex(ValueError, "give one of them"):
+            perilink.run(case, self.folder / "out", resume=True, force=True)
+
     def test_faults_that_depend_on_the_body_are_exceptions(self):
         case = perilink.parse_case(STRIP)
         del case["supports"][0]
