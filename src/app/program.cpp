@@ -31,7 +31,8 @@ namespace {
 constexpr const char* footer =
     "Exit status: 0 done (also when the specimen collapsed), 2 bad input, 3 solver failure,\n"
     "4 interrupted (results so far are kept). Case files are described in docs/case_file.md,\n"
-    "studies in docs/studies.md, comparisons in docs/compare.md.";
+    "studies and scans in docs/studies.md, comparisons in docs/compare.md, reports in\n"
+    "docs/report.md.";
 
 /// Larger scales draw round-off only.
 constexpr double largest_scale = 1e12;
@@ -58,6 +59,15 @@ void add_trust_option(CLI::App& command, bool& trust_geometry) {
                    "Run gmsh scripts (.geo) with any command, also programs and writing files");
 }
 
+void add_set_option(CLI::App& command, RunOptions& options) {
+  command
+      .add_option("--set", options.settings,
+                  "Another value of a key of the case, for example body.spacing=0.5 or "
+                  "'materials[1].fracture_energy=0.1'; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
 /// Adds the options that all computing commands share.
 void add_run_options(CLI::App& command, RunOptions& options) {
   command.add_option("--out", options.directory, "Directory of the results [results/<file name>]");
@@ -68,6 +78,63 @@ void add_run_options(CLI::App& command, RunOptions& options) {
   command.add_flag("--quiet", options.quiet, "No progress, no summary");
   command.add_flag("--force", options.force, "Overwrite the results of an earlier run");
   add_trust_option(command, options.trust_geometry);
+  add_set_option(command, options);
+}
+
+const CLI::App* add_run_command(CLI::App& app, RunOptions& options) {
+  CLI::App* command = app.add_subcommand("run", "Run a case and write its results");
+  command->add_option("case", options.case_path, "Case file (.toml)")->required();
+  add_run_options(*command, options);
+  command
+      ->add_flag("--resume", options.resume,
+                 "Go on from the last checkpoint of the results, or begin where there are none")
+      ->excludes("--force");
+  return command;
+}
+
+const CLI::App* add_converge_command(CLI::App& app, RunOptions& options) {
+  CLI::App* command = app.add_subcommand(
+      "converge", "Run a study of a case: errors and orders over spacing, horizon and surface");
+  command->add_option("study", options.case_path, "Study file (.toml)")->required();
+  add_run_options(*command, options);
+  return command;
+}
+
+const CLI::App* add_check_command(CLI::App& app, RunOptions& options) {
+  CLI::App* command =
+      app.add_subcommand("check", "Validate a case; print its sizes, expected memory and time");
+  command->add_option("case", options.case_path, "Case file (.toml)")->required();
+  add_trust_option(*command, options.trust_geometry);
+  add_set_option(*command, options);
+  return command;
+}
+
+const CLI::App* add_scan_command(CLI::App& app, ScanOptions& options) {
+  CLI::App* command = app.add_subcommand(
+      "scan",
+      "Run a case with lists of values of its keys, several runs at once; goes on where "
+      "an earlier scan was stopped");
+  command->add_option("scan", options.run.case_path, "Scan file (.toml)")->required();
+  command->add_option("--out", options.run.directory,
+                      "Directory of the results [results/<file name>]");
+  command
+      ->add_option("--jobs", options.jobs,
+                   "Most runs at once [OMP_NUM_THREADS, or all processors, over --threads]")
+      ->check(CLI::Range(1, 1024));
+  command->add_option("--threads", options.run.threads, "Threads of each run [1]")
+      ->check(CLI::Range(1, 1024));
+  command->add_flag("--quiet", options.run.quiet, "No progress, no summary");
+  command->add_flag("--force", options.run.force, "Run every member anew, overwrite its results");
+  add_trust_option(*command, options.run.trust_geometry);
+  return command;
+}
+
+const CLI::App* add_check_command(CLI::App& app, std::string& path, bool& trust_geometry) {
+  CLI::App* command =
+      app.add_subcommand("check", "Validate a case; print its sizes, expected memory and time");
+  command->add_option("case", path, "Case file (.toml)")->required();
+  add_trust_option(*command, trust_geometry);
+  return command;
 }
 
 const CLI::App* add_compare_command(CLI::App& app, CompareOptions& options) {
@@ -89,6 +156,17 @@ void add_plot_command(CLI::App& app, PlotOptions& options) {
   command->add_option("--out", options.out, "Directory of the pictures [the same]");
   command->add_option("--scale", options.scale, "Factor on the displacements [automatic]")
       ->check(is_scale);
+}
+
+const CLI::App* add_report_command(CLI::App& app, ReportOptions& options) {
+  CLI::App* command = app.add_subcommand(
+      "report",
+      "Write one HTML page: case, curves, growing crack, energies; several runs together");
+  command->add_option("directories", options.directories, "Directories of the results")->required();
+  command->add_option("--out", options.file,
+                      "The page [report.html in the directory; of several runs in this folder]");
+  command->add_flag("--watch", options.watch, "Renew the page until all runs have ended");
+  return command;
 }
 
 /// Ends the program after an uncaught failure, such as exhausted memory in a parallel loop. Files
@@ -147,28 +225,22 @@ int run_program(int argc, char** argv) {
   app.footer(footer);
 
   RunOptions run;
-  CLI::App* run_command = app.add_subcommand("run", "Run a case and write its results");
-  run_command->add_option("case", run.case_path, "Case file (.toml)")->required();
-  add_run_options(*run_command, run);
-  run_command
-      ->add_flag("--resume", run.resume,
-                 "Go on from the last checkpoint of the results, or begin where there are none")
-      ->excludes("--force");
+  const CLI::App* run_command = add_run_command(app, run);
 
   RunOptions study;
-  CLI::App* converge_command = app.add_subcommand(
-      "converge", "Run a study of a case: errors and orders over spacing, horizon and surface");
-  converge_command->add_option("study", study.case_path, "Study file (.toml)")->required();
-  add_run_options(*converge_command, study);
+  const CLI::App* converge_command = add_converge_command(app, study);
 
   CompareOptions compared;
   const CLI::App* compare_command = add_compare_command(app, compared);
 
-  std::string checked_case;
-  CLI::App* check_command =
-      app.add_subcommand("check", "Validate a case; print its sizes, expected memory and time");
-  check_command->add_option("case", checked_case, "Case file (.toml)")->required();
-  add_trust_option(*check_command, run.trust_geometry);
+  ScanOptions scanned;
+  const CLI::App* scan_command = add_scan_command(app, scanned);
+
+  RunOptions checked;
+  const CLI::App* check_command = add_check_command(app, checked);
+
+  ReportOptions report;
+  const CLI::App* report_command = add_report_command(app, report);
 
   PlotOptions plot;
   add_plot_command(app, plot);
@@ -194,7 +266,9 @@ int run_program(int argc, char** argv) {
     if (run_command->parsed()) return run_case(run);
     if (converge_command->parsed()) return converge(study);
     if (compare_command->parsed()) return compare(compared);
-    if (check_command->parsed()) return check_case(checked_case, run.trust_geometry);
+    if (check_command->parsed()) return check_case(checked);
+    if (scan_command->parsed()) return scan(scanned);
+    if (report_command->parsed()) return make_report(report);
     return plot_results(plot);
   });
 }

@@ -17,7 +17,7 @@ class Error : public std::runtime_error {
 /// Place of a value in an input file.
 struct SourceLocation {
   std::string file;
-  int line = 0;     ///< one-based; 0 when the fault has no line, such as a missing table
+  int line = 0;     ///< one-based; 0: no line, as of a missing table; below 0: option --set
   std::string key;  ///< dotted key path, "discretization.horizon" or "materials[2].region"
 };
 

@@ -22,9 +22,10 @@ namespace {
 
 /// Whether a run of this program writes a file of this name.
 bool is_result_file(const std::string& name) {
-  constexpr std::array<std::string_view, 10> names = {
-      "case.toml", "history.csv", "timing.csv", "summary.json",          "fields.pvd",
-      "log.txt",   "study.toml",  "table.csv",  "load_displacement.svg", "checkpoint.bin"};
+  constexpr std::array<std::string_view, 11> names = {
+      "case.toml",  "history.csv", "timing.csv", "summary.json",          "fields.pvd",
+      "log.txt",    "study.toml",  "table.csv",  "load_displacement.svg", "checkpoint.bin",
+      "report.html"};
   for (const std::string_view known : names) {
     if (name == known) return true;
   }
@@ -51,8 +52,8 @@ bool is_left_over(const std::string& name) {
   return false;
 }
 
-/// Locks the directory without blocking. \return the descriptor of the lock; -1 where another
-/// process holds it
+/// Locks the directory. Waits a second for a run that has just been killed. \return the descriptor
+/// of the lock; -1 where another process holds it
 int lock_directory(const fs::path& directory) {
   const int descriptor = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) {
@@ -60,7 +61,10 @@ int lock_directory(const fs::path& directory) {
         fmt::format("{}: cannot be opened: {}", directory.string(), std::strerror(errno)));
   }
   // Some network disks support no locks; the directory then stays unlocked.
-  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return descriptor;
+  for (int k = 0; k < 20; ++k) {
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return descriptor;
+    ::usleep(50000);
+  }
   ::close(descriptor);
   return -1;
 }
@@ -115,6 +119,8 @@ void require_result(const fs::path& directory) {
   if (fs::exists(directory / "history.csv", error)) return;
   const char* hint = fs::exists(directory / "study.toml", error)
                          ? "it holds a study of perilink converge"
+                     : fs::exists(directory / "scan.csv", error)
+                         ? "it holds a scan; name one of its members, such as 0001"
                          : "perilink run writes one";
   throw FileError(
       fmt::format("{}: is not a result of a run: it has no history.csv ({})", place, hint));

@@ -49,13 +49,17 @@ class Program : public testing::Test {
 TEST_F(Program, HelpNamesEveryCommandAndOption) {
   const std::map<std::string, std::vector<std::string>> expected = {
       {"",
-       {"--help", "--version", "run", "converge", "compare", "check", "plot", "Exit status",
-        "docs/case_file.md"}},
-      {"run", {"case", "--out", "--threads", "--quiet", "--force", "Exit status"}},
-      {"converge", {"study", "--out", "--threads", "--quiet", "--force", "docs/studies.md"}},
+       {"--help", "--version", "run", "converge", "scan", "compare", "check", "plot", "report",
+        "Exit status", "docs/case_file.md"}},
+      {"run",
+       {"case", "--out", "--threads", "--quiet", "--force", "--set", "--resume", "Exit status"}},
+      {"converge",
+       {"study", "--out", "--threads", "--quiet", "--force", "--set", "docs/studies.md"}},
+      {"scan", {"scan", "--out", "--jobs", "--threads", "--quiet", "--force", "docs/studies.md"}},
       {"compare", {"dir_a", "dir_b", "--out", "--quiet", "--force", "docs/compare.md"}},
-      {"check", {"case", "Exit status"}},
-      {"plot", {"directory", "--out", "--scale", "Exit status"}}};
+      {"check", {"case", "--set", "Exit status"}},
+      {"plot", {"directory", "--out", "--scale", "Exit status"}},
+      {"report", {"directories", "--out", "--watch", "docs/report.md"}}};
   for (const auto& [command, words] : expected) {
     std::vector<std::string> arguments = {"--help"};
     if (!command.empty()) arguments.insert(arguments.begin(), command);
@@ -86,9 +90,14 @@ TEST_F(Program, BadCommandLinesAreRefused) {
                                                      {"compare", ".", ".", "."},
                                                      {"compare", ".", ".", "--threads", "1"},
                                                      {"check"},
+                                                     {"check", "a.toml", "--set"},
+                                                     {"scan"},
+                                                     {"scan", "a.toml", "--jobs", "0"},
                                                      {"check", "a.toml", "--out", "x"},
                                                      {"plot"},
-                                                     {"plot", ".", "--scale", "-1"}};
+                                                     {"plot", ".", "--scale", "-1"},
+                                                     {"report"},
+                                                     {"report", ".", "--scale", "1"}};
   for (const auto& arguments : bad) {
     const ProcessEnd end = run(arguments);
     EXPECT_EQ(end.exit_status, 2) << testing::PrintToString(arguments);

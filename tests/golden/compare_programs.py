@@ -48,6 +48,7 @@ def arguments():
                         help="further numbers of threads of the new program [1]")
     parser.add_argument("--tolerance", type=float, default=0.0, metavar="T",
                         help="for cases named iterative: relative difference of numbers [0]")
+    parser.add_argument("--everywhere", action="store_true", help="the tolerance is for all cases")
     parser.add_argument("--messages", action="store_true", help="messages must be equal, too")
     parser.add_argument("--timeout", type=float, default=900, metavar="S", help="of a run [900]")
     options = parser.parse_args()
@@ -90,7 +91,8 @@ class Comparison:
 
     def compare(self, left, right, label):
         """Returns the differences of two runs as pairs of a kind and a text."""
-        tolerance = self.options.tolerance if left.case.iterative else 0.0
+        tolerant = left.case.iterative or self.options.everywhere
+        tolerance = self.options.tolerance if tolerant else 0.0
         found = []
         status = [run.load()["status"] for run in (left, right)]
         if status[0] != status[1]:

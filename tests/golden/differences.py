@@ -18,8 +18,8 @@ NOT_COMPARED = {
 }
 # Texts of summary.json that the program prints too: they are compared as messages.
 TEXTS = {"reason", "notes", "doubts"}
-# Files that hold wall time or messages.
-SKIPPED = {"timing.csv", "log.txt"}
+# Files that hold wall time or messages, or the state of a run with its times.
+SKIPPED = {"timing.csv", "log.txt", "checkpoint.bin"}
 # Numbers that are round-off themselves or count steps to a tolerance. A tolerance passes over them,
 # and a report names them only where nothing else differs.
 ROUND_OFF = re.compile(

@@ -167,9 +167,11 @@ AnalysisBody make_block(const BlockCase& block) {
 namespace {
 
 /// Returns the stiffness against change of length only, for the motions of both ends.
-ElementMatrix axial_stiffness(const Network& network, Index e) {
+template <class Real>
+MatrixOf<Real> axial_stiffness(const Network& network, Index e) {
   const int width = network.width();
-  Eigen::VectorXd n = Eigen::VectorXd::Zero(2 * width);
+  Eigen::Matrix<Real, Eigen::Dynamic, 1> n(2 * width);
+  n.setZero();
   for (int a = 0; a < network.dim(); ++a) {
     n[width + a] = network.bonds.direction(e)[a];
     n[a] = -n[width + a];
@@ -177,10 +179,11 @@ ElementMatrix axial_stiffness(const Network& network, Index e) {
   return network.stiffness[e] * n * n.transpose();
 }
 
-ElementMatrix stiffness_now(const Network& network, Secants secants, Index e) {
-  ElementMatrix block = secants[e] * element_stiffness(network, e);
+template <class Real>
+MatrixOf<Real> stiffness_now(const Network& network, Secants secants, Index e) {
+  MatrixOf<Real> block = secants[e] * element_stiffness<Real>(network, e);
   const double axial = secants.axial(e) - secants[e];
-  if (axial != 0.0) block += axial * axial_stiffness(network, e);
+  if (axial != 0.0) block += axial * axial_stiffness<Real>(network, e);
   return block;
 }
 
@@ -193,11 +196,12 @@ Index slot_of_end(const Network& network, Index e, Index k) {
 
 }  // namespace
 
-Eigen::MatrixXd dense_stiffness(const Network& network, Secants secants) {
+template <class Real>
+Eigen::MatrixX<Real> dense_stiffness(const Network& network, Secants secants) {
   const Index slots = network.particles.size() * network.width();
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(slots, slots);
+  Eigen::MatrixX<Real> matrix = Eigen::MatrixX<Real>::Zero(slots, slots);
   for (Index e = 0; e < network.num_elements(); ++e) {
-    const ElementMatrix block = stiffness_now(network, secants, e);
+    const MatrixOf<Real> block = stiffness_now<Real>(network, secants, e);
     for (Index row = 0; row < block.rows(); ++row) {
       for (Index col = 0; col < block.cols(); ++col) {
         matrix(slot_of_end(network, e, row), slot_of_end(network, e, col)) += block(row, col);
@@ -206,6 +210,9 @@ Eigen::MatrixXd dense_stiffness(const Network& network, Secants secants) {
   }
   return matrix;
 }
+
+template Eigen::MatrixXd dense_stiffness(const Network& network, Secants secants);
+template Eigen::MatrixX<long double> dense_stiffness(const Network& network, Secants secants);
 
 Eigen::VectorXd dense_displacement(const AnalysisBody& body, Secants secants,
                                    const std::vector<std::uint8_t>& left_out) {
@@ -221,7 +228,7 @@ Eigen::VectorXd dense_displacement(const AnalysisBody& body, Secants secants,
   Eigen::VectorXd load(size);
   for (Index row = 0; row < size; ++row) load[row] = body.loads.forces[unknown[row]];
   for (Index e = 0; e < network.num_elements(); ++e) {
-    const ElementMatrix block = stiffness_now(network, secants, e);
+    const ElementMatrix block = stiffness_now<double>(network, secants, e);
     for (Index a = 0; a < block.rows(); ++a) {
       const Index row = place[slot_of_end(network, e, a)];
       if (row == no_index) continue;

@@ -97,7 +97,8 @@ inline BondLaw three_segments() { return BondLaw::saw_tooth({{1.0, 1.0}, {0.6, 1
 AnalysisBody make_block(const BlockCase& block);
 
 /// Returns the dense stiffness of all components, including supported ones.
-Eigen::MatrixXd dense_stiffness(const Network& network, Secants secants);
+template <class Real = double>
+Eigen::MatrixX<Real> dense_stiffness(const Network& network, Secants secants);
 
 /// Returns the displacement at load factor 1. Components with a nonzero flag in `left_out` stay
 /// zero; empty: no such components.

@@ -8,6 +8,7 @@
 namespace perilink {
 
 class Ranks;
+struct TimeState;
 
 /// \file
 /// Options, rows and results of explicit runs of bonds and lattices.
@@ -52,6 +53,10 @@ struct EnergyBalance {
            external_work;
   }
   friend bool operator==(const EnergyBalance&, const EnergyBalance&) = default;
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(kinetic, stored, internal_damping, external_damping, fractured, external_work, plastic);
+  }
 };
 
 /// One row of an explicit history.
@@ -68,6 +73,11 @@ struct ExplicitRecord {
   EnergyBalance energy;
 
   friend bool operator==(const ExplicitRecord&, const ExplicitRecord&) = default;
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(step, time, load_factor, load, support_reaction, displacement, cracked_particles,
+            yielded_particles, broken_bonds, energy);
+  }
 };
 
 /// Observer of a run over time; the state is valid during the call only. Every function does
@@ -84,6 +94,14 @@ class RunObserver {
   /// Returns whether the run is to stop. Called before every row and every few hundred steps; a
   /// stopped run writes one more row.
   virtual bool stop_requested() { return false; }
+  /// Returns whether on_checkpoint() is to be called. Called by one thread between two steps after
+  /// a row, or after a load step of a relaxation; never after the last row, and never in runs
+  /// shared by several processes, which have no checkpoints.
+  /// \param last  the last row
+  virtual bool wants_checkpoint(const ExplicitRecord& /*last*/) { return false; }
+  /// Receives the state from which a run goes on with identical rows; called after the observer
+  /// has asked for it. An exception ends the run as failed.
+  virtual void on_checkpoint(const TimeState& /*state*/) {}
 };
 
 /// Result of an explicit run.
@@ -98,6 +116,12 @@ struct ExplicitResult {
   double largest_surplus = 0.0;  ///< largest energy surplus over the external work at the end [-]
   int ranks = 1;                 ///< number of processes that shared the work
   ExplicitRecord last;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(termination, reason, steps, time_step, critical_time_step, peak_load, peak_displacement,
+            largest_surplus, ranks, last);
+  }
 };
 
 }  // namespace perilink

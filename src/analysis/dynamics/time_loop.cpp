@@ -29,10 +29,20 @@ ExplicitLoop::ExplicitLoop(const ExplicitOptions& options, double critical_time_
   }
   steps_ = static_cast<Index>(std::ceil(options.duration / step));
   between_rows_ = std::max<Index>(1, steps_ / std::max(1, options.rows));
-  result_.time_step = step;
-  result_.critical_time_step = critical_time_step;
-  result_.termination = Termination::completed;
-  result_.reason = "the whole duration";
+  state_.result.time_step = step;
+  state_.result.critical_time_step = critical_time_step;
+  state_.result.termination = Termination::completed;
+  state_.result.reason = "the whole duration";
+}
+
+void ExplicitLoop::restore(const LoopState& saved) {
+  if (saved.result.time_step != time_step() || saved.step > steps_) {
+    throw std::invalid_argument(fmt::format(
+        "the saved state is that of another run: it goes on with step {} of {:.17g}, and this run "
+        "has {} steps of {:.17g}",
+        saved.step, saved.result.time_step, steps_, time_step()));
+  }
+  state_ = saved;
 }
 
 double ExplicitLoop::load_factor(Index step) const {
@@ -40,13 +50,13 @@ double ExplicitLoop::load_factor(Index step) const {
 }
 
 void ExplicitLoop::end(Termination termination, const std::string& reason) {
-  result_.termination = termination;
-  result_.reason = reason;
+  state_.result.termination = termination;
+  state_.result.reason = reason;
   done_ = true;
 }
 
 std::string ExplicitLoop::why() const {
-  const double critical = result_.critical_time_step;
+  const double critical = state_.result.critical_time_step;
   if (time_step() > critical) {
     return fmt::format("is too large; the critical one of the intact body is {:.4g}", critical);
   }
@@ -59,31 +69,31 @@ std::string ExplicitLoop::why() const {
 /// Ends the run where kinetic and stored energy exceed the external work.
 void ExplicitLoop::check_growth(Index step, const EnergyBalance& energy) {
   const double held = energy.kinetic + energy.stored;
-  if (step == 0) initial_ = held;
-  supplied_ = std::max(supplied_, initial_ + std::abs(energy.external_work));
+  if (step == 0) state_.initial = held;
+  state_.supplied = std::max(state_.supplied, state_.initial + std::abs(energy.external_work));
   // Stored energy between two steps can be negative, and an unstable linear motion keeps the sum of
   // both energies. So kinetic energy has its own limit. In a stable motion it is at most 1 / (1 -
   // (omega dt / 2)^2) of the sum, fifty at 0.99 of the critical step. Both comparisons are false
   // for NaN.
   constexpr double most_kinetic = 100.0;
-  const double most = 2.0 * supplied_ + smallest;
-  if (std::abs(held) <= most && energy.kinetic <= most_kinetic * supplied_ + smallest) {
+  const double most = 2.0 * state_.supplied + smallest;
+  if (std::abs(held) <= most && energy.kinetic <= most_kinetic * state_.supplied + smallest) {
     return;
   }
-  result_.steps = step;
+  state_.result.steps = step;
   overflowed_ = !std::isfinite(energy.kinetic + energy.stored + energy.external_work);
   end(Termination::failed,
       fmt::format(
           "the energy grew without external work at step {} (energy {:.3g}, supplied {:.3g}): the "
           "time step {:.4g} {}",
-          step, std::max(std::abs(held), energy.kinetic), supplied_, time_step(), why()));
+          step, std::max(std::abs(held), energy.kinetic), state_.supplied, time_step(), why()));
 }
 
 void ExplicitLoop::note_row(const ExplicitRecord& record) {
-  result_.steps = record.step;
-  result_.last = record;
-  largest_surplus_ = std::max(largest_surplus_, std::abs(record.energy.surplus()));
-  result_.largest_surplus = largest_surplus_ / std::max(supplied_, smallest);
+  state_.result.steps = record.step;
+  state_.result.last = record;
+  state_.largest_surplus = std::max(state_.largest_surplus, std::abs(record.energy.surplus()));
+  state_.result.largest_surplus = state_.largest_surplus / std::max(state_.supplied, smallest);
 }
 
 }  // namespace perilink

@@ -5,7 +5,7 @@
 #include <exception>
 #include <string>
 
-#include "analysis/dynamics/explicit_run.hpp"
+#include "analysis/dynamics/time_state.hpp"
 #include "base/memory.hpp"
 #include "base/thread_choice.hpp"
 
@@ -19,30 +19,38 @@ class ExplicitLoop {
   ///     refuse_unstable is off) or the duration is not positive
   ExplicitLoop(const ExplicitOptions& options, double critical_time_step);
 
-  double time_step() const { return result_.time_step; }
+  double time_step() const { return state_.result.time_step; }
   double load_factor(Index step) const;
   bool is_done() const { return done_; }
   /// Ends the run on a worker when the root has ended it.
   void leave() { done_ = true; }
   /// Returns the result so far, including steps noted after run() has returned.
-  const ExplicitResult& result() const { return result_; }
+  const ExplicitResult& result() const { return state_.result; }
+  const LoopState& state() const { return state_; }
+  /// Continues after the last step of a saved state.
+  /// \throws std::invalid_argument where the state has another time step or more steps
+  void restore(const LoopState& saved);
   /// Returns whether look() must be called at a step.
   bool is_looked_at(Index step) const { return is_row(step) || step % steps_between_checks == 0; }
 
-  /// Calls one_step(step) for every step by all threads of the round. An exception of an observer
-  /// ends the run as failed.
-  template <class OneStep>
-  ExplicitResult run(int most_threads, OneStep one_step) {
+  /// Calls one_step(step) for every step by all threads of the round, and after_rows() by one
+  /// thread after a round with a row, unless the run has ended. An exception of an observer ends
+  /// the run as failed.
+  template <class OneStep, class AfterRows>
+  ExplicitResult run(int most_threads, OneStep one_step, AfterRows after_rows) {
     ThreadChoice choice(most_threads);
-    for (Index begin = 0; begin <= steps_ && !done_; begin += steps_of_a_round) {
+    while (state_.step <= steps_ && !done_) {
+      const Index begin = state_.step;
       const Index end = std::min(begin + steps_of_a_round, steps_ + 1);
       const Timer timer;
 #pragma omp parallel num_threads(choice.threads())
       for (Index step = begin; step < end && !done_; ++step) one_step(step);
       if (tells_of_steps(begin)) choice.took(timer.seconds());
+      state_.step = end;
+      if (!done_ && end <= steps_ && state_.result.last.step >= begin) guarded(after_rows);
     }
     if (!failure_.empty()) end(Termination::failed, failure_);
-    return result_;
+    return state_.result;
   }
 
   /// Ends runs whose energy grows, asks the observer whether to stop, and passes rows to it.
@@ -73,9 +81,10 @@ class ExplicitLoop {
   /// \param supports      reaction of supports [force]
   /// \param displacement  displacement of the controlled particles in this step [length]
   void note_reaction(double supports, double displacement) {
-    if (!(std::abs(supports) > std::abs(result_.peak_load))) return;  // also false for NaN
-    result_.peak_load = supports;
-    result_.peak_displacement = displacement;
+    ExplicitResult& result = state_.result;
+    if (!(std::abs(supports) > std::abs(result.peak_load))) return;  // also false for NaN
+    result.peak_load = supports;
+    result.peak_displacement = displacement;
   }
 
  private:
@@ -108,10 +117,9 @@ class ExplicitLoop {
 
   double ramp_;
   Index steps_ = 0, between_rows_ = 1;
-  double initial_ = 0.0, supplied_ = 0.0, largest_surplus_ = 0.0;  ///< energies
   bool done_ = false, overflowed_ = false;
   std::string failure_;  ///< message of an observer's exception
-  ExplicitResult result_;
+  LoopState state_;
 };
 
 }  // namespace perilink

@@ -211,6 +211,7 @@ bool EventRun::stop_rule_met() {
 void EventRun::record_separated(double load_factor, const LoadWork& work) {
   end(Termination::collapsed, "the body no longer resists the displacements");
   record(load_factor, work, {});
+  path_.over = true;
 }
 
 /// Returns the next event below a load factor once hosts that come before it have released. It has

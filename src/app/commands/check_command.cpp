@@ -15,6 +15,7 @@
 #include "assembly/stiffness.hpp"
 #include "base/error.hpp"
 #include "base/timer.hpp"
+#include "io/case/case_settings.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "model/from_case/configure.hpp"
 #include "model/from_case/lattice_case.hpp"
@@ -239,10 +240,11 @@ int check_relaxation(const std::string& case_path, const CaseFile& input) {
 
 }  // namespace
 
-int check_case(const std::string& case_path, bool trust_geometry) {
+int check_case(const RunOptions& options) {
   set_threads(0);
-  CaseFile input = read_case_file(case_path);
-  input.trust_geometry = trust_geometry;
+  const std::string& case_path = options.case_path;
+  CaseFile input = read_case_file(case_path, parse_settings(options.settings), {});
+  input.trust_geometry = options.trust_geometry;
   if (input.analysis.type == AnalysisType::explicit_) {
     return input.body.model == BodyModel::lattice ? check_explicit(case_path, input)
                                                   : check_moving_bonds(case_path, input);

@@ -2,22 +2,25 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace perilink {
 
 /// Exit statuses of the program.
 enum ExitStatus : int { exit_done = 0, exit_bad_input = 2, exit_solver = 3, exit_interrupted = 4 };
 
-/// Options of `perilink run` and `perilink converge`.
+/// Options of commands that read a case.
 struct RunOptions {
   std::string case_path;
   std::optional<std::string> directory;
   int threads = 0;  ///< 0: all processors
   bool quiet = false;
   bool force = false;
-  bool resume = false;          ///< goes on with results of the same case
-  bool trust_geometry = false;  ///< gmsh scripts may run commands and write files
+  bool resume = false;                ///< goes on with results of the same case
+  bool trust_geometry = false;        ///< gmsh scripts may run commands and write files
+  std::vector<std::string> settings;  ///< KEY=VALUE, other values of keys of the case
 };
+
 /// Runs a case, `perilink run`.
 /// \returns the exit status
 int run_case(const RunOptions& options);
@@ -38,10 +41,30 @@ struct CompareOptions {
 /// \throws FileError
 int compare(const CompareOptions& options);
 
+/// Options of `perilink report`.
+struct ReportOptions {
+  std::vector<std::string> directories;  ///< of the results, at least one
+  std::optional<std::string> file;       ///< the page; absent: report.html, in the only directory
+  bool watch = false;                    ///< write the page again until all runs have ended
+};
+/// Writes an HTML page that shows the results of runs.
+/// \returns the exit status
+/// \throws FileError
+int make_report(const ReportOptions& options);
+
 /// Validates a case, builds its model and prints sizes and expected cost, `perilink check`. Bonds
 /// are calibrated only where the given time step must be checked against the critical one. Nothing
 /// is solved and no file written.
 /// \returns the exit status
-int check_case(const std::string& case_path, bool trust_geometry);
+int check_case(const RunOptions& options);
+
+/// Options of `perilink scan`.
+struct ScanOptions {
+  RunOptions run;  ///< of the members; `case_path` names the scan file
+  int jobs = 0;    ///< most members at once; 0: as many as have processors
+};
+/// Runs a case with the sets of values of a scan file, each in a process.
+/// \returns the exit status
+int scan(const ScanOptions& options);
 
 }  // namespace perilink

@@ -17,6 +17,8 @@
 #include "base/error.hpp"
 #include "base/files.hpp"
 #include "base/plain_text.hpp"
+#include "io/case/case_settings.hpp"
+#include "model/body/mesh_input.hpp"
 #include "results/result_directory.hpp"
 
 namespace perilink {
@@ -41,6 +43,16 @@ void write_tables(const fs::path& directory, Results& results) {
   write_text(directory / "table.csv", study_table(results.study, results.series, results.members));
   write_text(directory / "timing.csv",
              study_timing(results.study, results.series, results.members));
+}
+
+/// Writes the study. With other values of --set, it names a case that has them, beside it.
+void write_inputs(const fs::path& directory, const StudyFile& study, const CaseFile& input) {
+  std::string case_path = study.case_path;
+  if (!study.settings.empty()) {
+    case_path = (directory / "case.toml").string();
+    write_text(case_path, write_case(seen_from(input, directory)));
+  }
+  write_text(directory / "study.toml", write_study(study, directory.string(), case_path));
 }
 
 /// Returns the file name of a picture, "error_unknowns.svg", or "error_NAME_unknowns.svg" where the
@@ -119,7 +131,8 @@ int converge(const RunOptions& options) {
   Results results;
   results.study = read_study_file(options.case_path);
   results.study.trust_geometry = options.trust_geometry;
-  const CaseFile input = read_case_file(results.study.case_path);
+  results.study.settings = parse_settings(options.settings);
+  const CaseFile input = read_case_file(results.study.case_path, results.study.settings, {});
   check_study(results.study, input);
   if (results.study.title.empty()) results.study.title = input.title;
   results.series = study_series(results.study);
@@ -130,7 +143,7 @@ int converge(const RunOptions& options) {
   refuse_own_file(directory, "study.toml", options.case_path, "this study");
   const ResultDirectory hold(directory, options.force ? OldResults::removed : OldResults::refused);
   catch_stop_signals();
-  write_text(directory / "study.toml", write_study(results.study, directory.string()));
+  write_inputs(directory, results.study, input);
   const bool complete = run_members(directory, results, threads, options.quiet);
   write_pictures(directory, results);
   if (!options.quiet) {

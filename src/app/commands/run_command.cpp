@@ -7,6 +7,7 @@
 #include "app/process/signals.hpp"
 #include "app/process/threads.hpp"
 #include "app/run/run_case.hpp"
+#include "io/case/case_settings.hpp"
 #include "results/result_directory.hpp"
 
 namespace perilink {
@@ -26,7 +27,7 @@ int run_case(const RunOptions& options) {
   settings.callbacks.on_start = catch_stop_signals;
   settings.callbacks.stop_requested = stop_signal_received;
   settings.callbacks.on_fault = complain;
-  CaseFile input = read_case_file(options.case_path);
+  CaseFile input = read_case_file(options.case_path, parse_settings(options.settings), {});
   input.trust_geometry = options.trust_geometry;
   const std::filesystem::path directory = options.directory
                                               ? std::filesystem::path(*options.directory)

@@ -33,11 +33,12 @@ void read_summary(const fs::path& directory, RunResult& result) {
   const auto text = [&](const char* key) { return summary_text(*json, key, directory); };
   result.units = text("units");
   result.status = text("status");
+  result.reason = text("reason");
   if (result.status == "running") {
     result.notes.emplace_back("unfinished or killed; the rows so far are compared");
   } else if (result.status == "interrupted" || result.status == "failed") {
     result.notes.push_back(
-        fmt::format("{} ({}); the rows so far are compared", result.status, text("reason")));
+        fmt::format("{} ({}); the rows so far are compared", result.status, result.reason));
   }
   if (const auto warnings = json->find("doubts"); warnings != json->end()) {
     for (const auto& warning : *warnings) {
@@ -133,7 +134,7 @@ std::size_t RunResult::peak_number() const {
   return row == records.end() ? peak_row(records) : static_cast<std::size_t>(row - records.begin());
 }
 
-RunResult read_run_result(const std::string& directory) {
+RunResult read_run_numbers(const std::string& directory) {
   require_result(directory);
   RunResult result;
   result.directory = directory;
@@ -145,6 +146,11 @@ RunResult read_run_result(const std::string& directory) {
     const auto column = static_cast<std::size_t>(table.column(name));
     result.gauges_at_peak.emplace_back(name, table.rows[result.peak_number()][column]);
   }
+  return result;
+}
+
+RunResult read_run_result(const std::string& directory) {
+  RunResult result = read_run_numbers(directory);
   read_last_fields(directory, result);
   return result;
 }

@@ -24,6 +24,7 @@ struct RunResult {
   PlotLabels labels;
   std::string units;                    ///< from summary.json; empty: none
   std::string status;                   ///< from summary.json; empty: no summary.json
+  std::string reason;                   ///< for its end, from summary.json
   NamedNumbers summary;                 ///< numbers of summary.json; `seconds` gives seconds.KEY
   std::vector<StepRecord> records;      ///< rows of history.csv
   NamedNumbers last_row;                ///< all columns of history.csv
@@ -38,6 +39,9 @@ struct RunResult {
   const StepRecord& peak() const { return records[peak_number()]; }
   std::size_t peak_number() const;
 };
+
+/// Reads a result without its body. \throws FileError as read_run_result()
+RunResult read_run_numbers(const std::string& directory);
 
 /// \throws FileError when the directory does not hold at least one row of a history, or a file
 /// cannot be read

@@ -35,6 +35,7 @@ void read_lines(const VtuGrid& grid, const std::vector<double>& element, PlotBod
       !element.empty() && element.front() == static_cast<double>(FieldElement::particle);
   const VtuArray* stress = grid.find_cell_data("axial_stress");
   const VtuArray* opening = grid.find_cell_data("crack_opening");
+  const VtuArray* broken_at = grid.find_cell_data("broken_at");
   for (std::size_t cell = 0; cell < grid.types.size(); ++cell) {
     const std::size_t end = static_cast<std::size_t>(grid.offsets[cell]);
     const bool outlined = element[cell] == static_cast<double>(FieldElement::host) ||
@@ -51,6 +52,11 @@ void read_lines(const VtuGrid& grid, const std::vector<double>& element, PlotBod
     const Ends ends{grid.connectivity[end - 2], grid.connectivity[end - 1]};
     const bool bar = element[cell] == static_cast<double>(FieldElement::rebar_segment);
     (bar ? body.segments : body.broken_bonds).push_back(ends);
+    if (!bar) {
+      const double number = broken_at == nullptr ? 0.0 : broken_at->values[cell];
+      const bool counts = number >= 0.0 && number <= std::numeric_limits<Index>::max();
+      body.broken_at.push_back(counts ? static_cast<Index>(number) : 0);
+    }
     if (!bar && opening != nullptr) body.openings.push_back(opening->values[cell]);
     if (bar && stress != nullptr) body.bar_stress.push_back(stress->values[cell]);
   }
@@ -75,16 +81,16 @@ std::vector<double> particle_sizes(const VtuGrid& grid, const PlotBody& body) {
   return sizes;
 }
 
-/// Returns the von Mises stress of the components xx, yy, zz, xy, yz, xz.
-double von_mises(const double* s) {
+double length(const Vector3& v) { return std::hypot(v[0], v[1], v[2]); }
+
+}  // namespace
+
+double von_mises(const double* stress) {
+  const double* s = stress;
   const double normal =
       std::pow(s[0] - s[1], 2) + std::pow(s[1] - s[2], 2) + std::pow(s[2] - s[0], 2);
   return std::sqrt(0.5 * normal + 3.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
-
-double length(const Vector3& v) { return std::hypot(v[0], v[1], v[2]); }
-
-}  // namespace
 
 PlotBody read_body(const VtuGrid& grid, const std::string& path) {
   const auto point_values = [&](const char* name, int components) -> const std::vector<double>& {

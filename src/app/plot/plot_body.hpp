@@ -33,6 +33,7 @@ struct PlotBody {
                                  ///< undamaged mid-surfaces: norm of displacement [length]
   std::vector<int> kind;         ///< 0 solid, 1 ghost, 2 rebar, 3 embedded point
   std::vector<Ends> broken_bonds;
+  std::vector<Index> broken_at;  ///< per broken bond, number of its break, from 1; 0: unknown
   std::vector<Ends> segments;
   std::vector<double> bar_stress;  ///< per segment [force/length^2]; empty: not in the file
   /// Corners of finite elements that constrain particles, in order round each element; two
@@ -46,6 +47,9 @@ struct PlotBody {
 
 /// Reads a body. \throws FileError naming the array that is missing
 PlotBody read_body(const VtuGrid& grid, const std::string& path);
+
+/// Returns the von Mises stress of the components xx, yy, zz, xy, yz, xz.
+double von_mises(const double* stress);
 
 /// Returns a factor on displacements that draws the largest at about 8 % of the size of the body.
 /// It is 1, 2 or 5 times a power of ten.

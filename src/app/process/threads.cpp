@@ -74,14 +74,15 @@ double granted_processors(const std::string& cgroups) {
   return limited && quota > 0.0 && period > 0.0 ? quota / period : infinity;
 }
 
+int default_threads() {
+  const int threads = omp_get_max_threads();
+  const char* const asked = std::getenv("OMP_NUM_THREADS");
+  if (asked != nullptr && std::atoi(asked) == threads) return threads;  // set, and valid for OpenMP
+  return static_cast<int>(std::min<double>(threads, std::ceil(granted_processors())));
+}
+
 int set_threads(int wanted) {
-  if (wanted <= 0) {
-    wanted = omp_get_max_threads();
-    const char* const asked = std::getenv("OMP_NUM_THREADS");
-    if (asked == nullptr || std::atoi(asked) != wanted) {  // unset, or invalid for OpenMP
-      wanted = static_cast<int>(std::min<double>(wanted, std::ceil(granted_processors())));
-    }
-  }
+  if (wanted <= 0) wanted = default_threads();
   const int most = std::min(most_blas_threads(), most_threads);
   const int threads = threads_that_start(threads_with_room(std::min(wanted, most)));
   if (threads < wanted) {

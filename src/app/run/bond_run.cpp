@@ -9,6 +9,7 @@
 #include "app/run/run_warnings.hpp"
 #include "base/error.hpp"
 #include "discretization/bonds.hpp"
+#include "io/checkpoint/pack.hpp"
 #include "model/body/particle_model.hpp"
 #include "model/from_case/lattice_case.hpp"
 #include "model/gauges.hpp"
@@ -136,6 +137,14 @@ void MovingBondsRun::on_iteration(Index load_step, Index iteration, double resid
 
 bool MovingBondsRun::stop_requested() { return callbacks.asks_to_stop(); }
 
+bool MovingBondsRun::wants_checkpoint(const ExplicitRecord& /*last*/) {
+  return checkpoint_rows_ > 0 && files_->rows() % checkpoint_rows_ == 0;
+}
+
+void MovingBondsRun::on_checkpoint(const TimeState& state) { save(pack(state)); }
+
+void MovingBondsRun::restore(const std::string& state) { unpack(state, from_.emplace()); }
+
 namespace {
 
 /// A run with type = "explicit" of a body with bonds, integrated in time.
@@ -145,12 +154,16 @@ class BondRun final : public MovingBondsRun {
       : MovingBondsRun(of_case, on_threads, calls), built_(build_bond_run(of_case, model_)) {
     built_.options.threads = threads;
     steps_ = built_.options.steps();
+    checkpoint_rows_ =
+        rows_between_checkpoints(model_.network.num_elements(), model_.network.particles.size(),
+                                 static_cast<double>(steps_) / built_.options.rows);
     plan += fmt::format(", {} steps of {:.4g} (critical {:.4g})", steps_, built_.options.time_step,
                         built_.inertia.critical_time_step());
   }
 
   void analyse() override {
-    result_ = run_explicit_bonds(model_, built_.inertia, built_.rules, built_.options, *this);
+    result_ = run_explicit_bonds(model_, built_.inertia, built_.rules, built_.options, *this,
+                                 from_ ? &*from_ : nullptr);
   }
 
   RunOutcome run_outcome() override { return {result_.termination, result_.reason}; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/dynamics/bonds/runs/bond_analysis.hpp"
+#include "analysis/dynamics/time_state.hpp"
 #include "app/run/run_kind.hpp"
 #include "base/csr.hpp"
 
@@ -28,12 +29,17 @@ class MovingBondsRun : public NetworkRun, protected BondRunObserver {
   void on_end(const ExplicitRecord& last, const BondRunState& state) override;
   void on_iteration(Index load_step, Index iteration, double residual) override;
   bool stop_requested() override;
+  bool wants_checkpoint(const ExplicitRecord& last) override;
+  void on_checkpoint(const TimeState& state) override;
+  void restore(const std::string& state) override;
   void write_state(const ExplicitRecord& record, const BondRunState& state);
   /// \param motion  motion of the state, with the embedded points of bars
   void add_forces_and_cracks(VtuGrid& grid, const ExplicitRecord& record, const BondRunState& state,
                              const std::vector<double>& motion);
 
   Index steps_ = 0;                ///< in the whole run
+  Index checkpoint_rows_ = 0;      ///< rows between checkpoints; 0: none
+  std::optional<TimeState> from_;  ///< state to go on from
   std::vector<ToldCrack> cracks_;  ///< in the last field file
   Index loose_pieces_ = 0;         ///< unsupported parts of the broken body at the end
 

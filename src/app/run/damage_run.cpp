@@ -9,6 +9,8 @@
 #include "app/run/resume.hpp"
 #include "app/run/run_notes.hpp"
 #include "app/run/run_warnings.hpp"
+#include "base/error.hpp"
+#include "base/memory.hpp"
 #include "discretization/bonds.hpp"
 #include "io/checkpoint/pack.hpp"
 #include "model/from_case/separated_body.hpp"
@@ -20,15 +22,16 @@ namespace perilink {
 namespace {
 
 /// Returns the number of rows between checkpoints for which they take about 2 % of the run time,
-/// by counted work: a new engine over an event.
-Index rows_between_checkpoints(const FactorStatistics& factor, const Network& network) {
+/// by counted work: a new engine over an event. A run of some seconds has none.
+Index rows_of_events(const FactorStatistics& factor, const Network& network) {
   constexpr double flops_per_second = 10e9, bytes_per_second = 10e9, part = 0.02;
+  constexpr double least_seconds = 10.0;
   constexpr double per_unknown = 3e-6, per_element = 1e-6, per_event = 5e-5;
   const double elements = network.num_elements();
   const double rebuild = per_unknown * factor.size + per_element * elements +
                          factor.flops / flops_per_second + 4.0 * factor.bytes / bytes_per_second;
   const double event = per_event + 1e-9 * elements + factor.bytes / bytes_per_second;
-  return static_cast<Index>(std::clamp(rebuild / (part * event), 1e3, 1e6));
+  return static_cast<Index>(std::clamp(std::max(rebuild / part, least_seconds) / event, 1e3, 1e8));
 }
 
 }  // namespace
@@ -53,11 +56,11 @@ DamageRun::DamageRun(const CaseFile& of_case, int on_threads, const RunCallbacks
 }
 
 void DamageRun::analyse() {
-  if (!run_) run_.emplace(model_, options_);
+  if (!run_) run_ = std::make_unique<EventRun>(model_, options_);
   follow();
   while (run_->missed_release()) {
     begin_again(*run_->missed_release());
-    run_.emplace(model_, options_);
+    run_ = std::make_unique<EventRun>(model_, options_);
     follow();
   }
   result_ = run_->result();
@@ -67,7 +70,7 @@ void DamageRun::analyse() {
 void DamageRun::follow() {
   if (records_.checkpoint_rows == 0) {
     records_.checkpoint_rows = input.output.checkpoint_every.value_or(
-        rows_between_checkpoints(run_->result().factor, model_.network));
+        rows_of_events(run_->result().factor, model_.network));
   }
   try {
     while (const StepRecord* row = run_->next()) {
@@ -77,6 +80,7 @@ void DamageRun::follow() {
     }
     if (!run_->has_failed() && !run_->missed_release()) end();
   } catch (const std::exception& error) {
+    if (!run_) throw;
     failure = std::current_exception();
     run_->fail(error);
   }
@@ -85,9 +89,17 @@ void DamageRun::follow() {
 /// Saves the state, and goes on from it as a run that is taken up again does.
 void DamageRun::go_on_from_checkpoint() {
   DamageState state = run_->save();
-  if (ranks() == nullptr) save(pack(records_, state));
-  run_.reset();  // two factors may not fit the memory
-  run_.emplace(model_, options_, std::move(state));
+  const std::string bytes = pack(records_, state);
+  if (2.0 * run_->result().factor.bytes > available_memory()) run_.reset();
+  try {
+    run_ = std::make_unique<EventRun>(model_, options_, std::move(state));
+  } catch (const SolverError&) {
+    // A body that is about to separate may lack digits for a new factor. Without a checkpoint it
+    // goes on with the present one.
+    if (run_) return;
+    throw;
+  }
+  if (ranks() == nullptr) save(bytes);
 }
 
 void DamageRun::restore(const std::string& saved) {
@@ -99,7 +111,7 @@ void DamageRun::restore(const std::string& saved) {
     model_.unknowns = embedded_motion(body.hosts, body.free, body.whole);
   }
   mark_broken();
-  run_.emplace(model_, options_, std::move(state));
+  run_ = std::make_unique<EventRun>(model_, options_, std::move(state));
 }
 
 /// Marks the broken elements, and those that pre-cracks cut.

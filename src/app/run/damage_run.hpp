@@ -77,7 +77,7 @@ class DamageRun final : public NetworkRun {
   void show_progress(const StepRecord& record);
 
   DamageOptions options_;
-  std::optional<EventRun> run_;
+  std::unique_ptr<EventRun> run_;
   DamageResult result_;
   Records records_;
   Csr neighbourhoods_;  ///< made with the first field file

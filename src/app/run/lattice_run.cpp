@@ -1,7 +1,9 @@
 #include <algorithm>
 
+#include "analysis/dynamics/time_state.hpp"
 #include "app/run/run_kind.hpp"
 #include "app/run/run_warnings.hpp"
+#include "io/checkpoint/pack.hpp"
 #include "model/from_case/lattice_case.hpp"
 #include "model/gauges.hpp"
 #include "model/reactions.hpp"
@@ -16,6 +18,9 @@ class LatticeRun final : public RunKind, private ExplicitObserver {
   LatticeRun(const CaseFile& of_case, int on_threads, const RunCallbacks& calls)
       : RunKind(of_case, on_threads, calls), built_(build_explicit_case(of_case)) {
     built_.options.threads = threads;
+    checkpoint_rows_ = rows_between_checkpoints(
+        static_cast<double>(built_.bonds), built_.model.lattice.particles(),
+        static_cast<double>(built_.options.steps()) / built_.options.rows);
     notes = built_.notes;
     plan = fmt::format("{} particles, {} bonds, {} steps of {:.4g} (critical {:.4g})",
                        built_.model.lattice.particles(), built_.bonds, built_.options.steps(),
@@ -24,7 +29,12 @@ class LatticeRun final : public RunKind, private ExplicitObserver {
 
   void analyse() override {
     ExplicitState state(built_.model);
-    result_ = run_explicit_analysis(built_.model, state, built_.options, *this);
+    result_ = run_explicit_analysis(built_.model, state, built_.options, *this,
+                                    from_ ? &*from_ : nullptr);
+  }
+
+  std::string model_fingerprint() const override {
+    return fingerprint({built_.model.lattice.positions});
   }
 
   RunOutcome run_outcome() override { return {result_.termination, result_.reason}; }
@@ -67,6 +77,11 @@ class LatticeRun final : public RunKind, private ExplicitObserver {
   }
 
   bool stop_requested() override { return callbacks.asks_to_stop(); }
+  bool wants_checkpoint(const ExplicitRecord& /*last*/) override {
+    return checkpoint_rows_ > 0 && files_->rows() % checkpoint_rows_ == 0;
+  }
+  void on_checkpoint(const TimeState& state) override { save(pack(state)); }
+  void restore(const std::string& state) override { unpack(state, from_.emplace()); }
 
   void write_state(const ExplicitRecord& record, const ExplicitState& state) {
     files_->write_fields(record.step, record.time, [&] {
@@ -92,6 +107,8 @@ class LatticeRun final : public RunKind, private ExplicitObserver {
 
   ExplicitCase built_;
   ExplicitResult result_;
+  Index checkpoint_rows_ = 0;      ///< rows between checkpoints; 0: none
+  std::optional<TimeState> from_;  ///< state to go on from
 };
 
 }  // namespace

@@ -30,11 +30,15 @@ class RelaxationRun final : public MovingBondsRun {
   RelaxationRun(const CaseFile& of_case, int on_threads, const RunCallbacks& calls)
       : MovingBondsRun(of_case, on_threads, calls) {
     steps_ = static_cast<Index>(input.analysis.load_factors.size());
+    constexpr double usual_iterations = 3000.0;  // of a load step
+    checkpoint_rows_ = rows_between_checkpoints(model_.network.num_elements(),
+                                                model_.network.particles.size(), usual_iterations);
     plan += fmt::format(", {} load steps", steps_);
   }
 
   void analyse() override {
-    result_ = run_dynamic_relaxation(model_, relaxation_options(input, threads), *this);
+    result_ = run_dynamic_relaxation(model_, relaxation_options(input, threads), *this,
+                                     from_ ? &*from_ : nullptr);
   }
 
   RunOutcome run_outcome() override { return {result_.termination, result_.reason}; }

@@ -11,6 +11,7 @@
 #include "io/checkpoint/pack.hpp"
 #include "results/calibration_text.hpp"
 #include "results/summary_file.hpp"
+#include "solver/ranks/process_ranks.hpp"
 
 namespace perilink {
 
@@ -33,6 +34,16 @@ void RunKind::save(const std::string& state) {
   write_checkpoint((directory_ / checkpoint_name).string(),
                    {resumable_case(input, directory_), model_fingerprint(),
                     pack(files_->save(), seconds.analysis + since_opened_.seconds(), state)});
+}
+
+Index RunKind::rows_between_checkpoints(double elements, double particles, double steps) const {
+  if (ranks() != nullptr) return 0;
+  if (input.output.checkpoint_every) return *input.output.checkpoint_every;
+  constexpr double per_element = 2e-9, per_particle = 5e-7;  // of a step, of a state [s]
+  constexpr double part = 0.02, least_seconds = 10.0;
+  const double row = std::max(1.0, steps) * per_element * std::max(1.0, elements);
+  return static_cast<Index>(
+      std::clamp(std::max(per_particle * particles / part, least_seconds) / row, 1.0, 1e8));
 }
 
 std::string NetworkRun::model_fingerprint() const {

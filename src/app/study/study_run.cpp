@@ -125,7 +125,7 @@ Repeat run_once(const StudyFile& study, const std::vector<TomlValue>& keys, int 
                 const CalibrationObserver& on_search) {
   Repeat repeat;
   Timer timer;
-  repeat.input = read_case_file(study.case_path, keys);
+  repeat.input = read_case_file(study.case_path, study.settings, keys);
   repeat.input.trust_geometry = study.trust_geometry;
   repeat.model = build_model(repeat.input, on_search);
   repeat.seconds.set_up = timer.seconds();
@@ -294,7 +294,7 @@ void check_members(const StudyFile& study, const std::vector<StudySeries>& all) 
   for (const StudySeries& series : all) {
     for (const TomlValue& refinement : study.vary.values) {
       try {
-        read_case_file(study.case_path, keys_of(series, refinement));
+        read_case_file(study.case_path, study.settings, keys_of(series, refinement));
         return;
       } catch (const InputError& error) {
         if (first_fault.empty()) first_fault = error.what();

@@ -173,4 +173,22 @@ SubdomainStiffness assemble_subdomain_stiffness(const Network& network, Secants 
   return result;
 }
 
+void add_springs(SubdomainStiffness& stiffness, const Unknowns& unknowns,
+                 const SubdomainMotions& motions, std::span<const double> springs) {
+  const auto width = static_cast<std::size_t>(unknowns.width);
+  for (std::size_t slot = 0; slot < unknowns.number.size(); ++slot) {
+    if (unknowns.number[slot] < 0 || springs[unknowns.number[slot]] == 0.0) continue;
+    const double spring = springs[unknowns.number[slot]];
+    const auto particle = static_cast<Index>(slot / width);
+    stiffness.blocks[slot * width + slot % width] += spring;
+    const std::array<double, 6> moved = motions.row(particle, static_cast<int>(slot % width));
+    const Index first = motions.subdomain_of(particle) * motions.num_motions();
+    for (int a = 0; a < motions.num_motions(); ++a) {
+      for (int b = 0; b <= a; ++b) {
+        stiffness.coarse.coeffRef(first + a, first + b) += spring * moved[a] * moved[b];
+      }
+    }
+  }
+}
+
 }  // namespace perilink

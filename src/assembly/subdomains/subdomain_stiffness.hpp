@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "assembly/lower_triangle.hpp"
@@ -18,5 +19,10 @@ struct SubdomainStiffness {
 SubdomainStiffness assemble_subdomain_stiffness(const Network& network, Secants secants,
                                                 const Unknowns& unknowns,
                                                 const SubdomainMotions& motions);
+
+/// Adds springs between unknowns and the ground.
+/// \param springs  stiffness per unknown
+void add_springs(SubdomainStiffness& stiffness, const Unknowns& unknowns,
+                 const SubdomainMotions& motions, std::span<const double> springs);
 
 }  // namespace perilink

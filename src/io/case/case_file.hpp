@@ -20,6 +20,7 @@
 
 namespace perilink {
 
+struct CaseSetting;
 struct TomlValue;
 
 /// [body]
@@ -324,8 +325,13 @@ CaseFile read_case_file(const std::string& path);
 /// Reads and checks a case from text, for tests and fuzzing.
 CaseFile parse_case(const std::string& text, const std::string& path);
 
-/// Reads and checks a member of a study: the case with other keys of [body] (override_body).
-CaseFile read_case_file(const std::string& path, const std::vector<TomlValue>& body_keys);
+/// Reads and checks a case with other values (apply_settings), as a member of a study also with
+/// other keys of [body] (override_body).
+CaseFile read_case_file(const std::string& path, const std::vector<CaseSetting>& settings,
+                        const std::vector<TomlValue>& body_keys);
+CaseFile parse_case(const std::string& text, const std::string& path,
+                    const std::vector<CaseSetting>& settings,
+                    const std::vector<TomlValue>& body_keys);
 CaseFile parse_case(const std::string& text, const std::string& path,
                     const std::vector<TomlValue>& body_keys);
 

@@ -4,6 +4,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/error.hpp"
 #include "io/case/case_words.hpp"
 #include "io/text/toml_tree.hpp"
 
@@ -18,9 +19,16 @@ requires std::is_enum_v<Enumeration> TomlValue body_key(const std::string& key, 
   return body_key(key, std::string(word_of(value)));
 }
 
-/// Sets keys in [body] of a case's document and removes the keys that they replace. `spacing` also
-/// replaces `columns`, `horizon_ratio` also replaces `horizon` and `horizon_level`, and `method =
-/// "linear_elements"` replaces all keys of bonds.
-void override_body(TomlValue& document, const std::vector<TomlValue>& keys);
+/// Sets a key of a table of a case's document and removes the keys that it replaces: `spacing`
+/// replaces `columns`, `horizon_ratio` replaces `horizon` and `horizon_level`.
+/// \param where  of the table, for messages
+/// \throws InputError  where --set has given a key that is replaced
+void set_key(TomlValue& table, TomlValue key, const SourceLocation& where);
+
+/// Sets keys in [body] of a case's document. `method = "linear_elements"` removes all keys of
+/// bonds.
+/// \throws InputError  where --set has given a key that is replaced
+void override_body(TomlValue& document, const std::string& path,
+                   const std::vector<TomlValue>& keys);
 
 }  // namespace perilink

@@ -25,7 +25,7 @@ class CaseTable {
       : table_(table), key_path_(std::move(key_path)), file_(std::move(file)) {}
 
   /// Whether the file has the table.
-  bool exists() const { return table_.line > 0; }
+  bool exists() const { return table_.line != 0; }
   bool has(const std::string& key) const { return table_.find(key) != nullptr; }
 
   /// Reads one printable line.

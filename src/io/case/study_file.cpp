@@ -35,11 +35,6 @@ std::vector<TableSchema> study_schema(bool several_errors) {
   };
 }
 
-/// Turns a path relative to the folder of a file into one relative to the working directory.
-std::string beside(const std::string& file, const std::string& path) {
-  return (fs::path(file).parent_path() / path).lexically_normal().string();
-}
-
 /// Returns the path from a folder to a file, independent of the working directory.
 std::string path_from(const std::string& directory, const std::string& file) {
   const fs::path base = fs::absolute(directory.empty() ? "." : directory);
@@ -298,10 +293,11 @@ StudyFile read_study_file(const std::string& path) {
   return parse_study(read_input_text(path), path);
 }
 
-std::string write_study(const StudyFile& study, const std::string& directory) {
+std::string write_study(const StudyFile& study, const std::string& directory,
+                        const std::string& case_path) {
   TomlWriter out;
   if (!study.title.empty()) out.write("title", study.title);
-  out.write("case", path_from(directory, study.case_path));
+  out.write("case", path_from(directory, case_path));
   out.write("repeats", study.repeats);
   out.header("[vary]");
   write_refinement(out, study, directory);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "io/case/case_settings.hpp"
 #include "io/case/case_words.hpp"
 #include "io/text/formula.hpp"
 #include "io/text/toml_tree.hpp"
@@ -48,7 +49,8 @@ struct StudyFile {
   int repeats = 1;        ///< runs of every member; the shortest time is reported
   VarySection vary;
   std::vector<ErrorSection> errors;
-  bool trust_geometry = false;  ///< from the command line, as in CaseFile
+  bool trust_geometry = false;        ///< from the command line, as in CaseFile
+  std::vector<CaseSetting> settings;  ///< from the command line, of the case
 };
 
 /// Reads and checks a study; the case itself is not opened.
@@ -61,6 +63,8 @@ StudyFile parse_study(const std::string& text, const std::string& path);
 
 /// Returns the study as TOML text that reads back to an equal study. Paths of files are relative to
 /// `directory`.
-std::string write_study(const StudyFile& study, const std::string& directory);
+/// \param case_path  the case that it names; the path of the study's case if its settings are empty
+std::string write_study(const StudyFile& study, const std::string& directory,
+                        const std::string& case_path);
 
 }  // namespace perilink

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "base/error.hpp"
 #include "base/files.hpp"
 
@@ -21,6 +23,10 @@ void refuse_large_input(const std::string& text, const std::string& path) {
   throw InputError({path, 0, ""},
                    fmt::format("is larger than {} MiB, so it is no case file", largest_file >> 20),
                    "name the .toml file of a case");
+}
+
+std::string beside(const std::string& file, const std::string& path) {
+  return (std::filesystem::path(file).parent_path() / path).lexically_normal().string();
 }
 
 std::string_view trimmed(std::string_view text) {

@@ -17,6 +17,9 @@ std::string read_input_text(const std::string& path);
 /// \throws InputError
 void refuse_large_input(const std::string& text, const std::string& path);
 
+/// Turns a path relative to the folder of a file into one relative to the working directory.
+std::string beside(const std::string& file, const std::string& path);
+
 /// Returns text without leading and trailing blanks and line ends.
 std::string_view trimmed(std::string_view text);
 

@@ -159,6 +159,39 @@ std::string quoted(const std::string& text) {
   return result + "\"";
 }
 
+std::string toml_text(const TomlValue& value) {
+  using Kind = TomlValue::Kind;
+  const auto in_quotes = [](const std::string& text) {
+    std::string result = "\"";
+    for (const char c : text) {
+      if (c == '"' || c == '\\') result += '\\';
+      const bool control = static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
+      result += control ? fmt::format("\\u{:04x}", static_cast<int>(c)) : std::string(1, c);
+    }
+    return result + "\"";
+  };
+  std::string list;
+  switch (value.kind) {
+    case Kind::boolean: return value.boolean ? "true" : "false";
+    case Kind::integer: return fmt::format("{}", value.integer);
+    case Kind::number: {
+      const std::string digits = fmt::format("{}", value.number);
+      return digits.find_first_not_of("-0123456789") == std::string::npos ? digits + ".0" : digits;
+    }
+    case Kind::text: return in_quotes(value.text);
+    case Kind::date: return "";
+    case Kind::array:
+      for (const TomlValue& item : value.items)
+        list += (list.empty() ? "" : ", ") + toml_text(item);
+      return "[" + list + "]";
+    case Kind::table: break;
+  }
+  for (const TomlValue& entry : value.entries) {
+    list += (list.empty() ? "" : ", ") + in_quotes(entry.key) + " = " + toml_text(entry);
+  }
+  return "{" + list + "}";
+}
+
 std::string describe(const TomlValue& value) {
   using Kind = TomlValue::Kind;
   switch (value.kind) {

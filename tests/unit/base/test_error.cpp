@@ -20,6 +20,11 @@ TEST(InputError, LeavesOutWhatIsNotKnown) {
   EXPECT_STREQ(InputError({"beam.toml", 0, ""}, "is empty", "").what(), "beam.toml: is empty");
 }
 
+TEST(InputError, NamesTheOptionThatGaveTheValue) {
+  EXPECT_STREQ(InputError({"beam.toml", -1, "body.spacing"}, "is -1", "give 1").what(),
+               "--set body.spacing: is -1\n  give 1");
+}
+
 TEST(Error, EveryKindIsAnErrorOfTheProgram) {
   EXPECT_THROW(throw InputError({}, "", ""), Error);
   EXPECT_THROW(throw SolverError(""), Error);

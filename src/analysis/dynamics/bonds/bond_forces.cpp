@@ -10,6 +10,7 @@
 #include "analysis/dynamics/bonds/element_halves.hpp"
 #include "analysis/dynamics/bonds/embedded_slip_springs.hpp"
 #include "analysis/dynamics/bonds/stencil_bonds.hpp"
+#include "analysis/dynamics/time_state.hpp"
 
 namespace perilink {
 namespace {
@@ -32,6 +33,8 @@ class Halves final : public ExplicitBonds {
                     std::span<double> force) override;
   double stored(Index begin, Index end, double time_step, const BondMotion& motion) const override;
   std::vector<double> secants() const override;
+  void save(MovingElements& state) const override;
+  void restore(const MovingElements& state) override;
 
  private:
   static constexpr int width = Half::width;
@@ -41,6 +44,9 @@ class Halves final : public ExplicitBonds {
   BondLosses forces_of(Index begin, Index end, double time_step, const BondMotion& motion,
                        std::span<double> force);
   double limit_of(Index element, int segment) const;
+  void scale(std::size_t half, double factor) {
+    halves_[half].for_stiffness([factor](double& modulus) { modulus *= factor; });
+  }
   bool may_close(std::size_t half) const;
   Half closed_part(std::size_t half) const;
   void give_way(std::size_t half, double demand, const double* own, const double* own_speed,
@@ -101,7 +107,7 @@ void Halves<Half>::add(const Network& network, Index element, bool first) {
   limit_.push_back(limit_of(element, 0));
   const std::vector<Index>& cut = network.cut_elements;
   if (!std::binary_search(cut.begin(), cut.end(), element)) return;
-  halves_.back().scale(0.0);
+  scale(halves_.size() - 1, 0.0);
   secant_.back() = 0.0;
 }
 
@@ -124,7 +130,7 @@ template <class Half>
 void Halves<Half>::give_way(std::size_t half, double demand, const double* own,
                             const double* own_speed, const BondMotion& motion, double time_step,
                             BondLosses& losses) {
-  Half& bond = halves_[half];
+  const Half& bond = halves_[half];
   const std::size_t other = static_cast<std::size_t>(bond.other) * width;
   const double* far = motion.displacement.data() + other;
   const Index element = element_[half];
@@ -137,7 +143,7 @@ void Halves<Half>::give_way(std::size_t half, double demand, const double* own,
   before(own, own_speed, time_step, past_own);
   before(far, motion.velocity.data() + other, time_step, past_far);
   const double held = bond.energy(past_own, past_far, own, far);
-  bond.scale(next / secant_[half]);
+  scale(half, next / secant_[half]);
   losses.fractured += 0.5 * (held - bond.energy(past_own, past_far, own, far));
   secant_[half] = next;
 }
@@ -218,6 +224,30 @@ std::vector<double> Halves<Half>::secants() const {
     secant = std::min(secant, secant_[half]);  // the other half may belong to another rank
   }
   return result;
+}
+
+/// Saves stiffnesses too: they are products of the ratios of all segments that a bond has left.
+template <class Half>
+void Halves<Half>::save(MovingElements& state) const {
+  for (std::size_t half = 0; half < segment_.size(); ++half) {
+    if (segment_[half] == 0) continue;
+    state.changed.push_back(half);
+    state.segment.push_back(segment_[half]);
+    Half(halves_[half]).for_stiffness([&](double modulus) { state.stiffness.push_back(modulus); });
+  }
+}
+
+template <class Half>
+void Halves<Half>::restore(const MovingElements& state) {
+  std::size_t moduli = 0;
+  for (std::size_t k = 0; k < state.changed.size(); ++k) {
+    const std::size_t half = state.changed[k];
+    if (half >= halves_.size()) expect_equal_sizes(half + 1, halves_.size());
+    segment_[half] = state.segment.at(k);
+    limit_[half] = limit_of(element_[half], segment_[half]);
+    secant_[half] = network_.law(element_[half]).segment(segment_[half]).secant;
+    halves_[half].for_stiffness([&](double& modulus) { modulus = state.stiffness.at(moduli++); });
+  }
 }
 
 template <template <int> class Half>

@@ -14,15 +14,21 @@ std::vector<BreakOrder::Break> BreakOrder::take_latest() {
   return latest;
 }
 
+void BreakOrder::count(Index number) {
+  const auto place = static_cast<std::size_t>(number);
+  if (place >= counted_.size()) counted_.resize(place + 1);
+  if (counted_[place]) return;
+  counted_[place] = true;
+  order_.push_back(number);
+}
+
 const std::vector<Index>& BreakOrder::so_far() {
-  for (const auto& [step, number] : take_latest()) {
-    const auto place = static_cast<std::size_t>(number);
-    if (place >= counted_.size()) counted_.resize(place + 1);
-    if (counted_[place]) continue;
-    counted_[place] = true;
-    order_.push_back(number);
-  }
+  for (const auto& [step, number] : take_latest()) count(number);
   return order_;
+}
+
+void BreakOrder::restore(const std::vector<Index>& order) {
+  for (const Index number : order) count(number);
 }
 
 }  // namespace perilink

@@ -36,7 +36,12 @@ class BreakOrder {
   /// repeated ones included. Called by one thread between two steps.
   std::vector<Break> take_latest();
 
+  /// Continues from so_far() of another run.
+  void restore(const std::vector<Index>& order);
+
  private:
+  void count(Index number);
+
   std::vector<std::vector<Break>> of_blocks_;
   std::vector<Index> order_;
   std::vector<bool> counted_;  ///< whether a number is in order_

@@ -52,7 +52,11 @@ struct TrussHalf {
     return 0.5 * k * extension(own_before, far_before) * extension(own, far);
   }
 
-  void scale(double factor) { k *= factor; }
+  /// Calls visit(modulus) for each stiffness that damage scales.
+  template <class Visit>
+  void for_stiffness(Visit visit) {
+    visit(k);
+  }
 
   bool is_compressed(const double* own, const double* far) const {
     return extension(own, far) < 0.0;
@@ -117,7 +121,11 @@ struct GreenHalf {
     return 0.5 * k / flexibility * stretch(own_before, far_before) * stretch(own, far);
   }
 
-  void scale(double factor) { k *= factor; }
+  /// Calls visit(modulus) for each stiffness that damage scales.
+  template <class Visit>
+  void for_stiffness(Visit visit) {
+    visit(k);
+  }
 
   bool is_compressed(const double* own, const double* far) const { return stretch(own, far) < 0.0; }
   GreenHalf axial_part(double stiffness) const {
@@ -217,11 +225,12 @@ struct FrameHalf {
                   twisting * a.twist * b.twist);
   }
 
-  void scale(double factor) {
-    k *= factor;
-    kb *= factor;
-    rotational *= factor;
-    twisting *= factor;
+  template <class Visit>
+  void for_stiffness(Visit visit) {
+    visit(k);
+    visit(kb);
+    visit(rotational);
+    visit(twisting);
   }
 
   bool is_compressed(const double* own, const double* far) const {
@@ -229,7 +238,7 @@ struct FrameHalf {
   }
   FrameHalf axial_part(double stiffness) const {
     FrameHalf part = *this;
-    part.scale(0.0);
+    part.for_stiffness([](double& modulus) { modulus = 0.0; });
     part.k = stiffness;
     return part;
   }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/dynamics/time_state.hpp"
 #include "base/csr.hpp"
 
 namespace perilink {
@@ -91,6 +92,22 @@ class EmbeddedSlipSprings final : public ExplicitBonds {
       secants[network_.first_embedded_slip_spring + share.tie] = share.secant;
     }
     return secants;
+  }
+
+  void save(MovingElements& state) const override {
+    for (const Share& share : shares_) state.slip_segment.push_back(share.segment);
+    if (others_) others_->save(state);
+  }
+  void restore(const MovingElements& state) override {
+    expect_equal_sizes(state.slip_segment.size(), shares_.size());
+    for (std::size_t k = 0; k < shares_.size(); ++k) {
+      Share& share = shares_[k];
+      const Index element = network_.first_embedded_slip_spring + share.tie;
+      share.segment = state.slip_segment[k];
+      share.limit = limit_of(element, share.segment);
+      if (share.segment > 0) share.secant = network_.law(element).segment(share.segment).secant;
+    }
+    if (others_) others_->restore(state);
   }
 
  private:

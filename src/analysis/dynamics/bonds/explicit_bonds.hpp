@@ -7,6 +7,8 @@
 
 namespace perilink {
 
+struct MovingElements;
+
 /// Motion of a network at step n: displacements now, velocities half a step earlier, both of shape
 /// (particles, width).
 struct BondMotion {
@@ -60,6 +62,12 @@ class ExplicitBonds {
 
   /// Returns the damage of each particle [-]; empty where bonds break.
   virtual std::vector<double> damage() const { return {}; }
+
+  /// Writes the values between two steps that set-up cannot rebuild.
+  virtual void save(MovingElements& state) const = 0;
+  /// Continues from saved values, in elements just constructed from the same network.
+  /// \throws std::invalid_argument where the state is that of another body
+  virtual void restore(const MovingElements& state) = 0;
 };
 
 }  // namespace perilink

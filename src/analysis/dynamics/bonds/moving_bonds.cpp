@@ -102,6 +102,34 @@ MotionSums MovingBonds::total() const {
   return all;
 }
 
+void MovingBonds::save(BondsState& state) {
+  state.displacement = motion.displacement;
+  state.velocity = motion.velocity;
+  for (const MotionSums& block : sums) {
+    state.fractured.push_back(block.fractured);
+    state.external_work.push_back(block.work.external);
+    state.damping_work.push_back(block.work.damping);
+  }
+  state.broken = broken.so_far();
+  bonds->save(state.elements);
+}
+
+void MovingBonds::restore(const BondsState& state) {
+  expect_equal_sizes(state.displacement.size(), motion.displacement.size());
+  expect_equal_sizes(state.velocity.size(), motion.velocity.size());
+  for (const auto* energies : {&state.fractured, &state.external_work, &state.damping_work}) {
+    expect_equal_sizes(energies->size(), sums.size());
+  }
+  motion.displacement = state.displacement;
+  motion.velocity = state.velocity;
+  for (std::size_t b = 0; b < sums.size(); ++b) {
+    sums[b].fractured = state.fractured[b];
+    sums[b].work = {state.external_work[b], state.damping_work[b]};
+  }
+  broken.restore(state.broken);
+  bonds->restore(state.elements);
+}
+
 void MovingBonds::note_reactions(const MotionSums& all, double load_factor,
                                  ExplicitRecord& record) const {
   record.load = reference.driven ? all.driven / reference.value : load_factor * reference.value;

@@ -10,6 +10,7 @@
 #include "analysis/dynamics/bonds/free_motion.hpp"
 #include "analysis/dynamics/explicit_run.hpp"
 #include "analysis/dynamics/inertia.hpp"
+#include "analysis/dynamics/time_state.hpp"
 #include "analysis/ranks/particle_blocks.hpp"
 #include "network/loaded_network.hpp"
 
@@ -81,6 +82,11 @@ struct MovingBonds {
   BondRunState state(std::function<std::vector<double>()> reactions_now = {}) {
     return {network, motion, *bonds, broken.so_far(), std::move(reactions_now)};
   }
+  /// Saves motion, energies, breaks and elements. Called by one thread between two steps.
+  void save(BondsState& state);
+  /// Continues from a saved state, in an object just constructed.
+  /// \throws std::invalid_argument where the state is that of another body
+  void restore(const BondsState& state);
 
   const Network& network;
   const Unknowns& unknowns;

@@ -11,6 +11,7 @@
 
 #include "analysis/dynamics/bonds/element_halves.hpp"
 #include "analysis/dynamics/bonds/particle_fit.hpp"
+#include "analysis/dynamics/time_state.hpp"
 #include "base/plain_text.hpp"
 #include "material/principal_values.hpp"
 
@@ -77,6 +78,12 @@ class StateParticles final : public ExplicitBonds {
   double stored(Index begin, Index end, double time_step, const BondMotion& motion) const override;
   std::vector<double> secants() const override;
   std::vector<double> damage() const override { return damage_; }
+  void save(MovingElements& state) const override {
+    state.damage = damage_;
+    state.last_damage = next_;
+    state.cracked = cracked_;
+  }
+  void restore(const MovingElements& state) override;
 
  private:
   std::span<const StateHalf<Dim>> halves_of(Index i) const {
@@ -295,6 +302,19 @@ std::vector<double> StateParticles<Dim>::secants() const {
   for (std::size_t h = 0; h < factors_.size(); ++h)
     secants[halves_[h].element] = factors_[h].tension.bond;
   return secants;
+}
+
+/// The factors are those of the damage in the last step.
+template <int Dim>
+void StateParticles<Dim>::restore(const MovingElements& state) {
+  expect_equal_sizes(state.damage.size(), damage_.size());
+  expect_equal_sizes(state.last_damage.size(), next_.size());
+  expect_equal_sizes(state.cracked.size(), cracked_.size());
+  damage_ = state.last_damage;
+  for (Index i = 0; i < network_.particles.size(); ++i) weaken(i);
+  damage_ = state.damage;
+  next_ = state.last_damage;
+  cracked_ = state.cracked;
 }
 
 }  // namespace

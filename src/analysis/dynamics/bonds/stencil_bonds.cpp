@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "analysis/dynamics/bonds/lanes.hpp"
+#include "analysis/dynamics/time_state.hpp"
 
 namespace perilink {
 namespace {
@@ -40,6 +41,15 @@ class StencilBonds final : public ExplicitBonds {
                     std::span<double> force) override;
   double stored(Index begin, Index end, double time_step, const BondMotion& motion) const override;
   std::vector<double> secants() const override;
+  void save(MovingElements& state) const override {
+    state.intact = intact_;
+    if (rest_) rest_->save(state);
+  }
+  void restore(const MovingElements& state) override {
+    expect_equal_sizes(state.intact.size(), intact_.size());
+    intact_ = state.intact;
+    if (rest_) rest_->restore(state);
+  }
 
  private:
   /// Directed bond of a particle of a group.

@@ -68,12 +68,25 @@ class ExplicitRun {
     if (model.alters()) changes_.emplace(model);
   }
 
+  /// Continues from a saved state.
+  void restore(const TimeState& from) {
+    expect_equal_sizes(from.lattice.displacement.size(), state_.displacement.size());
+    expect_equal_sizes(from.lattice.crack_at.size(), state_.crack_at.size());
+    expect_equal_sizes(from.lattice.flow.yield.size(), state_.flow.yield.size());
+    expect_equal_sizes(from.lattice.sums.size(), state_.sums.size());
+    loop_.restore(from.loop);
+    record_ = from.record;
+    static_cast<LatticeState&>(state_) = from.lattice;
+    if (changes_) changes_->rebuild(state_);
+  }
+
   ExplicitResult run() {
     // A step has three barriers, so a thread pays only with enough particles.
     const Index useful = std::max<Index>(1, model_.lattice.particles() / particles_per_thread);
     const Index threads = std::min<Index>(options_.threads, useful);
     prepare_passing(threads);
-    return loop_.run(threads, [this](Index step) { one_step(step); });
+    return loop_.run(
+        threads, [this](Index step) { one_step(step); }, [this] { offer_checkpoint(); });
   }
 
  private:
@@ -153,6 +166,15 @@ class ExplicitRun {
     note_reactions(step, passes);
   }
 
+  void offer_checkpoint() {
+    if (!observer_.wants_checkpoint(loop_.result().last)) return;
+    TimeState state;
+    state.loop = loop_.state();
+    state.record = record_;
+    state.lattice = state_;
+    observer_.on_checkpoint(state);
+  }
+
   void note_reactions(Index step, bool passes) {
     passed_ = passes;
     state_.step = step + 1;
@@ -211,8 +233,11 @@ class ExplicitRun {
 }  // namespace
 
 ExplicitResult run_explicit_analysis(const ExplicitModel& model, ExplicitState& state,
-                                     const ExplicitOptions& options, ExplicitObserver& observer) {
-  return ExplicitRun(model, state, options, critical_time_step(model), observer).run();
+                                     const ExplicitOptions& options, ExplicitObserver& observer,
+                                     const TimeState* from) {
+  ExplicitRun run(model, state, options, critical_time_step(model), observer);
+  if (from != nullptr) run.restore(*from);
+  return run.run();
 }
 
 }  // namespace perilink

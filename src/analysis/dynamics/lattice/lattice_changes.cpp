@@ -101,4 +101,14 @@ void LatticeChanges::update_sums(ExplicitState& state, Index row, double time_st
   state.slack[row] = 0.0;
 }
 
+void LatticeChanges::rebuild(ExplicitState& state) const {
+  state.next_damage = state.damage;
+  for (Index row = 0; row < static_cast<Index>(model_.lattice.rows.size()); ++row) {
+    damage_.update_roots(state, row);
+    if ((state.bond_changes[row] & BondChanges::weakened) != 0) {
+      damage_.update_factors(state, row);
+    }
+  }
+}
+
 }  // namespace perilink

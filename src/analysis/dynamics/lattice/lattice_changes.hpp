@@ -32,6 +32,8 @@ class LatticeChanges {
   void update_factors(ExplicitState& state, Index row) const;
   /// Applies the factors to the sums and records the energy lost by damage. Needs rows before it.
   void update_sums(ExplicitState& state, Index row, double time_step) const;
+  /// Rebuilds what follows from a saved LatticeState: next damage, roots and factors of all rows.
+  void rebuild(ExplicitState& state) const;
 
  private:
   static constexpr std::uint8_t changed = RowChanges::damage_grew | RowChanges::flowed;

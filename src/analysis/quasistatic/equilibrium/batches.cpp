@@ -9,6 +9,7 @@
 #include "analysis/quasistatic/equilibrium/equilibrium.hpp"
 #include "assembly/stiffness.hpp"
 #include "base/error.hpp"
+#include "base/rare_branch.hpp"
 #include "solver/conjugate_gradients.hpp"
 #include "solver/supernodes/supernodal_kernels.hpp"
 
@@ -89,6 +90,8 @@ FactorStatistics Equilibrium::factor_statistics() const {
 
 /// Chooses by counted work, so that the machine's load and the number of threads do not matter.
 auto Equilibrium::cheapest_way(const Batch& batch) -> Way {
+  if (take_rare_branch("lagging factor")) return Way::gradients;
+  if (take_rare_branch("renewed factor")) return Way::renew;
   const FactorStatistics factor = factor_->statistics();
   const auto elements = static_cast<double>(network_.num_elements());
   const double solution = 2.0 * factor.bytes / factor_bytes;
@@ -118,7 +121,9 @@ std::optional<EventOutcome> Equilibrium::weaken_together(std::span<const Weakeni
     const bool closed = !axial_.empty() && is_closed(change.element);
     return closed || !network_.has_limit(change.element);
   };
-  if (look_closer_ || std::ranges::any_of(changes, stands_alone)) return std::nullopt;
+  if (look_closer_ || std::ranges::any_of(changes, stands_alone) || take_rare_branch("no batch")) {
+    return std::nullopt;
+  }
   changed_sides_.clear();
   Batch batch = batch_of(changes);
   EventOutcome outcome;
@@ -150,7 +155,8 @@ std::optional<EventOutcome> Equilibrium::weaken_together(std::span<const Weakeni
   }
   // Elements whose strain grows very much without their stiffness held the body.
   const bool uncertain = !(outcome.compliance_growth * uncertain_pivot <= removed) ||
-                         !(outcome.pivot > uncertain_pivot) || !resists_without(batch);
+                         !(outcome.pivot > uncertain_pivot) || !resists_without(batch) ||
+                         take_rare_branch("batch taken back");
   if (!uncertain) {
     follow(outcome);
     try {
@@ -192,8 +198,8 @@ bool Equilibrium::follow_batch(Batch& batch, double& pivot) {
   try {
     batch.keeps_factor = way == Way::gradients;
     if (way == Way::gradients && search_equilibrium()) return true;
+    batch.keeps_factor = subdomains_ != nullptr && subdomains_->can_solve();
     if (subdomains_ != nullptr) return false;
-    batch.keeps_factor = false;
     factorize();
     return true;
   } catch (const SolverError&) {
@@ -237,7 +243,7 @@ bool Equilibrium::resists_without(const Batch& batch) {
 }
 
 void Equilibrium::bring_factor_up() {
-  if (lags_) factorize();
+  if (lags_ || (subdomains_ != nullptr && !subdomains_->can_solve())) factorize();
 }
 
 bool Equilibrium::change_factor(const Batch& batch, double& pivot) {

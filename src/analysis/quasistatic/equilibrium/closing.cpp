@@ -8,6 +8,7 @@
 
 #include "analysis/quasistatic/equilibrium/equilibrium.hpp"
 #include "base/error.hpp"
+#include "base/rare_branch.hpp"
 #include "solver/not_positive_definite.hpp"
 
 namespace perilink {
@@ -23,10 +24,8 @@ constexpr double closing_round_off = 1e-11;
 /// not resist it.
 constexpr double no_resistance = 1e12;
 
-/// Rough rates of one core, to choose between one new factor and many changes. Half of a change is
-/// a pass through the path of a bond, which is a part of the factor.
-constexpr double flops_per_second = 15e9, bytes_per_second = 36e9;
-constexpr double passes_per_change = 1.0, seconds_per_element = 1e-7;
+/// Rough rates of one core, to choose between a new factor and changes that pass through it.
+constexpr double flops_per_second = 15e9, bytes_per_second = 36e9, seconds_per_element = 1e-7;
 
 }  // namespace
 
@@ -153,7 +152,8 @@ bool Equilibrium::is_cheaper_anew(std::size_t changes) const {
   const FactorStatistics factor = factor_->statistics();
   const double anew = factor.flops / flops_per_second +
                       seconds_per_element * static_cast<double>(network_.num_elements());
-  return static_cast<double>(changes) * passes_per_change * factor.bytes / bytes_per_second > anew;
+  return static_cast<double>(changes) * factor.bytes / bytes_per_second > anew ||
+         take_rare_branch("new factor for sides");
 }
 
 void Equilibrium::turn(const std::vector<Index>& elements) {

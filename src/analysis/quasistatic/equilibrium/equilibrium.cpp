@@ -11,6 +11,7 @@
 #include "assembly/linear_elements.hpp"
 #include "assembly/stiffness.hpp"
 #include "base/error.hpp"
+#include "base/rare_branch.hpp"
 
 namespace perilink {
 namespace {
@@ -245,7 +246,7 @@ LoadWork Equilibrium::work() {
   LoadWork work{forces, forces - followed_compliance_};
   const double whole = work.forces + work.supports;
   const bool halved = whole < 0.5 * followed_from_;
-  if (events_to_follow_ <= 0 || halved) {
+  if (events_to_follow_ <= 0 || halved || take_rare_branch("summed work")) {
     work = sum_work();
     if ((work.forces + work.supports) * next_to_infinite < last_work_) work.separated = true;
     followed_from_ = work.forces + work.supports;
@@ -312,7 +313,7 @@ double Equilibrium::measure_residual(std::vector<double>& residual) {
 }
 
 Balance Equilibrium::check_cheaply() {
-  if (!stale_ || checked_elements_.empty()) return check();
+  if (!stale_ || checked_elements_.empty() || take_rare_branch("full check")) return check();
   const double residual = residual_of_current();
   if (residual <= std::max(options_.residual_tolerance, residual_floor_)) {
     return {residual, std::numeric_limits<double>::quiet_NaN()};
@@ -327,7 +328,8 @@ Balance Equilibrium::check() {
   if (subdomains_ != nullptr) size = refine_followed(size, residual);
   // Written so that a residual that is not a number exceeds every tolerance.
   if (size <= options_.residual_tolerance) residual_floor_ = 0.0;
-  if (size <= std::max(options_.residual_tolerance, residual_floor_)) {
+  if (size <= std::max(options_.residual_tolerance, residual_floor_) &&
+      !take_rare_branch("refinement")) {
     return {size, internal_.energy};
   }
   events_to_follow_ = 0;

@@ -6,6 +6,7 @@
 
 #include "analysis/quasistatic/equilibrium/equilibrium.hpp"
 #include "base/error.hpp"
+#include "base/rare_branch.hpp"
 
 namespace perilink {
 namespace {
@@ -100,7 +101,7 @@ void Equilibrium::measure_pivots(Removal& removal, Index element, double kept) {
   }
   const Removal modes = removal;
   double prepared = prepare(removal);
-  if (prepared > uncertain_pivot && !look_closer_) return;
+  if (prepared > uncertain_pivot && !look_closer_ && !take_rare_branch("pivot by energy")) return;
   removal = modes;
   look_closely(removal, element, kept);
   look_closer_ = std::abs(prepared - removal.pivot[0]) > noisy_pivot;
@@ -206,6 +207,7 @@ EventOutcome Equilibrium::weaken(Index element, double secant) {
   if (outcome.mechanism) return outcome;
   follow(outcome);
   commit(removal, element, secant);
+  if (take_rare_branch("early factor")) factorize();
   if (!axial_.empty()) settle_closing(outcome);
   if (outcome.mechanism) take_back(element, before);
   return outcome;

@@ -29,6 +29,8 @@ class SubdomainFactor final : public Factor {
   /// \throws NotPositiveDefinite if a part of the body can move without resistance
   void begin(const Unknowns& unknowns, Secants secants, const std::vector<double>& ground);
 
+  /// Returns whether there are subdomains of a body that resists; else begin() must make them.
+  bool can_solve() const { return solver_ != nullptr; }
   /// Returns whether K^-1 x is in the cache.
   bool holds(const SparseVector& x) const { return parts_of(x).has_value(); }
   /// Loads the columns of these vectors into the cache. Must precede a change of the secants: a

@@ -47,6 +47,9 @@ SubdomainSolver::SubdomainSolver(const Network& network, const Unknowns& unknown
       motion_(unknowns.number.size(), 0.0) {
   expect_nothing_embedded(unknowns);
   SubdomainStiffness stiffness = assemble_subdomain_stiffness(network, secants, unknowns, motions_);
+  if (ground != nullptr && !ground->empty()) {
+    add_springs(stiffness, unknowns, motions_, *ground);
+  }
   if (!stiffness.invert_blocks(unknowns.width)) {
     throw NotPositiveDefinite("the stiffness of a particle is not positive definite");
   }

@@ -73,6 +73,7 @@ void write_relaxation(TomlWriter& out, const CaseFile& input) {
   out.write("tolerance", *input.analysis.tolerance);
   out.write("iterations", input.analysis.iterations);
   out.write("rigid_body_modes", word_of(input.analysis.rigid_body_modes));
+  if (!input.output.checkpoint_every) return;
   out.header("[output]");
   out.write("checkpoint_every", input.output.checkpoint_every);
 }

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <type_traits>
 
 #include "io/case/case_keys.hpp"
 #include "io/case/case_overrides.hpp"
+#include "io/case/case_settings.hpp"
 #include "io/case/case_table.hpp"
 #include "io/case/sections/case_elements.hpp"
 #include "io/case/sections/case_kinds.hpp"
@@ -96,10 +98,15 @@ void read_kind(const Document& document, CaseFile& input) {
 }
 
 void refuse_studies(const TomlValue& root, const std::string& path) {
-  const TomlValue* vary = root.find("vary");
-  if (vary == nullptr) return;
-  throw InputError({path, vary->line, "vary"}, "belongs to a study, but this command needs a case",
-                   fmt::format("run the study by `perilink converge {}`", path));
+  for (const auto& [key, of, command] :
+       {std::array{"vary", "study", "converge"}, std::array{"values", "scan", "scan"},
+        std::array{"runs", "scan", "scan"}}) {
+    const TomlValue* found = root.find(key);
+    if (found == nullptr) continue;
+    throw InputError({path, found->line, key},
+                     fmt::format("belongs to a {}, but this command needs a case", of),
+                     fmt::format("run the {} by `perilink {} {}`", of, command, path));
+  }
 }
 
 }  // namespace
@@ -121,15 +128,22 @@ SourceLocation CaseFile::where(const std::string& key) const {
 }
 
 CaseFile parse_case(const std::string& text, const std::string& path) {
-  return parse_case(text, path, {});
+  return parse_case(text, path, {}, {});
 }
 
 CaseFile parse_case(const std::string& text, const std::string& path,
                     const std::vector<TomlValue>& body_keys) {
+  return parse_case(text, path, {}, body_keys);
+}
+
+CaseFile parse_case(const std::string& text, const std::string& path,
+                    const std::vector<CaseSetting>& settings,
+                    const std::vector<TomlValue>& body_keys) {
   refuse_large_input(text, path);
   TomlValue root = parse_toml(text, path);
-  override_body(root, body_keys);
   refuse_studies(root, path);
+  apply_settings(root, path, settings);
+  override_body(root, path, body_keys);
   check_against_schema(root, path, case_schema(), "case");
   const Document document(root, path);
 
@@ -175,10 +189,11 @@ CaseFile parse_case(const std::string& text, const std::string& path,
   return input;
 }
 
-CaseFile read_case_file(const std::string& path) { return read_case_file(path, {}); }
+CaseFile read_case_file(const std::string& path) { return read_case_file(path, {}, {}); }
 
-CaseFile read_case_file(const std::string& path, const std::vector<TomlValue>& body_keys) {
-  return parse_case(read_input_text(path), path, body_keys);
+CaseFile read_case_file(const std::string& path, const std::vector<CaseSetting>& settings,
+                        const std::vector<TomlValue>& body_keys) {
+  return parse_case(read_input_text(path), path, settings, body_keys);
 }
 
 }  // namespace perilink

@@ -40,9 +40,10 @@ std::set<std::string> check_region_names(const CaseFile& input) {
     }
     const auto [at, is_new] = first.emplace(name, i);
     if (is_new) continue;
+    const int line = input.where(item_key("regions", at->second, "name")).line;
     throw InputError(input.where(item_key("regions", i, "name")),
-                     fmt::format("is {}, the name of another region at line {}", quoted(name),
-                                 input.where(item_key("regions", at->second, "name")).line),
+                     fmt::format("is {}, the name of another region{}", quoted(name),
+                                 line > 0 ? fmt::format(" at line {}", line) : ""),
                      "give every region a different name");
   }
   std::set<std::string> names;

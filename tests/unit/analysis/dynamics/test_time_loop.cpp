@@ -22,6 +22,7 @@ struct LoopWatcher {
   bool stop_requested() { return stop_at >= 0 && now >= stop_at; }
 
   std::vector<Index> rows;
+  std::vector<LoopState> saved;
   int ends = 0;
   Index now = 0, stop_at = -1;
   Index throws_at = -1;
@@ -29,22 +30,25 @@ struct LoopWatcher {
 
 /// Thousand steps of one with ten rows, energies from `energy`.
 template <class Energy>
-ExplicitResult run_rows(LoopWatcher& watcher, Energy energy, int rows = 10) {
+ExplicitResult run_rows(LoopWatcher& watcher, Energy energy, int rows = 10,
+                        const LoopState* from = nullptr) {
   ExplicitOptions options;
   options.duration = 1000.0;
   options.ramp = 500.0;
   options.time_step = 1.0;
   options.rows = rows;
   ExplicitLoop loop(options, 2.0);
+  if (from != nullptr) loop.restore(*from);
   ExplicitRecord record;
-  return loop.run(1, [&](Index step) {
+  const auto one_step = [&](Index step) {
     // Beyond numbers at the end, as in motions that grow.
     loop.note_reaction(step <= 300 ? step : step > 900 ? NAN : 0.0, 0.5 * step);
     if (!loop.is_looked_at(step)) return;
     watcher.now = step;
     record.energy = energy(step);
     loop.look(step, record, watcher, Nothing{}, [](ExplicitRecord&) {});
-  });
+  };
+  return loop.run(1, one_step, [&] { watcher.saved.push_back(loop.state()); });
 }
 
 EnergyBalance balanced(Index step) {
@@ -144,6 +148,24 @@ TEST(ExplicitLoop, RefusesStepsThatAreNotStable) {
   EXPECT_THROW(ExplicitLoop(options, 1.0), std::invalid_argument);
   options.refuse_unstable = false;
   EXPECT_EQ(ExplicitLoop(options, 1.0).time_step(), 1.01);
+}
+
+TEST(ExplicitLoop, GoesOnAfterEveryRowButTheLast) {
+  LoopWatcher whole;
+  const ExplicitResult result = run_rows(whole, balanced);
+  ASSERT_EQ(whole.saved.size(), 10U);
+  EXPECT_EQ(whole.saved[3].step, 302) << "after the round of the row of step 300";
+  LoopWatcher later;
+  const ExplicitResult resumed = run_rows(later, balanced, 10, &whole.saved[3]);
+  EXPECT_EQ(later.rows, (std::vector<Index>{400, 500, 600, 700, 800, 900, 1000}));
+  EXPECT_EQ(resumed.peak_load, result.peak_load);
+  EXPECT_EQ(resumed.last, result.last);
+  LoopState other = whole.saved[3];
+  other.result.time_step = 0.5;
+  EXPECT_THROW(run_rows(later, balanced, 10, &other), std::invalid_argument);
+  other = whole.saved[3];
+  other.step = 1002;
+  EXPECT_THROW(run_rows(later, balanced, 10, &other), std::invalid_argument);
 }
 
 }  // namespace

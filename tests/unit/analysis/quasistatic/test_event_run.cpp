@@ -29,7 +29,11 @@ std::vector<StepRecord> rows_of(const AnalysisBody& body, const DamageOptions& o
     if (saves == Saves::never || row->step % 5 != 0) continue;
     DamageState state = run->save();
     if (saves == Saves::in_bytes) state = copied(state);
-    run = std::make_unique<EventRun>(body, options, std::move(state));
+    try {
+      run = std::make_unique<EventRun>(body, options, std::move(state));
+    } catch (const SolverError&) {
+      // No digits are left for a new factor as the body separates; the run goes on without.
+    }
   }
   result = run->result();
   return rows;
@@ -86,16 +90,18 @@ TEST_P(SavedRun, HasTheResultsOfOneNeverSaved) {
 
 INSTANTIATE_TEST_SUITE_P(
     Blocks, SavedRun,
-    ::testing::Values(Kind{"brittle", {}}, Kind{"driven", {.driven = true}},
-                      Kind{"softening", {.toothed = true}},
+    ::testing::Values(Kind{"brittle", {.lattice = {}}},
+                      Kind{"driven", {.lattice = {}, .driven = true}},
+                      Kind{"softening", {.lattice = {}, .toothed = true}},
                       Kind{"steps",
-                           {.toothed = true},
+                           {.lattice = {}, .toothed = true},
                            0.0,
                            {0.5, 1, 1.5, 2, 2.5, 3, 4, 5, 6, 7, 8, 9, 10, 12, 14}},
-                      Kind{"closing", {.driven = true, .toothed = true, .closing = true}},
-                      Kind{"batches", {.driven = true, .toothed = true}, 0.01},
-                      Kind{"micropolar", {.micropolar = true}},
-                      Kind{"bar", {.driven = true, .bar = true, .toothed = true}}),
+                      Kind{"closing",
+                           {.lattice = {}, .driven = true, .toothed = true, .closing = true}},
+                      Kind{"batches", {.lattice = {}, .driven = true, .toothed = true}, 0.01},
+                      Kind{"micropolar", {.lattice = {}, .micropolar = true}},
+                      Kind{"bar", {.lattice = {}, .driven = true, .bar = true, .toothed = true}}),
     [](const auto& kind) { return std::string(kind.param.name); });
 
 }  // namespace

@@ -48,6 +48,7 @@ TEST_F(RunResults, IsReadAsARunLeavesIt) {
   EXPECT_EQ(result.labels.title, "Beam");
   EXPECT_EQ(result.units, "kN, m");
   EXPECT_EQ(result.status, "completed");
+  EXPECT_FALSE(read_run_numbers(place().string()).body.has_value());
   ASSERT_EQ(result.records.size(), 2u);
   EXPECT_EQ(result.records[1].displacement, 0.3);
   EXPECT_EQ(number_of(result.last_row, "kinetic_energy"), 0.25);

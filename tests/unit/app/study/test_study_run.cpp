@@ -63,7 +63,7 @@ class StudyRun : public testing::Test {
   }
   Model model(double spacing) const {
     return build_model(
-        read_case_file((directory_ / "strip.toml").string(),
+        read_case_file((directory_ / "strip.toml").string(), {},
                        {body_key("horizon_ratio", 2.0), body_key("spacing", spacing)}));
   }
   test::TemporaryDirectory directory_;

@@ -46,5 +46,10 @@ TEST(InputText, IsTrimmedAtBothEnds) {
   EXPECT_EQ(trimmed(" \n"), "");
 }
 
+TEST(InputText, PathsAreThoseOfTheFolderOfAFile) {
+  EXPECT_EQ(beside("a/b.toml", "../c.toml"), "c.toml");
+  EXPECT_EQ(beside("b.toml", "c/d.toml"), "c/d.toml");
+}
+
 }  // namespace
 }  // namespace perilink

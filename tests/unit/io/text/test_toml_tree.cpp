@@ -54,6 +54,13 @@ TEST(TomlTree, DescribesValues) {
   }
 }
 
+TEST(TomlTree, WritesValuesThatReadBack) {
+  for (const char* text : {"1", "1.0", "-2.5e-09", "true", "[]", "[1, [\"a\"]]", "nan", "inf",
+                           "\"a \\\"b\\\" \\\\ \\u000a\"", "{\"b c\" = {\"d\" = [2.0]}}"}) {
+    EXPECT_EQ(toml_text(parse_toml(std::string("a = ") + text, "").entries.at(0)), text);
+  }
+}
+
 TEST(TomlTree, QuotesAnyTextOnOneShortLine) {
   EXPECT_EQ(quoted("a\nb"), "\"a\\x0ab\"");
   EXPECT_EQ(quoted("\u00fc"), "\"\u00fc\"");

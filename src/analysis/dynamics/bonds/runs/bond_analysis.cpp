@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <span>
+#include <stdexcept>
 #include <utility>
 
 #include "analysis/dynamics/bonds/bond_forces.hpp"
@@ -37,9 +38,17 @@ class BondRun {
     }
   }
 
+  /// Continues from a saved state.
+  void restore(const TimeState& from) {
+    loop_.restore(from.loop);
+    record_ = from.record;
+    body_.restore(from.bonds);
+  }
+
   ExplicitResult run() {
     const int threads = shares_.own() ? 1 : body_.blocks.threads(options_.threads);
-    loop_.run(threads, [this](Index step) { one_step(step); });
+    loop_.run(
+        threads, [this](Index step) { one_step(step); }, [this] { offer_checkpoint(); });
     if (shares_.leading) look_back();
     if (shares_.following) shares_.following->report(body_);
     return loop_.result();
@@ -79,6 +88,15 @@ class BondRun {
       // No barrier: its data are next used after the next barrier.
 #pragma omp single nowait
     note_reactions(step);
+  }
+
+  void offer_checkpoint() {
+    if (shares_.own() || !observer_.wants_checkpoint(loop_.result().last)) return;
+    TimeState state;
+    state.loop = loop_.state();
+    state.record = record_;
+    body_.save(state.bonds);
+    observer_.on_checkpoint(state);
   }
 
   void measure(Index block) {
@@ -220,13 +238,18 @@ ExplicitResult run_with_ranks(const LoadedNetwork& problem, const Inertia& inert
 
 ExplicitResult run_explicit_bonds(const LoadedNetwork& problem, const Inertia& inertia,
                                   const BondRunRules& rules, const ExplicitOptions& options,
-                                  BondRunObserver& observer) {
+                                  BondRunObserver& observer, const TimeState* from) {
   expect_nothing_embedded(problem.unknowns);
   if (can_be_shared(problem, options.ranks)) {
+    if (from != nullptr) {
+      throw std::invalid_argument("several processes cannot continue a saved run");
+    }
     return run_with_ranks(problem, inertia, rules, options, observer);
   }
   auto bonds = make_bonds(problem.network, rules, stencil_for(problem.network, rules.strain));
-  return BondRun(problem, inertia, std::move(bonds), rules, options, observer).run();
+  BondRun run(problem, inertia, std::move(bonds), rules, options, observer);
+  if (from != nullptr) run.restore(*from);
+  return run.run();
 }
 
 void move_bonds_along(Ranks& ranks, Parcel& order) {

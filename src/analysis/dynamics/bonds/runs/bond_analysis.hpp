@@ -39,13 +39,16 @@ struct BondRunRules {
 /// small as the stretches (docs/theory/explicit_bonds.md, section 5).
 /// \param options  `reference` is not used. Ranks share the work where each has at least one block
 ///                 of particles; every sum is the same as on one process
+/// \param from     state in which a run of this problem, these rules and options was saved; null:
+///                 the run starts at rest. Runs that ranks share have no saved states
 /// \throws std::invalid_argument where the time step exceeds the critical one (unless
-///     refuse_unstable is off) or the duration is not positive
+///     refuse_unstable is off), the duration is not positive, `from` is of another body or run, or
+///     ranks would share a run with `from`
 /// \returns termination = failed where energy grows without external work; peak_displacement is
 ///          zero in runs under loads
 ExplicitResult run_explicit_bonds(const LoadedNetwork& problem, const Inertia& inertia,
                                   const BondRunRules& rules, const ExplicitOptions& options,
-                                  BondRunObserver& observer);
+                                  BondRunObserver& observer, const TimeState* from = nullptr);
 
 /// Runs the part of a worker in a shared run.
 void move_bonds_along(Ranks& ranks, Parcel& order);

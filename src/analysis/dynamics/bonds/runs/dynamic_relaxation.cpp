@@ -7,6 +7,7 @@
 #include <exception>
 #include <limits>
 #include <memory>
+#include <stdexcept>
 #include <utility>
 
 #include "analysis/dynamics/bonds/bond_forces.hpp"
@@ -44,8 +45,33 @@ class Relaxation {
     }
   }
 
+  /// Continues from a saved state.
+  void restore(const TimeState& from) {
+    const RelaxationState& saved = from.relaxation;
+    const std::vector<double>& factors = options_.load_factors;
+    if (saved.load_step == 0 || saved.load_step >= factors.size() ||
+        saved.load_factor != factors[saved.load_step - 1]) {
+      throw std::invalid_argument(
+          fmt::format("the saved state is that of another run: its load step {} has the load "
+                      "factor {}",
+                      saved.load_step, saved.load_factor));
+    }
+    body_.restore(from.bonds);
+    record_ = from.record;
+    step_ = saved.load_step;
+    factor_ = saved.load_factor;
+    fractured_ = saved.fractured;
+    largest_residual_ = saved.largest_residual;
+    largest_error_ = saved.largest_error;
+    square_ = saved.square;
+    most_held_ = saved.most_held;
+    separation_.restore(saved.examined, saved.is_unstrained);
+    result_.iterations = saved.iterations;
+    result_.peak_load = saved.peak_load;
+  }
+
   RelaxationResult run() {
-    for (step_ = 0; step_ < options_.load_factors.size() && !next_.done; ++step_) {
+    for (; step_ < options_.load_factors.size() && !next_.done; ++step_) {
       start(options_.load_factors[step_]);
       while (!next_.at_rest && !next_.done) {
         threads_.run([&](int threads) { iterate_round(threads); });
@@ -247,9 +273,29 @@ class Relaxation {
         return collapse("the body is in pieces and no longer resists the displacements");
       }
       if (step_ + 1 == options_.load_factors.size()) return note_end();
+      offer_checkpoint();
       // Load steps may be in equilibrium from the beginning.
       if (observer_.stop_requested()) end(Termination::interrupted, "interrupted");
     });
+  }
+
+  void offer_checkpoint() {
+    if (!observer_.wants_checkpoint(record_)) return;
+    TimeState state;
+    state.record = record_;
+    body_.save(state.bonds);
+    state.relaxation = {step_ + 1,
+                        result_.iterations,
+                        factor_,
+                        result_.peak_load,
+                        fractured_,
+                        largest_residual_,
+                        largest_error_,
+                        square_,
+                        most_held_,
+                        separation_.examined(),
+                        separation_.is_unstrained()};
+    observer_.on_checkpoint(state);
   }
 
   void note_row() {
@@ -317,13 +363,14 @@ Inertia fictitious_inertia(const Network& network, Strain strain) {
 }
 
 RelaxationResult run_dynamic_relaxation(const LoadedNetwork& problem,
-                                        const RelaxationOptions& options,
-                                        BondRunObserver& observer) {
+                                        const RelaxationOptions& options, BondRunObserver& observer,
+                                        const TimeState* from) {
   expect_nothing_embedded(problem.unknowns);
   const Inertia inertia = fictitious_inertia(problem.network, options.strain);
-  return Relaxation(problem, inertia, make_explicit_bonds(problem.network, options.strain), options,
-                    observer)
-      .run();
+  Relaxation relaxation(problem, inertia, make_explicit_bonds(problem.network, options.strain),
+                        options, observer);
+  if (from != nullptr) relaxation.restore(*from);
+  return relaxation.run();
 }
 
 }  // namespace perilink

@@ -57,10 +57,13 @@ Inertia fictitious_inertia(const Network& network, Strain strain);
 /// The run ends as collapsed where the loads pull broken-off pieces apart. It also does where
 /// prescribed displacements strain no piece any more; the last row then shows the body without
 /// resistance.
+/// \param from  state in which a run of this problem and these options was saved after a load step;
+///              null: the run starts with the first load step
+/// \throws std::invalid_argument where `from` is of another body or other load steps
 /// \returns termination = failed where a load step needs too many iterations or the motion grows
 ///          without bound; interrupted where the observer asked for it
 RelaxationResult run_dynamic_relaxation(const LoadedNetwork& problem,
-                                        const RelaxationOptions& options,
-                                        BondRunObserver& observer);
+                                        const RelaxationOptions& options, BondRunObserver& observer,
+                                        const TimeState* from = nullptr);
 
 }  // namespace perilink

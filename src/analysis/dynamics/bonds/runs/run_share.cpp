@@ -28,8 +28,14 @@ class LeadingBonds final : public ExplicitBonds {
     share_.collect_secants(secants);
     return secants;
   }
+  void save(MovingElements& /*state*/) const override { refuse(); }
+  void restore(const MovingElements& /*state*/) override { refuse(); }
 
  private:
+  [[noreturn]] static void refuse() {
+    throw std::logic_error("runs shared by several processes have no saved states");
+  }
+
   std::unique_ptr<ExplicitBonds> own_;
   LeadingShare& share_;
 };

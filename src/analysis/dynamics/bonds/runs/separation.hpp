@@ -24,6 +24,13 @@ class Separation {
   std::string examine(Secants secants, double fractured, bool is_loaded);
   /// Returns whether prescribed displacements strained the body and now strain no piece of it.
   bool is_unstrained() const { return is_unstrained_; }
+  /// Returns `fractured` of the last examination [force length]; negative: there was none.
+  double examined() const { return examined_; }
+  /// Continues after the last examination of a saved run.
+  void restore(double examined, bool is_unstrained) {
+    examined_ = examined;
+    is_unstrained_ = is_unstrained;
+  }
 
  private:
   /// Returns the sum of the magnitudes of the forces on a piece [force].

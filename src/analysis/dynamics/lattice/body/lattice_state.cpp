@@ -56,7 +56,8 @@ StepNumbers make_step_numbers(const ExplicitModel& model, RowPlaces places) {
 }
 
 ExplicitState::ExplicitState(const ExplicitModel& model)
-    : now(make_step_numbers(model, lattice_places(model.lattice))), flow(make_flow(model)) {
+    : now(make_step_numbers(model, lattice_places(model.lattice))) {
+  flow = make_flow(model);
   const LatticeRows& lattice = model.lattice;
   const auto slots = static_cast<std::size_t>(lattice.slots);
   const std::size_t own = lattice.bonds.size(), dim = lattice.dim, rows = lattice.rows.size();

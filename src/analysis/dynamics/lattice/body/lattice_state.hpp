@@ -26,6 +26,12 @@ struct RowSums {
   double external_damping = 0.0;
   double fractured = 0.0;  ///< stored energy lost by damage at fixed displacements
   double plastic = 0.0;    ///< stored energy lost by flow at fixed displacements
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(stored, kinetic, cracked, yielded, external_work, internal_damping, external_damping,
+            fractured, plastic);
+  }
 };
 
 /// Force on the prescribed particles of a row in one step.
@@ -63,6 +69,12 @@ struct LatticeFlow {
   std::vector<double> strain;
   std::vector<double> equivalent;     ///< plastic strain of particles; consistent rules
   std::vector<std::uint8_t> crushed;  ///< particles that also carry no compression
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(stretch, mean, half, sum, change, locked, yield, look_at, normal, strain, equivalent,
+            crushed);
+  }
 };
 
 /// Values that every step computes anew from the displacements. Shapes have the slots of `places`.
@@ -85,14 +97,39 @@ struct StepNumbers {
 };
 StepNumbers make_step_numbers(const ExplicitModel& model, RowPlaces places);
 
-/// State of an explicit lattice run: displacements at step n, velocities half a step earlier.
-struct ExplicitState {
+/// State of an explicit lattice run between two steps that set-up cannot rebuild; plain data.
+struct LatticeState {
+  Index step = 0;                    ///< present step
+  std::vector<double> displacement;  ///< at step n [length], shape (dim, slots)
+  std::vector<double> velocity;      ///< half a step earlier [length/time], shape (dim, slots)
+  std::vector<double> rate;          ///< velocity of the ends along the bond, (own bonds, slots)
+  std::vector<double> drag;          ///< damping force of own bonds of weakened rows [force]
+  std::vector<double> damage;        ///< tensile, of particles
+  std::vector<Index> cracked_in;     ///< step in which damage of a particle began
+  std::vector<double> crack_band;    ///< width [length]; zero without a crack
+  std::vector<double> crack_at;      ///< first principal stress at which a particle is checked
+  std::vector<double>
+      quiet_until;  ///< path of the row up to which a crack cannot begin at a particle
+  LatticeFlow flow;
+  std::vector<RowSums> sums;    ///< per row
+  std::vector<double> holding;  ///< force on prescribed components in the last step, zero
+                                ///< elsewhere, shape (dim, slots) [force]
+  std::vector<double> slack;    ///< per row: change of stretches up to which no particle changes
+  std::vector<double> path;     ///< per row: sum of all changes of stretches near it
+  std::vector<std::uint8_t> bond_changes;  ///< per row, see BondChanges
+  std::vector<std::uint8_t> row_changes;   ///< per row, see RowChanges
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(step, displacement, velocity, rate, drag, damage, cracked_in, crack_band, crack_at,
+            quiet_until, flow, sums, holding, slack, path, bond_changes, row_changes);
+  }
+};
+
+/// State of an explicit lattice run with values that follow from LatticeState.
+struct ExplicitState : LatticeState {
   explicit ExplicitState(const ExplicitModel& model);
 
-  std::vector<double> displacement;    ///< [length], shape (dim, slots)
-  std::vector<double> velocity;        ///< [length/time], shape (dim, slots)
-  std::vector<double> rate;            ///< velocity of the ends along the bond, (own bonds, slots)
-  std::vector<double> drag;            ///< damping force of own bonds of weakened rows [force]
   StepNumbers now;                     ///< complete when observers are called
   std::vector<double> in_tension;      ///< factor of own bonds that stretch, (own bonds, slots)
   std::vector<double> in_compression;  ///< factor of own bonds that shorten
@@ -106,24 +143,9 @@ struct ExplicitState {
   std::vector<double> share_tension;
   /// stretch of the owner's half of a shortened own bond over the stretch of the bond
   std::vector<double> share_compression;
-  std::vector<double> damage;       ///< tensile, of particles
   std::vector<double> next_damage;  ///< at the end of the step
-  Index step = 0;                   ///< present step
-  std::vector<Index> cracked_in;    ///< step in which damage of a particle began
-  std::vector<double> crack_band;   ///< width [length]; zero without a crack
-  std::vector<double> crack_at;     ///< first principal stress at which a particle is checked
-  std::vector<double>
-      quiet_until;  ///< path of the row up to which a crack cannot begin at a particle
-  LatticeFlow flow;
-  std::vector<RowSums> sums;  ///< per row
   std::vector<RowReactions> reactions;
-  std::vector<double> holding;  ///< force on prescribed components in the last step, zero
-                                ///< elsewhere, shape (dim, slots) [force]
   std::vector<double> fastest;  ///< per row: largest change of an elastic stretch in a step
-  std::vector<double> slack;    ///< per row: change of stretches up to which no particle changes
-  std::vector<double> path;     ///< per row: sum of all changes of stretches near it
-  std::vector<std::uint8_t> bond_changes;  ///< per row, see BondChanges
-  std::vector<std::uint8_t> row_changes;   ///< per row, see RowChanges
   std::vector<std::uint8_t> near_changes;  ///< damage or flow in the row or next to it
 };
 

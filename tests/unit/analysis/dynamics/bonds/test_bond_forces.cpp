@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <stdexcept>
 
+#include "analysis/dynamics/time_state.hpp"
 #include "assembly/internal_force.hpp"
 #include "support/analysis_bodies.hpp"
 
@@ -193,6 +195,36 @@ TEST(ExplicitBonds, BondsWithMomentsHaveSmallStrainsOnly) {
   const AnalysisBody body =
       make_block({{"plane", Pattern::rectangular, Surface::none}, false, false, 6, 0.1, true});
   EXPECT_THROW(make_explicit_bonds(body.network, Strain::green), std::invalid_argument);
+}
+
+/// After a motion in which some bonds change their segment repeatedly and others break.
+TEST(ExplicitBonds, RestoredOnesPullAsTheSavedOnes) {
+  for (const bool micropolar : {false, true}) {
+    AnalysisBody body = make_block({.lattice = {"plane", Pattern::rectangular, Surface::none},
+                                    .micropolar = micropolar,
+                                    .toothed = true});
+    const double size = body.network.critical_stretch[0] * body.network.bonds.lengths[0];
+    const auto bonds = make_explicit_halves(body.network);
+    for (const double part : {0.4, 0.6, 0.9}) {
+      all_forces(body, *bonds, motion_of_body(body, part * size, 3), 0.1);
+    }
+    MovingElements state;
+    bonds->save(state);
+    ASSERT_GT(state.changed.size(), 20U);
+    const auto restored = make_explicit_halves(body.network);
+    restored->restore(state);
+    EXPECT_EQ(restored->secants(), bonds->secants());
+    for (const double part : {0.5, 2.0}) {
+      const BondMotion motion = motion_of_body(body, part * size, 4);
+      const Forces expected = all_forces(body, *bonds, motion, 0.1);
+      const Forces found = all_forces(body, *restored, motion, 0.1);
+      EXPECT_EQ(found.force, expected.force);
+      EXPECT_EQ(found.losses.fractured, expected.losses.fractured);
+      EXPECT_EQ(found.losses.broken, expected.losses.broken);
+    }
+    const auto small = make_explicit_halves(make_chains(1, 2, true, 1.0, 1.0).network);
+    EXPECT_THROW(small->restore(state), std::invalid_argument);
+  }
 }
 
 }  // namespace

@@ -42,5 +42,12 @@ TEST(BreakOrder, TellsWhatIsNew) {
   EXPECT_THAT(order.take_latest(), IsEmpty());
 }
 
+TEST(BreakOrder, GoesOnAfterSavedBreaks) {
+  BreakOrder order(2);
+  order.restore({7, 3});
+  order.add(1, 9, std::vector<Index>{5, 3, 1});
+  EXPECT_THAT(order.so_far(), ElementsAre(7, 3, 1, 5));
+}
+
 }  // namespace
 }  // namespace perilink

@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <random>
+#include <stdexcept>
 
 #include "analysis/dynamics/bonds/bond_forces.hpp"
+#include "analysis/dynamics/time_state.hpp"
 #include "assembly/internal_force.hpp"
 #include "support/analysis_bodies.hpp"
 
@@ -88,6 +90,25 @@ TEST(EmbeddedSlipSprings, FallFromToothToToothTogether) {
   }
   EXPECT_NEAR(losses.fractured, whole.energy - expected.energy, 1e-11 * whole.energy);
   EXPECT_TRUE(losses.broken.empty());
+}
+
+TEST(EmbeddedSlipSprings, RestoredOnesPullAsTheSavedOnes) {
+  const Network network = barred({{{1e-4, 0.3}, {1e-3, 0.4}}});
+  const auto bonds = make_explicit_bonds(network), restored = make_explicit_bonds(network);
+  const Index count = network.particles.size();
+  const BondMotion falling = motion_of(network, 0.003, 0.0), motion = motion_of(network, 0.01, 0.0);
+  std::vector<double> expected(falling.displacement.size(), 0.0), found = expected;
+  bonds->forces(0, count, 0.1, falling, expected);
+  MovingElements state;
+  bonds->save(state);
+  restored->restore(state);
+  EXPECT_NE(bonds->secants(), intact(network));
+  EXPECT_EQ(restored->secants(), bonds->secants());
+  const double lost = bonds->forces(0, count, 0.1, motion, expected).fractured;
+  EXPECT_EQ(restored->forces(0, count, 0.1, motion, found).fractured, lost);
+  EXPECT_EQ(found, expected);
+  state.slip_segment.pop_back();
+  EXPECT_THROW(restored->restore(state), std::invalid_argument);
 }
 
 }  // namespace

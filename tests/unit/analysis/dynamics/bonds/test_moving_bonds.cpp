@@ -100,5 +100,23 @@ TEST(MovingBonds, LoadsWorkOverTheDisplacementOfTheLoaded) {
   EXPECT_EQ(record.displacement, 0.125);
 }
 
+TEST(MovingBonds, GoOnFromASavedState) {
+  Chain chain(true, 0.2);
+  chain.stretch(0.25);
+  chain.body.find_forces(0, 7);
+  chain.body.sums[0].work = {3.0, 2.0};
+  BondsState state;
+  chain.body.save(state);
+  Chain other(true, 0.2);
+  other.body.restore(state);
+  EXPECT_EQ(other.body.motion.displacement, chain.body.motion.displacement);
+  EXPECT_EQ(other.body.state().broken, chain.body.state().broken);
+  EXPECT_EQ(other.body.total().fractured, chain.body.total().fractured);
+  EXPECT_EQ(other.body.total().work.external, 3.0);
+  EXPECT_EQ(other.body.total().work.damping, 2.0);
+  state.displacement.pop_back();
+  EXPECT_THROW(Chain(true, 0.2).body.restore(state), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace perilink

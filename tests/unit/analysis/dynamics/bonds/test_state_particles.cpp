@@ -11,6 +11,7 @@
 
 #include "analysis/dynamics/bonds/bond_forces.hpp"
 #include "analysis/dynamics/inertia.hpp"
+#include "analysis/dynamics/time_state.hpp"
 #include "assembly/internal_force.hpp"
 #include "assembly/stiffness.hpp"
 #include "support/particle_clouds.hpp"
@@ -254,6 +255,29 @@ TEST_P(ExplicitParticles, DamageNeverHeals) {
     bonds->finish_step();
     EXPECT_EQ(bonds->damage(), most);
   }
+}
+
+/// Between the steps damage has grown that the factors of the bonds do not yet have.
+TEST_P(ExplicitParticles, RestoredOnesPullAsTheSavedOnes) {
+  const auto bonds = make(true), restored = make(true);
+  for (const double stretching : {3.0, 5.0}) {
+    step(*bonds, stressed(stretching * strength, 0.0));
+    bonds->finish_step();
+  }
+  MovingElements state;
+  bonds->save(state);
+  ASSERT_NE(state.damage, state.last_damage);
+  restored->restore(state);
+  EXPECT_EQ(restored->secants(), bonds->secants());
+  const BondMotion motion = stressed(7.0 * strength, 0.0);
+  std::vector<double> expected(motion.displacement.size()), found = expected;
+  const double lost = bonds->prepare(0, size_, dt, motion).fractured;
+  EXPECT_GT(lost, 0.0);
+  EXPECT_EQ(restored->prepare(0, size_, dt, motion).fractured, lost);
+  bonds->forces(0, size_, dt, motion, expected);
+  restored->forces(0, size_, dt, motion, found);
+  EXPECT_EQ(found, expected);
+  EXPECT_THROW(make(false)->restore(state), std::invalid_argument) << "which cannot crack";
 }
 
 /// The bound of the frequency is one: the largest eigenvalue of K over M is below it.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "analysis/dynamics/lattice/rows/row_kernels.hpp"
+#include "analysis/dynamics/time_state.hpp"
 #include "support/lattice_models.hpp"
 #include "support/lattice_operator.hpp"
 
@@ -344,6 +345,23 @@ TEST(ExplicitAnalysis, NoticesMotionThatGrowsOutOfNothing) {
       EXPECT_NE(result.reason.find("too large"), std::string::npos) << result.reason;
     }
   }
+}
+
+TEST(ExplicitAnalysis, RefusesStatesOfOtherBodies) {
+  const ExplicitModel model = plane_model(rectangle(0.05, 0.05, 0.01, 0.0), elastic_concrete());
+  const ExplicitOptions options = short_run(model, 10);
+  RowRecorder recorder;
+  ExplicitState state(model);
+  TimeState from;
+  from.loop.result.time_step = options.time_step;
+  EXPECT_THROW(run_explicit_analysis(model, state, options, recorder, &from),
+               std::invalid_argument);
+  from.lattice = state;
+  EXPECT_EQ(run_explicit_analysis(model, state, options, recorder, &from).termination,
+            Termination::completed);
+  from.loop.result.time_step *= 0.5;
+  EXPECT_THROW(run_explicit_analysis(model, state, options, recorder, &from),
+               std::invalid_argument);
 }
 
 }  // namespace

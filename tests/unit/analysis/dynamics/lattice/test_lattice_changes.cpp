@@ -152,5 +152,29 @@ TEST(LatticeChanges, SidesOfAPressedColumnDoNotSplit) {
   EXPECT_EQ(*std::max_element(state.damage.begin(), state.damage.end()), 0.0);
 }
 
+/// Factors follow from damage alone.
+TEST(LatticeChanges, RebuildFactorsOfASavedState) {
+  const ExplicitModel model = plane_model(rectangle(0.08, 0.08, 0.01, 11.0), changing_concrete());
+  const LatticeRows& lattice = model.lattice;
+  const LatticeChanges changes(model);
+  ExplicitState state(model), restored(model);
+  for (const Index slot : lattice.particle_slot) {
+    const double y = lattice.positions[lattice.at(1, slot)];
+    state.displacement[lattice.at(1, slot)] = 1e-2 * y * y;
+  }
+  evaluate(model, state);
+  change(model, changes, state);
+  static_cast<LatticeState&>(restored) = state;
+  changes.rebuild(restored);
+  EXPECT_GT(*std::max_element(state.damage.begin(), state.damage.end()), 0.0);
+  EXPECT_EQ(restored.in_tension, state.in_tension);
+  EXPECT_EQ(restored.in_compression, state.in_compression);
+  EXPECT_EQ(restored.root_tension, state.root_tension);
+  EXPECT_EQ(restored.root_compression, state.root_compression);
+  EXPECT_EQ(restored.share_tension, state.share_tension);
+  EXPECT_EQ(restored.share_compression, state.share_compression);
+  EXPECT_EQ(restored.next_damage, state.next_damage);
+}
+
 }  // namespace
 }  // namespace perilink

@@ -205,5 +205,24 @@ TEST(DynamicRelaxation, ObserversStopItAndTheirExceptionsPass) {
   EXPECT_EQ(full.ends, 0);
 }
 
+TEST(DynamicRelaxation, StatesOfOtherLoadStepsAreRefused) {
+  const AnalysisBody body = make_chains(6, 2, true, 10.0, INFINITY);
+  RelaxationOptions options;
+  options.load_factors = {0.5, 1.0};
+  TimeState state;
+  StepRecorder nobody;
+  EXPECT_THROW(run_dynamic_relaxation(body, options, nobody, &state), std::invalid_argument)
+      << "an empty state";
+  state.relaxation.load_step = 1;
+  state.relaxation.load_factor = 0.4;
+  EXPECT_THROW(run_dynamic_relaxation(body, options, nobody, &state), std::invalid_argument);
+  state.relaxation.load_factor = 0.5;
+  EXPECT_THROW(run_dynamic_relaxation(body, options, nobody, &state), std::invalid_argument)
+      << "without a body";
+  state.relaxation.load_step = 2;
+  EXPECT_THROW(run_dynamic_relaxation(body, options, nobody, &state), std::invalid_argument)
+      << "after the last load step";
+}
+
 }  // namespace
 }  // namespace perilink

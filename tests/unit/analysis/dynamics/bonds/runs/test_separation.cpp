@@ -72,5 +72,14 @@ TEST(Separation, DrivenPiecesResistNothing) {
   EXPECT_TRUE(sprung.is_unstrained());
 }
 
+TEST(Separation, GoesOnAfterTheLastExamination) {
+  Chains chains(true);
+  Separation separation(chains.body);
+  separation.restore(0.5, true);
+  EXPECT_EQ(separation.examined(), 0.5);
+  EXPECT_FALSE(separation.is_due(0.5));
+  EXPECT_TRUE(separation.is_unstrained());
+}
+
 }  // namespace
 }  // namespace perilink

@@ -1,0 +1,103 @@
+#include "app/report/report_units.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "io/text/input_text.hpp"
+
+namespace perilink {
+namespace {
+
+/// Ends of names and what their units are made of: force F, length L, time T. The first that fits
+/// counts.
+using Ending = std::pair<std::string_view, std::string_view>;
+constexpr auto endings = std::to_array<Ending>({
+    {"strain_energy_density", "F/L²"},
+    {"fracture_energy", "F/L"},
+    {"crushing_energy", "F/L"},
+    {"_energy", "F L"},
+    {"external_work", "F L"},
+    {"youngs_modulus", "F/L²"},
+    {"hardening_modulus", "F/L²"},
+    {"strength", "F/L²"},
+    {"stress", "F/L²"},
+    {"traction", "F/L²"},
+    {"pressure", "F/L²"},
+    {"largest_compression", "F/L²"},
+    {"initial_stiffness", "F/L"},
+    {"bond_stiffness", "F/L³"},
+    {"body_force", "F/L³"},
+    {"moment", "F L"},
+    {"force", "F"},
+    {"load_factor", ""},
+    {"load", "F"},
+    {"reaction", "F"},
+    {"displacement", "L"},
+    {"displacement_error", ""},
+    {"opening", "L"},
+    {"slip", "L"},
+    {"distance", "L"},
+    {"spacing", "L"},
+    {"horizon", "L"},
+    {"thickness", "L"},
+    {"radius", "L"},
+    {"perimeter", "L"},
+    {"cover", "L"},
+    {"size", "L"},
+    {"offset", "L"},
+    {"points", "L"},
+    {"corners", "L"},
+    {"between", "L"},
+    {"from", "L"},
+    {"to", "L"},
+    {"widest_at", "L"},
+    {"buffer_zone", "L"},
+    {"area", "L²"},
+    {"volume", "L³"},
+    {"velocity", "L/T"},
+    {"duration", "T"},
+    {"ramp_time", "T"},
+    {"time_step", "T"},
+    {"fundamental_period", "T"},
+    {"fields_times", "T"},
+    {"time", "T"},
+});
+
+}  // namespace
+
+UnitNames UnitNames::of(const std::string& units) {
+  UnitNames names;
+  std::size_t begin = 0;
+  for (std::string* part : {&names.force, &names.length, &names.time}) {
+    if (begin > units.size()) break;
+    const std::size_t end = std::min(units.find(',', begin), units.size());
+    *part = trimmed(std::string_view(units).substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return names;
+}
+
+std::string unit_of_quantity(std::string_view name, const UnitNames& units) {
+  const auto found = std::ranges::find_if(
+      endings, [&](const auto& ending) { return name.ends_with(ending.first); });
+  if (found == endings.end()) return "";
+  std::string unit;
+  for (const char letter : found->second) {
+    const std::string* part = letter == 'F'   ? &units.force
+                              : letter == 'L' ? &units.length
+                              : letter == 'T' ? &units.time
+                                              : nullptr;
+    if (part != nullptr && part->empty()) return "";
+    unit += part != nullptr ? *part : std::string(1, letter);
+  }
+  return unit;
+}
+
+std::string in_words(std::string_view name) {
+  std::string words(name);
+  std::ranges::replace(words, '_', ' ');
+  return words;
+}
+
+}  // namespace perilink

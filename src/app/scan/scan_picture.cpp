@@ -1,0 +1,106 @@
+#include "app/scan/scan_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "app/plot/plot_axes.hpp"
+#include "app/plot/plot_lines.hpp"
+#include "base/types.hpp"
+
+namespace perilink {
+namespace {
+
+constexpr double scan_left = 92.0, scan_right = 640.0;
+constexpr double scan_top = 62.0, scan_height = 560.0;
+
+/// Returns the first key that has several numbers and nothing else; empty: none.
+std::string varied_number(const ScanFile& scan) {
+  for (const std::string& key : scan.keys) {
+    std::set<double> numbers;
+    const bool only_numbers =
+        std::all_of(scan.members.begin(), scan.members.end(), [&](const ScanMember& member) {
+          const TomlValue* value = member.find(key);
+          if (value == nullptr) return false;
+          numbers.insert(value->number);
+          return value->kind == TomlValue::Kind::number || value->kind == TomlValue::Kind::integer;
+        });
+    if (only_numbers && numbers.size() > 1) return key;
+  }
+  return "";
+}
+
+/// Returns the line of a name, which is added where it is new.
+ScanPlot::Line& line_of(ScanPlot& plot, const std::string& name) {
+  const auto found = std::find_if(plot.lines.begin(), plot.lines.end(),
+                                  [&](const ScanPlot::Line& line) { return line.name == name; });
+  return found != plot.lines.end() ? *found : plot.lines.emplace_back(ScanPlot::Line{name, {}});
+}
+
+/// Returns an axis over the data alone, with margins.
+Axis axis_of_data(double low, double high, double pixel_low, double pixel_high) {
+  const double room = high > low ? 0.06 * (high - low) : std::max(0.5 * std::abs(low), 1e-9);
+  return {low - room, high + room, pixel_low, pixel_high};
+}
+
+}  // namespace
+
+ScanPlot scan_plot(const ScanFile& scan, std::span<const ScanResult> results,
+                   const std::string& units) {
+  const bool breaks = std::any_of(results.begin(), results.end(), [](const ScanResult& result) {
+    return !std::isnan(number_of(result.numbers, "peak_load"));
+  });
+  const std::string quantity = breaks ? "peak_load" : "strain_energy";
+  const std::string key = varied_number(scan);
+  const std::string force = breaks ? units.substr(0, units.find(',')) : "";
+  ScanPlot plot;
+  plot.title = scan.title;
+  plot.x_label = key.empty() ? "member" : key;
+  plot.y_label = breaks ? "peak load" : "strain energy";
+  if (!force.empty()) plot.y_label += " (" + force + ")";
+  for (std::size_t k = 0; k < results.size(); ++k) {
+    const double value = number_of(results[k].numbers, quantity);
+    std::vector<CaseSetting> others = scan.members[k].settings;
+    std::erase_if(others, [&](const CaseSetting& other) { return other.key == key; });
+    ScanPlot::Line& line = line_of(plot, key.empty() ? "" : member_text(others));
+    if (!std::isfinite(value)) continue;
+    line.points.push_back(
+        {key.empty() ? static_cast<double>(k + 1) : scan.members[k].find(key)->number, value});
+  }
+  for (ScanPlot::Line& line : plot.lines) {
+    std::stable_sort(line.points.begin(), line.points.end(),
+                     [](const auto& a, const auto& b) { return a.x < b.x; });
+  }
+  return plot;
+}
+
+Svg draw_scan(const ScanPlot& plot) {
+  ScanPlot::Point low{infinity, infinity}, high{-infinity, -infinity};
+  for (const ScanPlot::Line& line : plot.lines) {
+    for (const ScanPlot::Point& point : line.points) {
+      low = {std::min(low.x, point.x), std::min(low.y, point.y)};
+      high = {std::max(high.x, point.x), std::max(high.y, point.y)};
+    }
+  }
+  if (low.x > high.x) low = high = {1.0, 1.0};  // no point is drawn
+  const Axis x = axis_of_data(low.x, high.x, scan_left, scan_right);
+  const Axis y = make_axis(low.y, high.y, scan_height - 72.0, scan_top);
+  std::vector<MarkedLine> lines;
+  for (const ScanPlot::Line& line : plot.lines) {
+    MarkedLine& marked = lines.emplace_back(MarkedLine{line.name, {}});
+    for (const ScanPlot::Point& point : line.points) {
+      marked.points.push_back({x.map(point.x), y.map(point.y)});
+    }
+  }
+  const SvgPoint room = room_of_lines(lines);
+  Svg svg(scan_right + room.x, std::max(scan_height, scan_top + room.y));
+  svg.text({scan_left, 32}, plot.title, "start",
+           "font-size=\"18\" font-weight=\"bold\" fill=\"#222\"");
+  draw_axes(svg, x, y, plot.x_label, plot.y_label, Grid::lines);
+  draw_marked_lines(svg, lines, {scan_right, scan_top});
+  return svg;
+}
+
+}  // namespace perilink

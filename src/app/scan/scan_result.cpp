@@ -1,0 +1,89 @@
+#include "app/scan/scan_result.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+
+#include "base/error.hpp"
+#include "base/files.hpp"
+#include "model/body/mesh_input.hpp"
+#include "results/result_directory.hpp"
+#include "results/summary_file.hpp"
+
+namespace perilink {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Exit status of `perilink run`.
+constexpr int status_of_interrupted_runs = 4;
+
+/// Returns the first line of a process's errors without the name of the program.
+std::string first_error(const FinishedProcess& process) {
+  std::string text = process.errors.substr(0, process.errors.find('\n'));
+  for (const std::string_view start : {"perilink: ", "bad input: "}) {
+    if (text.starts_with(start)) text.erase(0, start.size());
+  }
+  if (!text.empty()) return text;
+  return process.signal != 0
+             ? fmt::format("ended by signal {} ({})", process.signal, strsignal(process.signal))
+             : fmt::format("ended with exit status {}", process.exit_status);
+}
+
+}  // namespace
+
+bool ScanResult::finished() const {
+  return status == "completed" || status == "collapsed" || status == "nothing_breaks";
+}
+
+ScanResult read_scan_result(const fs::path& directory) {
+  ScanResult result;
+  const auto summary = read_summary_file(directory);
+  if (!summary) return result;
+  result.status = summary_text(*summary, "status", directory);
+  result.reason = summary_text(*summary, "reason", directory);
+  if (!result.finished()) return result;
+  RunResult run = read_run_numbers(directory.string());
+  for (const std::string_view phase : {"set_up", "analysis", "output"}) {
+    result.seconds += number_of(run.summary, fmt::format("seconds.{}", phase));
+  }
+  result.numbers = std::move(run.summary);
+  result.gauges = std::move(run.gauges_at_peak);
+  return result;
+}
+
+ScanResult result_of_process(const FinishedProcess& process, const fs::path& directory) {
+  ScanResult result;
+  try {
+    // A process that was refused or killed leaves no result, or that of an earlier run.
+    if (process.exit_status == 0 || process.exit_status == status_of_interrupted_runs) {
+      result = read_scan_result(directory);
+      if (result.finished() || process.exit_status != 0) return result;
+    }
+    result.reason = first_error(process);
+  } catch (const Error& error) {
+    result.reason = error.what();
+  }
+  result.status = "failed";
+  return result;
+}
+
+EarlierResult earlier_result(const fs::path& directory, const CaseFile& member) {
+  std::error_code error;
+  if (!fs::exists(directory, error)) return EarlierResult::none;
+  const std::vector<fs::path> files = refuse_old_results(directory, true);
+  if (files.empty()) return EarlierResult::none;
+  const fs::path written = directory / "case.toml";
+  // A run that is killed at its start leaves a summary without a case.
+  if (!fs::exists(written, error)) return EarlierResult::partial;
+  if (read_regular_file(written.string()) != write_case(seen_from(member, directory))) {
+    return EarlierResult::other;
+  }
+  try {
+    return read_scan_result(directory).finished() ? EarlierResult::same : EarlierResult::partial;
+  } catch (const FileError&) {
+    return EarlierResult::partial;
+  }
+}
+
+}  // namespace perilink

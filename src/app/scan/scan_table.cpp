@@ -1,0 +1,135 @@
+#include "app/scan/scan_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "io/text/csv.hpp"
+
+namespace perilink {
+namespace {
+
+/// Returns the names of the gauges of the members, which may differ.
+std::vector<std::string> gauges_of(std::span<const ScanResult> results) {
+  std::vector<std::string> names;
+  for (const ScanResult& result : results) {
+    for (const auto& [name, value] : result.gauges) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+  }
+  return names;
+}
+
+/// Lays texts out in columns, aligned at their right ends.
+std::string in_columns(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths(rows.front().size());
+  for (const auto& row : rows) {
+    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
+  }
+  std::string text;
+  for (const auto& row : rows) {
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      text += fmt::format("  {:>{}}", row[c], widths[c]);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+std::string shown(double value) { return std::isnan(value) ? "-" : fmt::format("{:.6g}", value); }
+
+/// Returns "9 completed, 1 failed".
+std::string counts_of(std::span<const ScanResult> results) {
+  std::map<std::string, int> counts;
+  for (const ScanResult& result : results) ++counts[result.status];
+  std::string text;
+  for (const auto& [status, count] : counts) {
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, status);
+  }
+  return text;
+}
+
+/// Returns "peak_load 3.1 to 4.2", or nothing where no member has one.
+std::string range_of(std::span<const ScanResult> results, const std::string& quantity) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const ScanResult& result : results) {
+    const double value = number_of(result.numbers, quantity);
+    if (std::isnan(value)) continue;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  return low > high ? "" : fmt::format("; {} {:.6g} to {:.6g}", quantity, low, high);
+}
+
+}  // namespace
+
+std::string member_name(std::size_t member) { return fmt::format("{:04}", member + 1); }
+
+std::string scan_table(const ScanFile& scan, std::span<const ScanResult> results) {
+  const std::vector<std::string> gauges = gauges_of(results);
+  CsvRow header;
+  header.text("member");
+  for (const std::string& key : scan.keys) header.text(key);
+  header.text("status");
+  for (const std::string_view quantity : scan_quantities) header.text(std::string(quantity));
+  for (const std::string& gauge : gauges) header.text(gauge + "_at_peak");
+  std::string table = header.text("reason").text("seconds").end();
+  for (std::size_t k = 0; k < results.size(); ++k) {
+    const ScanResult& result = results[k];
+    CsvRow row;
+    row.text(member_name(k));
+    for (const std::string& key : scan.keys) {
+      const TomlValue* value = scan.members[k].find(key);
+      const bool number = value != nullptr && (value->kind == TomlValue::Kind::number ||
+                                               value->kind == TomlValue::Kind::integer);
+      number ? row.number(value->number) : row.text(value == nullptr ? "" : value_text(*value));
+    }
+    row.text(result.status);
+    for (const std::string_view quantity : scan_quantities) {
+      row.number(number_of(result.numbers, std::string(quantity)));
+    }
+    for (const std::string& gauge : gauges) row.number(number_of(result.gauges, gauge));
+    row.text(result.reason);
+    result.finished() ? row.number(result.seconds) : row.empty();
+    table += row.end();
+  }
+  return table;
+}
+
+std::string scan_report(const ScanFile& scan, std::span<const ScanResult> results) {
+  std::vector<std::vector<std::string>> rows = {{"member"}};
+  rows[0].insert(rows[0].end(), scan.keys.begin(), scan.keys.end());
+  for (const char* column : {"status", "peak_load", "peak_displacement", "seconds"}) {
+    rows[0].emplace_back(column);
+  }
+  std::string below;
+  std::size_t kept = 0;
+  double seconds = 0.0;
+  for (std::size_t k = 0; k < results.size(); ++k) {
+    const ScanResult& result = results[k];
+    std::vector<std::string>& row = rows.emplace_back();
+    row.push_back(member_name(k));
+    for (const std::string& key : scan.keys) {
+      const TomlValue* value = scan.members[k].find(key);
+      row.push_back(value == nullptr ? "-" : value_text(*value));
+    }
+    row.push_back(result.status);
+    row.push_back(shown(number_of(result.numbers, "peak_load")));
+    row.push_back(shown(number_of(result.numbers, "peak_displacement")));
+    row.push_back(result.finished() ? fmt::format("{:.3g}", result.seconds) : "-");
+    kept += result.kept ? 1 : 0;
+    seconds += result.seconds;
+    if (result.status != "failed") continue;
+    below +=
+        fmt::format("  {}: {}\n", row.front(), result.reason.substr(0, result.reason.find('\n')));
+  }
+  return fmt::format("{}{}{} members: {}{}{}; {:.3g} s of runs\n", in_columns(rows), below,
+                     results.size(), counts_of(results),
+                     kept > 0 ? fmt::format(" ({} kept from an earlier scan)", kept) : "",
+                     range_of(results, "peak_load"), seconds);
+}
+
+}  // namespace perilink

@@ -1,0 +1,170 @@
+#include "io/case/scan_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <utility>
+
+#include "base/error.hpp"
+#include "io/case/case_schema.hpp"
+#include "io/case/case_table.hpp"
+#include "io/text/input_text.hpp"
+
+namespace perilink {
+namespace {
+
+constexpr std::size_t most_members = 9999;
+
+/// Collects keys and values of a table. Tables in it are parts of keys: `body.spacing = 1` is the
+/// key "body.spacing".
+void collect(const TomlValue& table, const std::string& above, std::vector<CaseSetting>& found) {
+  for (const TomlValue& entry : table.entries) {
+    const std::string key = above.empty() ? entry.key : above + "." + entry.key;
+    if (entry.kind == TomlValue::Kind::table) {
+      collect(entry, key, found);
+    } else {
+      found.push_back({key, entry});
+    }
+  }
+}
+
+/// \param where  table of the scan file
+std::vector<CaseSetting> settings_of(const TomlValue& table, const SourceLocation& where) {
+  std::vector<CaseSetting> settings;
+  collect(table, "", settings);
+  if (settings.empty()) {
+    throw InputError(where, "has no key", "name keys of the case: \"body.spacing\" = ...");
+  }
+  return settings;
+}
+
+void refuse_many(const ScanFile& scan, std::size_t members, const SourceLocation& where) {
+  if (members <= most_members) return;
+  throw InputError({scan.path, where.line, where.key},
+                   fmt::format("gives more than {} members", most_members), "give fewer values");
+}
+
+/// Multiplies the members with the values of a key; the last key varies fastest.
+void multiply(ScanFile& scan, const CaseSetting& list, const SourceLocation& where) {
+  if (list.value.kind != TomlValue::Kind::array) {
+    throw InputError(
+        where, fmt::format("is {}, but must be a list of values", describe(list.value)),
+        fmt::format("write the values between brackets: [{}, ...]", toml_text(list.value)));
+  }
+  if (list.value.items.empty()) throw InputError(where, "is empty", "give at least one value");
+  std::set<std::string> texts;
+  for (const TomlValue& value : list.value.items) {
+    if (texts.insert(toml_text(value)).second) continue;
+    throw InputError(where, fmt::format("holds {} twice", toml_text(value)),
+                     "give every value once");
+  }
+  refuse_many(scan, scan.members.size() * list.value.items.size(), where);
+  std::vector<ScanMember> product;
+  for (const ScanMember& member : scan.members) {
+    for (const TomlValue& value : list.value.items) {
+      product.push_back(member);
+      product.back().settings.push_back({list.key, value});
+      product.back().settings.back().value.line = where.line;
+    }
+  }
+  scan.members = std::move(product);
+}
+
+void read_grid(ScanFile& scan, const TomlValue& values) {
+  scan.members = {{{}, values.line}};
+  for (const CaseSetting& list : settings_of(values, {scan.path, values.line, "values"})) {
+    scan.keys.push_back(list.key);
+    multiply(scan, list, {scan.path, list.value.line, "values." + list.key});
+  }
+}
+
+void read_runs(ScanFile& scan, const TomlValue& runs) {
+  if (runs.items.empty()) {
+    throw InputError({scan.path, runs.line, "runs"}, "is empty", "give at least one [[runs]]");
+  }
+  refuse_many(scan, runs.items.size(), {scan.path, runs.line, "runs"});
+  for (std::size_t k = 0; k < runs.items.size(); ++k) {
+    const TomlValue& run = runs.items[k];
+    scan.members.push_back(
+        {settings_of(run, {scan.path, run.line, fmt::format("runs[{}]", k + 1)}), run.line});
+    for (const CaseSetting& setting : scan.members.back().settings) {
+      if (std::find(scan.keys.begin(), scan.keys.end(), setting.key) != scan.keys.end()) continue;
+      scan.keys.push_back(setting.key);
+    }
+  }
+}
+
+/// Refuses cases, studies and unknown tables. Keys of [values] and [[runs]] are those of the case,
+/// which are checked with it.
+void check_tables(const TomlValue& root, const std::string& path) {
+  for (const auto& [key, of, command] :
+       {std::array{"body", "case", "run"}, std::array{"vary", "study", "converge"}}) {
+    const TomlValue* found = root.find(key);
+    if (found == nullptr) continue;
+    throw InputError({path, found->line, key},
+                     fmt::format("belongs to a {}, but this command needs a scan", of),
+                     fmt::format("run the {} by `perilink {} {}`", of, command, path));
+  }
+  const std::vector<TableSchema> schema = {
+      {"", false, {"title", "case"}}, {"values", false, {}}, {"runs", true, {}}};
+  TomlValue without_keys = root;
+  for (TomlValue& table : without_keys.entries) {
+    table.entries.clear();
+    for (TomlValue& item : table.items) item.entries.clear();
+  }
+  check_against_schema(without_keys, path, schema, "scan");
+}
+
+}  // namespace
+
+const TomlValue* ScanMember::find(const std::string& key) const {
+  const auto found = std::find_if(settings.begin(), settings.end(),
+                                  [&](const CaseSetting& setting) { return setting.key == key; });
+  return found == settings.end() ? nullptr : &found->value;
+}
+
+ScanFile parse_scan(const std::string& text, const std::string& path) {
+  refuse_large_input(text, path);
+  const TomlValue root = parse_toml(text, path);
+  check_tables(root, path);
+  ScanFile scan;
+  scan.path = path;
+  const CaseTable top(root, "", path);
+  assign(scan.title, top.text("title"));
+  scan.case_path = beside(path, top.need("case", top.path("case"),
+                                         "the case file, relative to the scan: case = \"a.toml\""));
+  const TomlValue *values = root.find("values"), *runs = root.find("runs");
+  if ((values == nullptr) == (runs == nullptr)) {
+    throw InputError({path, runs == nullptr ? 0 : runs->line, ""},
+                     runs == nullptr ? "the scan has neither [values] nor [[runs]]"
+                                     : "the scan has both [values] and [[runs]]",
+                     "give lists of values that form a grid: [values] and \"body.spacing\" = "
+                     "[1, 2]; or sets of values: [[runs]] and \"body.spacing\" = 1 below each");
+  }
+  if (values != nullptr) {
+    read_grid(scan, *values);
+  } else {
+    read_runs(scan, *runs);
+  }
+  return scan;
+}
+
+ScanFile read_scan_file(const std::string& path) { return parse_scan(read_input_text(path), path); }
+
+std::string value_text(const TomlValue& value) {
+  if (value.kind == TomlValue::Kind::number) return fmt::format("{}", value.number);
+  return value.kind == TomlValue::Kind::text ? value.text : toml_text(value);
+}
+
+std::string member_text(std::span<const CaseSetting> settings) {
+  std::string text;
+  for (const CaseSetting& setting : settings) {
+    text +=
+        fmt::format("{}{} = {}", text.empty() ? "" : ", ", setting.key, value_text(setting.value));
+  }
+  return text;
+}
+
+}  // namespace perilink
