@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <stdexcept>
 
@@ -203,7 +204,8 @@ TEST(ExplicitBonds, RestoredOnesPullAsTheSavedOnes) {
     AnalysisBody body = make_block({.lattice = {"plane", Pattern::rectangular, Surface::none},
                                     .micropolar = micropolar,
                                     .toothed = true});
-    const double size = body.network.critical_stretch[0] * body.network.bonds.lengths[0];
+    const std::vector<double>& limits = body.network.critical_stretch;
+    const double size = 0.5 * *std::min_element(limits.begin(), limits.end());
     const auto bonds = make_explicit_halves(body.network);
     for (const double part : {0.4, 0.6, 0.9}) {
       all_forces(body, *bonds, motion_of_body(body, part * size, 3), 0.1);

@@ -196,13 +196,13 @@ TEST_F(PulledPlate, ThreadsChangeNothing) {
 
 TEST_P(StencilBodies, RestoredOnesPullAsTheSavedOnes) {
   const auto bonds = make_explicit_bonds(network_), restored = make_explicit_bonds(network_);
-  const BondMotion breaking = random_motion(network_, size_, 21);
+  const BondMotion breaking = random_motion(network_, 5.0 * size_, 21);
   ASSERT_FALSE(forces_of_all(network_, *bonds, breaking, 0.1).losses.broken.empty());
   MovingElements state;
   bonds->save(state);
   restored->restore(state);
   EXPECT_EQ(restored->secants(), bonds->secants());
-  const BondMotion motion = random_motion(network_, size_, 22);
+  const BondMotion motion = random_motion(network_, 5.0 * size_, 22);
   EXPECT_EQ(forces_of_all(network_, *restored, motion, 0.1).force,
             forces_of_all(network_, *bonds, motion, 0.1).force);
   state.intact.pop_back();
