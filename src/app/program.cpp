@@ -129,14 +129,6 @@ const CLI::App* add_scan_command(CLI::App& app, ScanOptions& options) {
   return command;
 }
 
-const CLI::App* add_check_command(CLI::App& app, std::string& path, bool& trust_geometry) {
-  CLI::App* command =
-      app.add_subcommand("check", "Validate a case; print its sizes, expected memory and time");
-  command->add_option("case", path, "Case file (.toml)")->required();
-  add_trust_option(*command, trust_geometry);
-  return command;
-}
-
 const CLI::App* add_compare_command(CLI::App& app, CompareOptions& options) {
   CLI::App* command = app.add_subcommand(
       "compare", "Compare two results: peaks, curves, energies, cracks, times, overlay plot");
