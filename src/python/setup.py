@@ -25,7 +25,8 @@ class CMakeBuild(build_ext):
             ["cmake", "-S", ROOT, "-B", build, "-DCMAKE_BUILD_TYPE=Release",
              "-DCMAKE_UNITY_BUILD=ON", "-DPERILINK_PYTHON=ON", "-DPERILINK_TESTS=OFF",
              "-DPERILINK_BENCHMARKS=OFF", "-DPERILINK_MPI=OFF",
-             f"-DPython3_EXECUTABLE={sys.executable}", *shlex.split(os.environ.get("CMAKE_ARGS", ""))],
+             f"-DPython3_EXECUTABLE={sys.executable}",
+             *shlex.split(os.environ.get("CMAKE_ARGS", ""))],
             check=True)
         subprocess.run(["cmake", "--build", build, "--target", "perilink_python",
                         "--parallel", str(os.cpu_count())], check=True)

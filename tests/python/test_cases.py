@@ -78,7 +78,8 @@ class Cases(unittest.TestCase):
         self.assertEqual(built.check()["body"]["thickness"], 1.0)
 
     def test_texts_and_nested_tables_are_written(self):
-        case = perilink.Case(title='a "quoted" \\ name,\tü \x7f', odd={"in ner": {"a": [1, {"b": True}]}})
+        case = perilink.Case(title='a "quoted" \\ name,\tü \x7f',
+                             odd={"in ner": {"a": [1, {"b": True}]}})
         self.assertEqual(tomllib.loads(case.toml()), case)
         with self.assertRaisesRegex(TypeError, "cannot hold"):
             perilink.Case(body={"spacing": object()}).toml()

@@ -34,7 +34,8 @@ class Mesh:
                              "triangles and (m, 4) for tetrahedra")
         self.dim: int = self.cells.shape[1] - 1
         if self.points.ndim != 2 or self.points.shape[1] not in (self.dim, 3):
-            raise ValueError(f"points have the shape {self.points.shape}; allowed is (n, {self.dim})")
+            raise ValueError(
+                f"points have the shape {self.points.shape}; allowed is (n, {self.dim})")
         _check_numbers(self.cells, len(self.points), "cells", "points")
         self.groups: dict[str, NDArray[np.int64]] = {}
         for name, elements in (groups or {}).items():
@@ -54,8 +55,8 @@ class Mesh:
         elif numbers.ndim == 2 and 2 <= numbers.shape[1] <= self.dim:
             _check_numbers(numbers, len(self.points), what, "points")
         else:
-            raise ValueError(f"{what} has the shape {numbers.shape}; allowed are (k,) for cells and "
-                             f"(k, {self.dim}) for their sides")
+            raise ValueError(f"{what} has the shape {numbers.shape}; allowed are (k,) for cells "
+                             f"and (k, {self.dim}) for their sides")
         return numbers
 
     def _elements(self) -> list[tuple[int, NDArray[np.int64], list[str]]]:
@@ -115,6 +116,7 @@ def _integers(values: ArrayLike, what: str) -> NDArray[np.int64]:
 
 
 def _check_numbers(numbers: NDArray[np.int64], count: int, what: str, of: str) -> None:
-    if numbers.min() < 0 or numbers.max() >= count:
-        raise ValueError(f"{what}: holds the number {numbers.min() if numbers.min() < 0 else numbers.max()}; "
-                         f"{of} have the numbers 0 to {count - 1}")
+    for number in (numbers.min(), numbers.max()):
+        if not 0 <= number < count:
+            raise ValueError(f"{what}: holds the number {number}; "
+                             f"{of} have the numbers 0 to {count - 1}")

@@ -21,7 +21,7 @@ class ElasticSolution:
             then rotations [-]
         stress: stress of the particles, shape (particles, 6): xx, yy, zz, xy, yz, xz
             [force/length^2]; None for shells, beams and linear elements
-        reactions: by support: its mean position ``at``, ``force`` and ``moment``, three numbers each
+        reactions: by support: mean position ``at``, ``force`` and ``moment``, three numbers each
         gauges: values of the gauges by name
         load: load [force]
         load_displacement: work-conjugate displacement [length]

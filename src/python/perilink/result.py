@@ -81,7 +81,7 @@ class Result:
         return {"points": grid["points"], **grid["point_data"]}
 
     def broken_bonds(self, step: int | None = None) -> NDArray[np.int64]:
-        """Returns the particles at the ends of the broken bonds in order of breaking, shape (k, 2)."""
+        """Returns the particles at the ends of broken bonds, in order of breaking, shape (k, 2)."""
         grid = self._grid(step)
         ends = np.asarray(grid["offsets"], dtype=np.int64)
         lines = np.flatnonzero(grid["cell_data"]["element"] == 1)
