@@ -7,8 +7,9 @@
     result = perilink.run(case, "results/fine")
     print(result.summary["peak_load"], result.history["load"].max())
 
-`Case` describes the case, `run` runs it, `EventRun` advances it row by row, `build` and `solve` give
-its particles, bonds and elastic solution as arrays of numpy. Docs: docs/python.md and docs/case_file.md.
+`Case` describes the case, `run` runs it, `EventRun` advances it row by row, `build` and `solve`
+give its particles, bonds and elastic solution as arrays of numpy. Docs: docs/python.md,
+docs/case_file.md.
 """
 
 from ._core import Problem, Row, __version__, build_summary
