@@ -1,5 +1,6 @@
 # Warnings, optimisation and instrumentation shared by every target of the project.
 find_package(OpenMP REQUIRED COMPONENTS CXX)
+include(GNUInstallDirs)
 
 set(PERILINK_WARNINGS_ARE_ERRORS ${PERILINK_WERROR})
 if(PERILINK_WERROR STREQUAL "AUTO")  # other compilers have warnings of their own
@@ -12,18 +13,21 @@ add_library(perilink::options ALIAS perilink_options)
 target_link_libraries(perilink_options INTERFACE OpenMP::OpenMP_CXX)
 # Sums of matrices are to be those of one thread (docs/decisions/0004).
 target_compile_definitions(perilink_options INTERFACE EIGEN_DONT_PARALLELIZE)
-target_compile_options(perilink_options INTERFACE
+# Projects that use the installed library choose their own warnings.
+set(warnings
   -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion
   # In files that are compiled as one, helpers of others would count as shadowed by local names.
   $<IF:$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>,-Wshadow=local,-Wshadow>
   -Wno-restrict  # GCC 12 sees overlaps in std::string operator+ that are not there (PR 105651)
   -Wno-psabi     # wide vectors without AVX-512 (docs/decisions/0005)
-  $<$<BOOL:${PERILINK_WARNINGS_ARE_ERRORS}>:-Werror>
+  $<$<BOOL:${PERILINK_WARNINGS_ARE_ERRORS}>:-Werror>)
+target_compile_options(perilink_options INTERFACE "$<BUILD_INTERFACE:${warnings}>"
   # The same source gives the same rounding whatever the optimisation decides to fuse: a*b+c is
   # always fused where the processor can.
   -ffp-contract=fast
   # No other library replaces a function of ours: position-independent code inlines as the program.
   -fno-semantic-interposition -fvisibility-inlines-hidden)
+target_compile_features(perilink_options INTERFACE cxx_std_20)
 if(PERILINK_SANITIZE)
   # Together with the checks of the standard library and of Eigen: an element past the end of a vector
   # is no error to the sanitizers where the memory behind it is the vector's own.
@@ -43,7 +47,10 @@ function(perilink_module name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
   add_library(perilink_${name} STATIC ${sources})
   add_library(perilink::${name} ALIAS perilink_${name})
-  target_include_directories(perilink_${name} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
+  target_include_directories(perilink_${name} PUBLIC
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/perilink>)
+  set_property(GLOBAL APPEND PROPERTY PERILINK_MODULES ${name})
   foreach(dependency ${ARGN})
     target_link_libraries(perilink_${name} PUBLIC perilink::${dependency})
   endforeach()

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <cstdlib>
-#include <new>
 
 namespace perilink {
 
@@ -22,19 +21,3 @@ void* allocate_memory(std::size_t bytes) noexcept {
 }
 
 }  // namespace perilink
-
-#ifndef __SANITIZE_ADDRESS__  // its allocator reports memory that is freed in another way
-
-// Not inlined, because compilers would report free() as a mismatch with new.
-[[gnu::noinline]] void* operator new(std::size_t bytes) {
-  void* memory = perilink::allocate_memory(bytes);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t /*bytes*/) noexcept {
-  std::free(memory);
-}
-
-#endif

@@ -35,6 +35,9 @@ const std::map<std::string, std::set<std::string>>& allowed_modules() {
       {"app",
        {"base", "material", "solver", "discretization", "calibration", "network", "assembly",
         "analysis", "io", "results", "model"}},
+      {"perilink.hpp",
+       {"base", "discretization", "assembly", "analysis", "io", "results", "model", "app"}},
+      {"python", {"perilink.hpp"}},
   };
   return table;
 }
@@ -58,6 +61,7 @@ const std::vector<Confinement>& confined_headers() {
       {std::regex("^cereal/.*"), {"io/checkpoint/"}},
       {std::regex("^gmshc?\\.h(_cwrap)?$"), {"io/"}},
       {std::regex("^CLI/.*"), {"app/"}},
+      {std::regex("^pybind11/.*"), {"python/"}},
       {std::regex("^nlohmann/.*"), {"app/", "model/", "results/"}},
   };
   return table;

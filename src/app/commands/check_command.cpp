@@ -11,7 +11,6 @@
 #include "app/process/progress.hpp"
 #include "app/process/threads.hpp"
 #include "app/run/bond_run.hpp"
-#include "app/run/separated_body.hpp"
 #include "app/run/summary.hpp"
 #include "assembly/stiffness.hpp"
 #include "base/error.hpp"
@@ -20,6 +19,7 @@
 #include "io/case/sections/case_kinds.hpp"
 #include "model/from_case/configure.hpp"
 #include "model/from_case/lattice_case.hpp"
+#include "model/from_case/separated_body.hpp"
 #include "network/builder/free_bodies.hpp"
 #include "solver/factor_routes.hpp"
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "app/process/signals.hpp"
 #include "app/run/run_warnings.hpp"
 #include "base/error.hpp"
 #include "discretization/bonds.hpp"
@@ -64,8 +63,8 @@ BondRunCase build_bond_run(const CaseFile& input, const Model& model) {
   return built;
 }
 
-MovingBondsRun::MovingBondsRun(const CaseFile& of_case, int on_threads, bool quiet)
-    : NetworkRun(of_case, on_threads, quiet),
+MovingBondsRun::MovingBondsRun(const CaseFile& of_case, int on_threads, const RunCallbacks& calls)
+    : NetworkRun(of_case, on_threads, calls),
       neighbourhoods_(bonds_of_particles(model_.network.bonds, model_.network.particles.size())) {}
 
 void MovingBondsRun::write_state(const ExplicitRecord& record, const BondRunState& state) {
@@ -136,7 +135,7 @@ void MovingBondsRun::on_iteration(Index load_step, Index iteration, double resid
                      static_cast<double>(load_step - 1) / steps_);
 }
 
-bool MovingBondsRun::stop_requested() { return stop_signal_received(); }
+bool MovingBondsRun::stop_requested() { return callbacks.asks_to_stop(); }
 
 bool MovingBondsRun::wants_checkpoint(const ExplicitRecord& /*last*/) {
   return checkpoint_rows_ > 0 && files_->rows() % checkpoint_rows_ == 0;
@@ -151,8 +150,8 @@ namespace {
 /// A run with type = "explicit" of a body with bonds, integrated in time.
 class BondRun final : public MovingBondsRun {
  public:
-  BondRun(const CaseFile& of_case, int on_threads, bool quiet)
-      : MovingBondsRun(of_case, on_threads, quiet), built_(build_bond_run(of_case, model_)) {
+  BondRun(const CaseFile& of_case, int on_threads, const RunCallbacks& calls)
+      : MovingBondsRun(of_case, on_threads, calls), built_(build_bond_run(of_case, model_)) {
     built_.options.threads = threads;
     steps_ = built_.options.steps();
     checkpoint_rows_ =
@@ -189,8 +188,9 @@ class BondRun final : public MovingBondsRun {
 
 }  // namespace
 
-std::unique_ptr<RunKind> make_bond_run(const CaseFile& input, int threads, bool quiet) {
-  return std::make_unique<BondRun>(input, threads, quiet);
+std::unique_ptr<RunKind> make_bond_run(const CaseFile& input, int threads,
+                                       const RunCallbacks& calls) {
+  return std::make_unique<BondRun>(input, threads, calls);
 }
 
 }  // namespace perilink

@@ -22,7 +22,7 @@ BondRunCase build_bond_run(const CaseFile& input, const Model& model);
 /// and the requested states; in a dynamic relaxation all states.
 class MovingBondsRun : public NetworkRun, protected BondRunObserver {
  public:
-  MovingBondsRun(const CaseFile& of_case, int on_threads, bool quiet);
+  MovingBondsRun(const CaseFile& of_case, int on_threads, const RunCallbacks& calls);
 
  protected:
   void on_row(const ExplicitRecord& record, const BondRunState& state) override;

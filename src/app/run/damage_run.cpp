@@ -6,15 +6,14 @@
 #include <cmath>
 #include <utility>
 
-#include "app/process/signals.hpp"
 #include "app/run/resume.hpp"
 #include "app/run/run_notes.hpp"
 #include "app/run/run_warnings.hpp"
-#include "app/run/separated_body.hpp"
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "discretization/bonds.hpp"
 #include "io/checkpoint/pack.hpp"
+#include "model/from_case/separated_body.hpp"
 #include "model/gauges.hpp"
 #include "results/bar_file.hpp"
 #include "solver/ranks/process_ranks.hpp"
@@ -37,10 +36,10 @@ Index rows_of_events(const FactorStatistics& factor, const Network& network) {
 
 }  // namespace
 
-DamageRun::DamageRun(const CaseFile& of_case, int on_threads, bool quiet)
-    : NetworkRun(of_case, on_threads, quiet), options_(damage_options(input, threads)) {
+DamageRun::DamageRun(const CaseFile& of_case, int on_threads, const RunCallbacks& calls)
+    : NetworkRun(of_case, on_threads, calls), options_(damage_options(input, threads)) {
   options_.begins_again = true;
-  options_.stop_requested = stop_signal_received;
+  options_.stop_requested = callbacks.stop_requested;
   mark_broken();
   if (const auto note = note_of_separated_body(input, model_, threads)) notes.push_back(*note);
   plan += fmt::format(", {} unknowns", model_.unknowns.count);
@@ -82,6 +81,7 @@ void DamageRun::follow() {
     if (!run_->has_failed() && !run_->missed_release()) end(run_->result().last, *run_);
   } catch (const std::exception& error) {
     if (!run_) throw;
+    failure = std::current_exception();
     run_->fail(error);
   }
 }

@@ -14,7 +14,7 @@ namespace perilink {
 /// last and the requested states.
 class DamageRun final : public NetworkRun {
  public:
-  DamageRun(const CaseFile& of_case, int on_threads, bool quiet);
+  DamageRun(const CaseFile& of_case, int on_threads, const RunCallbacks& calls);
 
   void analyse() override;
   RunOutcome run_outcome() override { return {result_.termination, result_.reason}; }

@@ -4,8 +4,8 @@
 #include "app/run/quasistatic.hpp"
 #include "app/run/run_kind.hpp"
 #include "app/run/run_warnings.hpp"
-#include "app/run/separated_body.hpp"
 #include "discretization/bonds.hpp"
+#include "model/from_case/separated_body.hpp"
 #include "model/gauges.hpp"
 #include "results/bar_file.hpp"
 
@@ -57,8 +57,8 @@ double share_of_large_motion(const Model& model, std::span<const double> motion)
 /// A run with type = "elastic".
 class ElasticRun final : public NetworkRun {
  public:
-  ElasticRun(const CaseFile& of_case, int on_threads, bool quiet)
-      : NetworkRun(of_case, on_threads, quiet) {
+  ElasticRun(const CaseFile& of_case, int on_threads, const RunCallbacks& calls)
+      : NetworkRun(of_case, on_threads, calls) {
     refuse_pieces_on_bars(input, model_, threads);
     plan += fmt::format(", {} unknowns", model_.unknowns.count);
     if (auto note = note_of_separated_body(input, model_, threads)) notes.push_back(*note);
@@ -124,8 +124,9 @@ class ElasticRun final : public NetworkRun {
 
 }  // namespace
 
-std::unique_ptr<RunKind> make_elastic_run(const CaseFile& input, int threads, bool quiet) {
-  return std::make_unique<ElasticRun>(input, threads, quiet);
+std::unique_ptr<RunKind> make_elastic_run(const CaseFile& input, int threads,
+                                          const RunCallbacks& calls) {
+  return std::make_unique<ElasticRun>(input, threads, calls);
 }
 
 }  // namespace perilink

@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "analysis/dynamics/time_state.hpp"
-#include "app/process/signals.hpp"
 #include "app/run/run_kind.hpp"
 #include "app/run/run_warnings.hpp"
 #include "io/checkpoint/pack.hpp"
@@ -16,8 +15,8 @@ namespace {
 /// A run with type = "explicit" of a body with model = "lattice".
 class LatticeRun final : public RunKind, private ExplicitObserver {
  public:
-  LatticeRun(const CaseFile& of_case, int on_threads)
-      : RunKind(of_case, on_threads), built_(build_explicit_case(of_case)) {
+  LatticeRun(const CaseFile& of_case, int on_threads, const RunCallbacks& calls)
+      : RunKind(of_case, on_threads, calls), built_(build_explicit_case(of_case)) {
     built_.options.threads = threads;
     checkpoint_rows_ = rows_between_checkpoints(
         static_cast<double>(built_.bonds), built_.model.lattice.particles(),
@@ -77,7 +76,7 @@ class LatticeRun final : public RunKind, private ExplicitObserver {
     write_state(last, state);
   }
 
-  bool stop_requested() override { return stop_signal_received(); }
+  bool stop_requested() override { return callbacks.asks_to_stop(); }
   bool wants_checkpoint(const ExplicitRecord& /*last*/) override {
     return checkpoint_rows_ > 0 && files_->rows() % checkpoint_rows_ == 0;
   }
@@ -114,8 +113,9 @@ class LatticeRun final : public RunKind, private ExplicitObserver {
 
 }  // namespace
 
-std::unique_ptr<RunKind> make_lattice_run(const CaseFile& input, int threads) {
-  return std::make_unique<LatticeRun>(input, threads);
+std::unique_ptr<RunKind> make_lattice_run(const CaseFile& input, int threads,
+                                          const RunCallbacks& calls) {
+  return std::make_unique<LatticeRun>(input, threads, calls);
 }
 
 }  // namespace perilink

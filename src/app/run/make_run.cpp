@@ -30,16 +30,16 @@ void refuse_several_processes(const CaseFile& input) {
 
 }  // namespace
 
-std::unique_ptr<RunKind> make_run(const CaseFile& input, int threads, bool quiet) {
+std::unique_ptr<RunKind> make_run(const CaseFile& input, int threads, const RunCallbacks& calls) {
   refuse_several_processes(input);
   switch (input.analysis.type) {
-    case AnalysisType::elastic: return make_elastic_run(input, threads, quiet);
-    case AnalysisType::relaxation: return make_relaxation_run(input, threads, quiet);
-    case AnalysisType::damage: return std::make_unique<DamageRun>(input, threads, quiet);
+    case AnalysisType::elastic: return make_elastic_run(input, threads, calls);
+    case AnalysisType::relaxation: return make_relaxation_run(input, threads, calls);
+    case AnalysisType::damage: return std::make_unique<DamageRun>(input, threads, calls);
     case AnalysisType::explicit_: break;
   }
-  if (input.body.model == BodyModel::lattice) return make_lattice_run(input, threads);
-  return make_bond_run(input, threads, quiet);
+  if (input.body.model == BodyModel::lattice) return make_lattice_run(input, threads, calls);
+  return make_bond_run(input, threads, calls);
 }
 
 }  // namespace perilink

@@ -27,8 +27,8 @@ namespace {
 /// A run with type = "relaxation": bonds are brought to static equilibrium by damped motion.
 class RelaxationRun final : public MovingBondsRun {
  public:
-  RelaxationRun(const CaseFile& of_case, int on_threads, bool quiet)
-      : MovingBondsRun(of_case, on_threads, quiet) {
+  RelaxationRun(const CaseFile& of_case, int on_threads, const RunCallbacks& calls)
+      : MovingBondsRun(of_case, on_threads, calls) {
     steps_ = static_cast<Index>(input.analysis.load_factors.size());
     constexpr double usual_iterations = 3000.0;  // of a load step
     checkpoint_rows_ = rows_between_checkpoints(model_.network.num_elements(),
@@ -72,8 +72,9 @@ class RelaxationRun final : public MovingBondsRun {
 
 }  // namespace
 
-std::unique_ptr<RunKind> make_relaxation_run(const CaseFile& input, int threads, bool quiet) {
-  return std::make_unique<RelaxationRun>(input, threads, quiet);
+std::unique_ptr<RunKind> make_relaxation_run(const CaseFile& input, int threads,
+                                             const RunCallbacks& calls) {
+  return std::make_unique<RelaxationRun>(input, threads, calls);
 }
 
 }  // namespace perilink

@@ -31,19 +31,21 @@ std::string cracks_text(const CaseFile& input, const ExplicitRecord& record) {
              : fmt::format("{} broken bonds", record.broken_bonds);
 }
 
-RunFiles::RunFiles(const CaseFile& input, std::filesystem::path directory, bool quiet)
+RunFiles::RunFiles(const CaseFile& input, std::filesystem::path directory, RunCallbacks calls)
     : input_(input),
+      callbacks_(std::move(calls)),
       directory_(std::move(directory)),
-      bar_(quiet),
+      bar_(callbacks_.quiet),
       history_(std::in_place, directory_.string(), input) {
   state_.peaks = PeakWatch(is_relaxation(input) ? 1 : vibrating_rows);
 }
 
-RunFiles::RunFiles(const CaseFile& input, std::filesystem::path directory, bool quiet,
+RunFiles::RunFiles(const CaseFile& input, std::filesystem::path directory, RunCallbacks calls,
                    const State& saved)
     : input_(input),
+      callbacks_(std::move(calls)),
       directory_(std::move(directory)),
-      bar_(quiet),
+      bar_(callbacks_.quiet),
       history_(std::in_place, directory_.string(), input, saved.sizes),
       state_(saved) {
   write_pvd((directory_ / "fields.pvd").string(), state_.series);
@@ -79,6 +81,9 @@ RunFiles::State RunFiles::save() {
 void RunFiles::add_row(const StepRecord& record, std::span<const double> gauges) {
   history_->append(record, gauges);
   ++state_.rows;
+  if (!callbacks_.on_row) return;
+  callbacks_.on_row({state_.rows, record.step, 0.0, record.load_factor, record.load,
+                     record.displacement, record.broken_bonds});
 }
 
 void RunFiles::add_row(const ExplicitRecord& record, std::span<const double> gauges) {
@@ -86,6 +91,9 @@ void RunFiles::add_row(const ExplicitRecord& record, std::span<const double> gau
   ++state_.rows;
   const bool intact = record.broken_bonds == 0 && record.cracked_particles == 0;
   state_.peaks.add({record.displacement, record.load}, intact);
+  if (!callbacks_.on_row) return;
+  callbacks_.on_row({state_.rows, record.step, record.time, record.load_factor, record.load,
+                     record.displacement, record.broken_bonds + record.cracked_particles});
 }
 
 void RunFiles::begin_again() {

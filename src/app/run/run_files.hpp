@@ -10,6 +10,7 @@
 
 #include "analysis/quasistatic/load_curve.hpp"
 #include "app/process/progress.hpp"
+#include "app/process/run_callbacks.hpp"
 #include "io/case/case_file.hpp"
 #include "io/fields/vtu.hpp"
 #include "model/model.hpp"
@@ -38,10 +39,11 @@ class RunFiles {
 
   /// \param directory  existing directory
   /// \throws FileError
-  RunFiles(const CaseFile& input, std::filesystem::path directory, bool quiet);
+  RunFiles(const CaseFile& input, std::filesystem::path directory, RunCallbacks calls);
   /// Goes on with the files of a saved run; what was written later is removed.
   /// \throws FileError
-  RunFiles(const CaseFile& input, std::filesystem::path directory, bool quiet, const State& saved);
+  RunFiles(const CaseFile& input, std::filesystem::path directory, RunCallbacks calls,
+           const State& saved);
 
   /// Syncs all files and returns their state. \throws FileError
   State save();
@@ -78,6 +80,7 @@ class RunFiles {
   void remove_later_files() const;
 
   const CaseFile& input_;
+  RunCallbacks callbacks_;
   std::filesystem::path directory_;
   ProgressBar bar_;
   std::optional<HistoryFile> history_;

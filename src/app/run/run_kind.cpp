@@ -15,17 +15,18 @@
 
 namespace perilink {
 
-void RunKind::open(const std::filesystem::path& directory, bool quiet, const std::string& saved) {
+void RunKind::open(const std::filesystem::path& directory, const RunCallbacks& calls,
+                   const std::string& saved) {
   directory_ = directory;
   since_opened_.restart();
   if (saved.empty()) {
-    files_ = std::make_unique<RunFiles>(input, directory, quiet);
+    files_ = std::make_unique<RunFiles>(input, directory, calls);
     return;
   }
   RunFiles::State files;
   std::string state;
   unpack(saved, files, seconds.analysis, state);
-  files_ = std::make_unique<RunFiles>(input, directory, quiet, files);
+  files_ = std::make_unique<RunFiles>(input, directory, calls, files);
   restore(state);
 }
 
@@ -50,8 +51,8 @@ std::string NetworkRun::model_fingerprint() const {
   return fingerprint({network.particles.positions, network.stiffness, network.critical_stretch});
 }
 
-NetworkRun::NetworkRun(const CaseFile& of_case, int on_threads, bool quiet)
-    : RunKind(of_case, on_threads), model_(build_model_visibly(of_case, quiet)) {
+NetworkRun::NetworkRun(const CaseFile& of_case, int on_threads, const RunCallbacks& calls)
+    : RunKind(of_case, on_threads, calls), model_(build_model_visibly(of_case, calls)) {
   plan = size_text(model_);
   notes = model_.notes;
   if (!model_.network.calibration) return;
@@ -108,10 +109,12 @@ Summary summary_of(RunKind& run, const std::filesystem::path& directory) {
   return summary;
 }
 
-Model build_model_visibly(const CaseFile& input, bool quiet) {
-  CalibrationProgress progress(quiet);
-  return build_model(input,
-                     [&](int search, double unbalanced) { progress.update(search, unbalanced); });
+Model build_model_visibly(const CaseFile& input, const RunCallbacks& calls) {
+  CalibrationProgress progress(calls.quiet);
+  return build_model(input, [&](int search, double unbalanced) {
+    progress.update(search, unbalanced);
+    if (calls.on_calibration) calls.on_calibration(search, unbalanced);
+  });
 }
 
 }  // namespace perilink

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -7,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/process/run_callbacks.hpp"
 #include "app/run/run_files.hpp"
 #include "app/run/summary.hpp"
 #include "base/timer.hpp"
@@ -34,13 +36,15 @@ struct RunOutcome {
 class RunKind {
  public:
   /// \param of_case  must outlive the run
-  RunKind(const CaseFile& of_case, int on_threads) : input(of_case), threads(on_threads) {}
+  RunKind(const CaseFile& of_case, int on_threads, RunCallbacks to_call = {})
+      : input(of_case), threads(on_threads), callbacks(std::move(to_call)) {}
   virtual ~RunKind() = default;
 
   /// Opens the files in the directory of the run.
   /// \param saved  state to go on from; empty: the run begins
   /// \throws FileError
-  void open(const std::filesystem::path& directory, bool quiet, const std::string& saved = {});
+  void open(const std::filesystem::path& directory, const RunCallbacks& calls,
+            const std::string& saved = {});
   RunFiles& files() const { return *files_; }
   /// Runs the analysis. Its termination status is in run_outcome().
   virtual void analyse() = 0;
@@ -52,10 +56,12 @@ class RunKind {
 
   const CaseFile& input;
   const int threads;
+  const RunCallbacks callbacks;
   std::string plan;                        ///< sizes and steps to come, for the log
   std::vector<std::string> notes;          ///< known before the analysis
   std::optional<std::string> calibration;  ///< result of the bond calibration, if there is one
   PhaseSeconds seconds;
+  std::exception_ptr failure;  ///< exception that ended the analysis, if one did
 
  protected:
   /// Writes a checkpoint. \param state  bytes of pack() \throws FileError
@@ -77,7 +83,7 @@ class RunKind {
 /// A run on a network of bonds, or on linear elements.
 class NetworkRun : public RunKind {
  public:
-  NetworkRun(const CaseFile& of_case, int on_threads, bool quiet);
+  NetworkRun(const CaseFile& of_case, int on_threads, const RunCallbacks& calls);
   std::string model_fingerprint() const override;
 
  protected:
@@ -94,13 +100,17 @@ class NetworkRun : public RunKind {
 /// Builds the model of a case and its run.
 /// \param input  must outlive the run
 /// \throws InputError where the case does not fit its body
-std::unique_ptr<RunKind> make_run(const CaseFile& input, int threads, bool quiet);
+std::unique_ptr<RunKind> make_run(const CaseFile& input, int threads, const RunCallbacks& calls);
 
 /// Builds a run of one analysis type, see make_run().
-std::unique_ptr<RunKind> make_elastic_run(const CaseFile& input, int threads, bool quiet);
-std::unique_ptr<RunKind> make_relaxation_run(const CaseFile& input, int threads, bool quiet);
-std::unique_ptr<RunKind> make_bond_run(const CaseFile& input, int threads, bool quiet);
-std::unique_ptr<RunKind> make_lattice_run(const CaseFile& input, int threads);
+std::unique_ptr<RunKind> make_elastic_run(const CaseFile& input, int threads,
+                                          const RunCallbacks& calls);
+std::unique_ptr<RunKind> make_relaxation_run(const CaseFile& input, int threads,
+                                             const RunCallbacks& calls);
+std::unique_ptr<RunKind> make_bond_run(const CaseFile& input, int threads,
+                                       const RunCallbacks& calls);
+std::unique_ptr<RunKind> make_lattice_run(const CaseFile& input, int threads,
+                                          const RunCallbacks& calls);
 
 /// Formats a rate, "3.2 M particle-steps/s"; zero for no time.
 std::string rate_text(double count, double seconds, const std::string& unit);
@@ -109,6 +119,6 @@ std::string rate_text(double count, double seconds, const std::string& unit);
 Summary summary_of(RunKind& run, const std::filesystem::path& directory);
 
 /// Calls build_model() and shows the progress of the calibration on a terminal.
-Model build_model_visibly(const CaseFile& input, bool quiet);
+Model build_model_visibly(const CaseFile& input, const RunCallbacks& calls);
 
 }  // namespace perilink

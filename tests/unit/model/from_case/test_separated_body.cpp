@@ -1,4 +1,4 @@
-#include "app/run/separated_body.hpp"
+#include "model/from_case/separated_body.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

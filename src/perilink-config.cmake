@@ -1,0 +1,10 @@
+# find_package(perilink): the target perilink::perilink, with headers below <perilink.hpp>.
+include(CMakeFindDependencyMacro)
+find_dependency(OpenMP COMPONENTS CXX)
+find_dependency(Eigen3 3.4)
+find_dependency(fmt)
+find_dependency(spdlog)
+find_dependency(pugixml)
+find_dependency(ZLIB)
+find_dependency(nlohmann_json)
+include(${CMAKE_CURRENT_LIST_DIR}/perilink-targets.cmake)

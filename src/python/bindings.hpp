@@ -1,0 +1,56 @@
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <utility>
+#include <vector>
+
+#include "perilink.hpp"
+
+/// \file
+/// Parts of the extension module perilink._core, and arrays that share memory with C++.
+
+namespace perilink {
+
+/// A case with its model. Arrays of Python share the memory of the model, which never changes.
+struct BuiltCase {
+  CaseFile input;
+  Model model;
+};
+
+/// Adds the functions that run cases and read results.
+void bind_runs(pybind11::module_& module);
+/// Adds the class Problem and the elastic solution.
+void bind_problems(pybind11::module_& module);
+
+/// Adds the class EventRun. Problem must be bound before.
+void bind_events(pybind11::module_& module);
+
+using ArrayShape = std::vector<pybind11::ssize_t>;
+
+/// Returns a read-only array of numbers that another Python object owns, without a copy.
+template <class T>
+pybind11::array_t<T> array_view(const std::vector<T>& values, ArrayShape shape,
+                                pybind11::handle owner) {
+  pybind11::array_t<T> array(std::move(shape), values.data(), owner);
+  array.attr("setflags")(pybind11::arg("write") = false);
+  return array;
+}
+
+/// Returns an array that owns the numbers, without a copy.
+template <class T>
+pybind11::array_t<T> owning_array(std::vector<T> values, ArrayShape shape) {
+  auto* kept = new std::vector<T>(std::move(values));
+  const pybind11::capsule owner(kept,
+                                [](void* memory) { delete static_cast<std::vector<T>*>(memory); });
+  return pybind11::array_t<T>(std::move(shape), kept->data(), owner);
+}
+
+template <class T>
+pybind11::array_t<T> owning_array(std::vector<T> values) {
+  const auto size = static_cast<pybind11::ssize_t>(values.size());
+  return owning_array(std::move(values), {size});
+}
+
+}  // namespace perilink

@@ -1,0 +1,206 @@
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "perilink.hpp"
+#include "python/bindings.hpp"
+#include "python/python_caller.hpp"
+#include "python/thread_scope.hpp"
+
+namespace perilink {
+namespace {
+
+namespace py = pybind11;
+
+/// A damage analysis that Python advances row by row.
+class Stepper {
+ public:
+  Stepper(const BuiltCase& built, std::optional<DamageState> saved, int threads)
+      : built_(built), caller_(py::none()) {
+    const CaseFile& input = built.input;
+    if (input.analysis.type != AnalysisType::damage) {
+      throw InputError(input.where("analysis.type"),
+                       fmt::format("is \"{}\", and EventRun follows a damage analysis",
+                                   word_of(input.analysis.type)),
+                       "set type = \"damage\"; run() runs every type");
+    }
+    const py::gil_scoped_release unlocked;
+    const ThreadScope scope;
+    threads_ = set_threads(threads);
+    options_ = damage_options(input, threads_);
+    options_.stop_requested = [this] { return caller_.stop_requested(); };
+    note_of_separated_body(input, built.model, threads_);  // refuses pieces without support
+    if (saved) {
+      run_.emplace(built.model, options_, std::move(*saved));
+    } else {
+      run_.emplace(built.model, options_);
+    }
+  }
+
+  /// Returns the next row; empty at the end.
+  std::optional<StepRecord> next() {
+    const StepRecord* row = nullptr;
+    {
+      const py::gil_scoped_release unlocked;
+      ThreadScope scope;
+      scope.use(threads_);
+      row = run_->next();
+    }
+    caller_.raise();
+    if (run_->has_failed()) throw SolverError(run_->result().reason);
+    if (row == nullptr) return std::nullopt;
+    last_ = *row;
+    return last_;
+  }
+
+  /// Returns the state in the last row with displacements under the present loads.
+  ModelState state() {
+    ThreadScope scope;
+    scope.use(threads_);
+    const StepState now = run_->state();
+    ModelState state{now.secants, now.displacement,
+                     built_.input.stages.empty() ? last_.load_factor : 1.0, last_.load_factor};
+    state.whole = now.whole;
+    return state;
+  }
+  std::vector<double> displacement() {
+    const ModelState now = state();
+    std::vector<double> motion(now.motion.begin(), now.motion.end());
+    for (double& u : motion) u *= now.scale;
+    return motion;
+  }
+
+  const BuiltCase& built() const { return built_; }
+  const Network& network() const { return built_.model.network; }
+  const Csr& neighbourhoods() {
+    if (neighbourhoods_.rows() == 0) {
+      neighbourhoods_ = bonds_of_particles(network().bonds, network().particles.size());
+    }
+    return neighbourhoods_;
+  }
+  DamageState save() {
+    ThreadScope scope;
+    scope.use(threads_);
+    return run_->save();
+  }
+  EventRun& run() { return *run_; }
+
+ private:
+  const BuiltCase& built_;
+  PythonCaller caller_;
+  int threads_ = 1;
+  DamageOptions options_;
+  std::optional<EventRun> run_;
+  StepRecord last_;
+  Csr neighbourhoods_;
+};
+
+py::ssize_t particles_of(const Stepper& stepper) { return stepper.network().particles.size(); }
+
+py::array_t<double> displacement_of(Stepper& stepper) {
+  return owning_array(stepper.displacement(),
+                      {particles_of(stepper), py::ssize_t{stepper.network().width()}});
+}
+
+py::array_t<double> stiffness_ratios_of(Stepper& stepper) {
+  const Secants secants = stepper.run().secants();
+  std::vector<double> ratios;
+  for (Index e = 0; e < stepper.network().num_elements(); ++e) ratios.push_back(secants.least(e));
+  return owning_array(std::move(ratios));
+}
+
+py::array_t<double> damage_of(Stepper& stepper) {
+  return owning_array(
+      particle_damage(stepper.network(), stepper.neighbourhoods(), stepper.run().secants()));
+}
+
+py::object stress_of(Stepper& stepper) {
+  if (stepper.network().has_sections()) return py::none();
+  const StressInput input =
+      stress_input(stepper.built().model, stepper.neighbourhoods(), stepper.run().secants());
+  return owning_array(particle_stresses(input, stepper.displacement()),
+                      {particles_of(stepper), py::ssize_t{6}});
+}
+
+py::dict gauges_of(Stepper& stepper) {
+  const Model& model = stepper.built().model;
+  Csr neighbourhoods;
+  const std::vector<double> values = gauge_values(model, stepper.state(), neighbourhoods);
+  py::dict gauges;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    gauges[py::str(model.gauges[k].name)] = values[k];
+  }
+  return gauges;
+}
+
+py::dict result_of(Stepper& stepper) {
+  const DamageResult found = stepper.run().result();
+  py::dict result;
+  result["status"] = to_string(found.termination);
+  result["reason"] = found.reason;
+  result["peak_load"] = found.peak_load;
+  result["peak_displacement"] = found.peak_displacement;
+  result["largest_load"] = found.peaks.highest().load;
+  result["initial_stiffness"] = found.initial_stiffness;
+  result["broken_bonds"] = found.broken_bonds;
+  result["energy_error"] = found.energy_error;
+  result["largest_residual"] = found.largest_residual;
+  result["missed_releases"] = found.missed_releases;
+  return result;
+}
+
+void bind_row(py::module_& module) {
+  py::class_<StepRecord>(module, "EventRow", "Equilibrium at the load of the next event.")
+      .def_readonly("step", &StepRecord::step, "Number of the row, from 1.")
+      .def_readonly("stage", &StepRecord::stage, "Number of the stage, from 1; 0: none.")
+      .def_readonly("load_factor", &StepRecord::load_factor, "Load factor [-].")
+      .def_readonly("load", &StepRecord::load, "Load [force].")
+      .def_readonly("displacement", &StepRecord::displacement,
+                    "Displacement, work-conjugate to the load [length].")
+      .def_readonly("element", &StepRecord::element, "Element that fails at this load; -1: none.")
+      .def_readonly("others", &StepRecord::others, "Elements that fail with it.")
+      .def_readonly("broken_bonds", &StepRecord::broken_bonds, "Broken bonds in this equilibrium.")
+      .def_readonly("yield_events", &StepRecord::yield_events,
+                    "Segments of laws passed without a break.")
+      .def_readonly("strain_energy", &StepRecord::strain_energy, "Stored [force length].")
+      .def_readonly("dissipated_energy", &StepRecord::dissipated_energy,
+                    "Dissipated so far [force length].")
+      .def_readonly("external_work", &StepRecord::external_work,
+                    "Work of loads and reactions so far [force length].")
+      .def_readonly("residual", &StepRecord::residual, "Relative residual when last measured [-].")
+      .def("__repr__", [](const StepRecord& row) {
+        return fmt::format(
+            "EventRow(step={}, load={:.6g}, displacement={:.6g}, broken_bonds={}, element={})",
+            row.step, row.load, row.displacement, row.broken_bonds, row.element);
+      });
+}
+
+}  // namespace
+
+void bind_events(py::module_& module) {
+  bind_row(module);
+  py::class_<DamageState>(module, "DamageState",
+                          "State of a damage analysis between two rows, from EventRun.state().");
+  module.def("write_state",
+             [](const std::string& path, const BuiltCase& built, const DamageState& state) {
+               write_state(path, built.model, state);
+             });
+  module.def("read_state", [](const std::string& path, const BuiltCase& built) {
+    return read_state(path, built.model);
+  });
+  py::class_<Stepper>(module, "Stepper")
+      .def(py::init<const BuiltCase&, std::optional<DamageState>, int>(), py::keep_alive<1, 2>())
+      .def("next", &Stepper::next)
+      .def("displacement", displacement_of)
+      .def("stiffness_ratios", stiffness_ratios_of)
+      .def("damage", damage_of)
+      .def("stress", stress_of)
+      .def("gauges", gauges_of)
+      .def("result", result_of)
+      .def("state", &Stepper::save);
+}
+
+}  // namespace perilink

@@ -1,0 +1,45 @@
+"""Perilink: implicit quasistatic peridynamics, from the first crack to collapse.
+
+    import perilink
+
+    case = perilink.read_case("notched_beam.toml")
+    case["body"]["spacing"] = 2.0
+    result = perilink.run(case, "results/fine")
+    print(result.summary["peak_load"], result.history["load"].max())
+
+`Case` describes the case, `run` runs it, `EventRun` advances it row by row, `build` and `solve`
+give its particles, bonds and elastic solution as arrays of numpy. Docs: docs/python.md,
+docs/case_file.md.
+"""
+
+from ._core import Problem, Row, __version__, build_summary
+from .case import Case, parse_case, read_case
+from .errors import Error, FileError, InputError, SolverError
+from .events import DamageState, EventRow, EventRun
+from .mesh import Mesh
+from .problem import ElasticSolution, build, solve
+from .result import Result, read_result, run
+
+__all__ = [
+    "Case",
+    "DamageState",
+    "ElasticSolution",
+    "Error",
+    "EventRow",
+    "EventRun",
+    "FileError",
+    "InputError",
+    "Mesh",
+    "Problem",
+    "Result",
+    "Row",
+    "SolverError",
+    "__version__",
+    "build",
+    "build_summary",
+    "parse_case",
+    "read_case",
+    "read_result",
+    "run",
+    "solve",
+]

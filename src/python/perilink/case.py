@@ -1,0 +1,209 @@
+"""Cases as dictionaries of Python."""
+
+from __future__ import annotations
+
+import copy
+import json
+import re
+import tempfile
+import tomllib
+from collections.abc import Mapping
+from os import PathLike, fspath
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from . import _core
+from .errors import InputError
+from .mesh import Mesh
+
+
+class Case(dict[str, Any]):
+    """A case: the tables and keys of docs/case_file.md as nested dictionaries and lists.
+
+    ``Case(body={"spacing": 5.0, ...}, materials=[{...}], analysis={"type": "damage"})`` builds one,
+    `read_case` reads one. Values may be numbers (also of numpy), texts, booleans, lists, arrays,
+    dictionaries and paths; keys with the value ``None`` are left out. ``body["mesh"]`` and
+    ``elements["mesh"]`` may be a `Mesh`. Change entries as in any dictionary:
+    ``case["body"]["spacing"] = 2.5``.
+
+    Args:
+        tables: keys and tables, or another case
+        path: name of the case in messages; names of mesh files begin at its folder
+        **more: further keys and tables
+    """
+
+    def __init__(
+        self,
+        tables: Mapping[str, Any] | None = None,
+        /,
+        *,
+        path: str | PathLike[str] = "case",
+        **more: Any,
+    ) -> None:
+        super().__init__(copy.deepcopy(dict(tables or {})), **more)
+        self.path: str = fspath(path)
+        self._source: str | None = None  # text of the file that the case was read from
+
+    def copy(self) -> Case:
+        """Returns a copy that shares no table with this case."""
+        return copy.deepcopy(self)
+
+    def toml(self) -> str:
+        """Returns the text of the case file: of the file itself while nothing has changed.
+
+        A `Mesh` has the name of the file that `write` gives it.
+        """
+        return self._unchanged() or _toml(self, {id(m): f"{t}.msh" for t, m in self._meshes()})
+
+    def write(self, path: str | PathLike[str]) -> None:
+        """Writes the case file. A `Mesh` is written beside it as body.msh or elements.msh."""
+        target = Path(path)
+        self._write_meshes(target.parent)
+        target.write_text(self.toml(), encoding="utf-8")
+
+    def check(self) -> Case:
+        """Checks all values and returns the case with all defaults.
+
+        Raises:
+            InputError: the first value at fault. Faults that depend on the body are found by
+                `build` and `run`.
+        """
+        return Case(tomllib.loads(self._parse().resolved()), path=self.path)
+
+    def _parse(self, mesh_folder: Path | None = None) -> _core.CaseFile:
+        """Reads and checks the case.
+
+        Args:
+            mesh_folder: receives the meshes; without one they are only named
+        """
+        source = self._unchanged()
+        if source is not None:
+            return _core.parse_case(source, self.path, True)
+        text = self.toml()
+        if mesh_folder is not None:
+            text = _toml(self, self._write_meshes(mesh_folder))
+        try:  # lines of this text mean nothing to the user
+            return _core.parse_case(text, self.path, False)
+        except InputError as error:
+            line = f":{error.line}" if error.line > 0 else ""
+            message = str(error).replace(f"{self.path}{line}: ", f"{self.path}: ", 1)
+            raise InputError(message, error.path, 0, error.key) from None
+
+    def _unchanged(self) -> str | None:
+        """Returns the text that the case was read from, if nothing has changed since."""
+        if self._source is not None and tomllib.loads(self._source) == self:
+            return self._source
+        return None
+
+    def _meshes(self) -> list[tuple[str, Mesh]]:
+        found = []
+        for table in ("body", "elements"):
+            entry = self.get(table)
+            if isinstance(entry, dict) and isinstance(entry.get("mesh"), Mesh):
+                found.append((table, entry["mesh"]))
+        return found
+
+    def _write_meshes(self, folder: Path) -> dict[int, str]:
+        """Writes the meshes and returns the paths of their files."""
+        paths = {}
+        for table, mesh in self._meshes():
+            file = folder / f"{table}.msh"
+            mesh.write(file)
+            paths[id(mesh)] = str(file.resolve())
+        return paths
+
+
+def parse_case(text: str, path: str | PathLike[str] = "case") -> Case:
+    """Reads and checks a case from the text of a case file.
+
+    Args:
+        text: TOML, see docs/case_file.md
+        path: name of the case in messages; names of mesh files begin at its folder
+
+    Raises:
+        InputError: with file, line, key, value, what is allowed and a suggestion
+    """
+    _core.parse_case(text, fspath(path), True)
+    case = Case(tomllib.loads(text), path=path)
+    case._source = text
+    return case
+
+
+def read_case(path: str | PathLike[str]) -> Case:
+    """Reads and checks a case file.
+
+    Raises:
+        InputError: with file, line, key, value, what is allowed and a suggestion
+        FileError: the file cannot be read
+    """
+    _core.read_case(fspath(path))
+    case = Case(path=path)
+    case._source = Path(path).read_text(encoding="utf-8-sig")
+    case.update(tomllib.loads(case._source))
+    return case
+
+
+_BARE_KEY = re.compile(r"[A-Za-z0-9_-]+\Z")
+
+
+def _toml(case: Mapping[str, Any], mesh_names: Mapping[int, str]) -> str:
+    """Returns a case as TOML: plain keys, then a header for each table and entry of a list."""
+
+    def key(name: object) -> str:
+        if not isinstance(name, str):
+            raise TypeError(f"keys of a case are texts, not {name!r}")
+        return name if _BARE_KEY.match(name) else json.dumps(name, ensure_ascii=False)
+
+    def value(item: Any) -> str:
+        if isinstance(item, (np.generic, np.ndarray)):
+            item = item.tolist()
+        if isinstance(item, bool):
+            return "true" if item else "false"
+        if isinstance(item, Mesh):
+            return value(mesh_names[id(item)])
+        if isinstance(item, (int, float)):
+            return repr(item)
+        if isinstance(item, (str, PathLike)):
+            return json.dumps(fspath(item), ensure_ascii=False).replace("\x7f", "\\u007f")
+        if isinstance(item, Mapping):
+            return "{" + ", ".join(f"{key(k)} = {value(v)}" for k, v in given(item)) + "}"
+        if isinstance(item, (list, tuple)):
+            return "[" + ", ".join(map(value, item)) + "]"
+        raise TypeError(f"a case cannot hold {item!r} of type {type(item).__name__}")
+
+    def given(table: Mapping[str, Any]) -> list[tuple[str, Any]]:
+        return [(k, v) for k, v in table.items() if v is not None]
+
+    def is_list_of_tables(item: Any) -> bool:
+        return (isinstance(item, (list, tuple)) and len(item) > 0
+                and all(isinstance(entry, Mapping) for entry in item))
+
+    plain, tables = [], []
+    for name, item in given(case):
+        if isinstance(item, Mapping) or is_list_of_tables(item):
+            header = f"[{key(name)}]" if isinstance(item, Mapping) else f"[[{key(name)}]]"
+            for table in [item] if isinstance(item, Mapping) else item:
+                tables += ["", header, *(f"{key(k)} = {value(v)}" for k, v in given(table))]
+        else:
+            plain.append(f"{key(name)} = {value(item)}")
+    return "\n".join([*plain, *tables, ""])
+
+
+class MeshFolder:
+    """Folder for the meshes of a case while C++ reads them: a given one, or a temporary one."""
+
+    def __init__(self, case: Case, given: Path | None = None) -> None:
+        self._temporary = None
+        self.path = given
+        if given is None and case._meshes():
+            self._temporary = tempfile.TemporaryDirectory(prefix="perilink-")
+            self.path = Path(self._temporary.name)
+
+    def __enter__(self) -> Path | None:
+        return self.path
+
+    def __exit__(self, *_: object) -> None:
+        if self._temporary is not None:
+            self._temporary.cleanup()

@@ -1,0 +1,107 @@
+"""Damage analyses row by row."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from os import PathLike, fspath
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _core
+
+EventRow = _core.EventRow
+DamageState = _core.DamageState
+
+
+class EventRun(Iterator[_core.EventRow]):
+    """A damage analysis that is advanced row by row: step, look, stop, save, go on.
+
+    ::
+
+        run = perilink.EventRun(problem)
+        for row in run:
+            if row.broken_bonds > 100:
+                break
+        run.write("hundred.state")
+
+    Rows equal those of `run`, up to missed releases of host elements: they are counted in
+    `result` and do not start the run again. Ctrl-C raises KeyboardInterrupt and ends the run.
+
+    Args:
+        problem: from `build`, of a case with ``type = "damage"``
+        state: state to go on from, `state` of a run or a file of `write`; stop rules may differ
+        threads: most threads; by default OMP_NUM_THREADS or all processors
+
+    Raises:
+        InputError: the case has another type of analysis, or a piece of the body has no support
+        SolverError: there is no equilibrium
+        FileError: the file is not a state of this problem
+    """
+
+    def __init__(
+        self,
+        problem: _core.Problem,
+        state: DamageState | str | PathLike[str] | None = None,
+        *,
+        threads: int | None = None,
+    ) -> None:
+        self.problem = problem
+        if isinstance(state, (str, PathLike)):
+            state = _core.read_state(fspath(state), problem)
+        self._stepper = _core.Stepper(problem, state, threads or 0)
+
+    def __iter__(self) -> EventRun:
+        return self
+
+    def __next__(self) -> _core.EventRow:
+        row = self._stepper.next()
+        if row is None:
+            raise StopIteration
+        return row
+
+    @property
+    def displacement(self) -> NDArray[np.float64]:
+        """Motion of the particles in the last row, shape (particles, width) [length], [-]."""
+        return self._stepper.displacement()
+
+    @property
+    def damage(self) -> NDArray[np.float64]:
+        """Damage of the particles, shape (particles,) [-]."""
+        return self._stepper.damage()
+
+    @property
+    def stress(self) -> NDArray[np.float64] | None:
+        """Stress of the particles, shape (particles, 6): xx, yy, zz, xy, yz, xz [force/length^2].
+
+        None for shells and beams.
+        """
+        return self._stepper.stress()
+
+    @property
+    def stiffness_ratios(self) -> NDArray[np.float64]:
+        """Present over intact stiffness of the elements, 0: broken, shape (elements,) [-]."""
+        return self._stepper.stiffness_ratios()
+
+    @property
+    def gauges(self) -> dict[str, float]:
+        """Values of the gauges by name."""
+        return self._stepper.gauges()
+
+    @property
+    def result(self) -> dict[str, Any]:
+        """Peaks, number of broken bonds, errors and, at the end, status and reason."""
+        return self._stepper.result()
+
+    def state(self) -> DamageState:
+        """Returns all that a run needs to go on after the last row.
+
+        Runs that go on from one state agree bit by bit. The run that was saved agrees with them up
+        to last digits, because they begin with a new factor.
+        """
+        return self._stepper.state()
+
+    def write(self, path: str | PathLike[str]) -> None:
+        """Writes the state to a file, for this problem and this version of perilink."""
+        _core.write_state(fspath(path), self.problem, self.state())

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <chrono>
+#include <exception>
+#include <utility>
+
+#include "perilink.hpp"
+
+namespace perilink {
+
+/// Time between two calls into Python, so that calls at every row cost nothing.
+inline constexpr std::chrono::milliseconds call_interval{50};
+
+/// True once in every interval.
+class Throttle {
+ public:
+  bool is_due() {
+    const std::chrono::steady_clock::time_point now = std::chrono::steady_clock::now();
+    if (now < next_) return false;
+    next_ = now + call_interval;
+    return true;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point next_ = std::chrono::steady_clock::time_point::min();
+};
+
+/// Calls Python from a run that has released the interpreter's lock. An exception of Python
+/// (KeyboardInterrupt, or one of the progress function) ends the run and is raised after it.
+class PythonCaller {
+ public:
+  explicit PythonCaller(pybind11::object progress) : progress_(std::move(progress)) {}
+
+  /// Whether Ctrl-C, an exception or the progress function ends the run.
+  bool stop_requested() {
+    if (stop_ || !signals_.is_due()) return stop_;
+    const pybind11::gil_scoped_acquire lock;
+    if (PyErr_CheckSignals() != 0) keep_error();
+    return stop_;
+  }
+
+  void on_row(const RowProgress& row) {
+    if (stop_ || progress_.is_none() || !rows_.is_due()) return;
+    const pybind11::gil_scoped_acquire lock;
+    try {
+      if (progress_(row).is(pybind11::handle(Py_False))) stop_ = true;
+    } catch (pybind11::error_already_set& error) {
+      error.restore();
+      keep_error();
+    }
+  }
+
+  /// Raises the exception that ended the run, if there is one. Needs the lock.
+  void raise() const {
+    if (error_) std::rethrow_exception(error_);
+  }
+  void raise_if_stopped() {
+    if (!stop_requested()) return;
+    const pybind11::gil_scoped_acquire lock;
+    raise();
+  }
+
+ private:
+  /// Takes the error that Python has set.
+  void keep_error() {
+    stop_ = true;
+    error_ = std::make_exception_ptr(pybind11::error_already_set());
+  }
+
+  pybind11::object progress_;
+  Throttle signals_, rows_;
+  bool stop_ = false;
+  std::exception_ptr error_;
+};
+
+}  // namespace perilink

@@ -1,0 +1,120 @@
+"""Cases as dictionaries: reading, changing, writing, checking."""
+
+import os
+import tempfile
+import tomllib
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import perilink
+
+EXAMPLES = Path(os.environ["PERILINK_SOURCE_DIR"]) / "meshes"
+
+STRIP = """
+[body]
+spacing = 10.0
+horizon = 31.0
+
+[[regions]]
+name = "strip"
+x = [0, 40]
+y = [0, 80]
+
+[[regions]]
+name = "lower end"
+x = [0, 40]
+y = [0, 20]
+
+[[regions]]
+name = "upper end"
+x = [0, 40]
+y = [60, 80]
+
+[[materials]]
+region = "strip"
+youngs_modulus = 3000.0
+fracture_energy = 0.001
+
+[[supports]]
+region = "lower end"
+fix = ["x", "y"]
+
+[[loads]]
+region = "upper end"
+force = [0, 12]
+"""
+
+
+class Cases(unittest.TestCase):
+    def test_every_example_is_written_as_it_was_read(self):
+        examples = sorted(EXAMPLES.glob("*.toml"))
+        self.assertGreater(len(examples), 10)
+        for path in examples:
+            case = perilink.read_case(path)
+            self.assertEqual(case, tomllib.loads(path.read_text()))
+            self.assertEqual(case.toml(), path.read_text())
+            case["title"] = "changed"
+            again = perilink.parse_case(case.toml(), path)
+            self.assertEqual(again, case)
+            self.assertNotEqual(again.toml(), path.read_text())
+
+    def test_a_case_is_built_from_keywords(self):
+        table = tomllib.loads(STRIP)
+        built = perilink.Case(
+            body={"spacing": np.float64(10.0), "horizon": 31, "thickness": None},
+            regions=[
+                {"name": "strip", "x": np.array([0, 40]), "y": (0, 80)},
+                {"name": "lower end", "x": [0, 40], "y": [0, 20]},
+                {"name": "upper end", "x": [0, 40], "y": [60, 80]},
+            ],
+            materials=table["materials"],
+            supports=table["supports"],
+            loads=table["loads"],
+            analysis={"type": "damage"},
+        )
+        self.assertEqual(built.check(), perilink.parse_case(STRIP).check())
+        self.assertEqual(built.check()["body"]["thickness"], 1.0)
+
+    def test_texts_and_nested_tables_are_written(self):
+        case = perilink.Case(title='a "quoted" \\ name,\tü \x7f',
+                             odd={"in ner": {"a": [1, {"b": True}]}})
+        self.assertEqual(tomllib.loads(case.toml()), case)
+        with self.assertRaisesRegex(TypeError, "cannot hold"):
+            perilink.Case(body={"spacing": object()}).toml()
+
+    def test_copies_share_nothing(self):
+        case = perilink.parse_case(STRIP)
+        copy = case.copy()
+        copy["body"]["spacing"] = 5.0
+        self.assertEqual(case["body"]["spacing"], 10.0)
+        self.assertEqual(case.toml(), STRIP)
+
+    def test_faults_of_a_file_have_their_line(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "faulty.toml"
+            path.write_text(STRIP.replace("horizon", "horizn"))
+            with self.assertRaises(perilink.InputError) as caught:
+                perilink.read_case(path)
+            self.assertEqual(caught.exception.path, str(path))
+            self.assertEqual(caught.exception.line, 4)
+            self.assertEqual(caught.exception.key, "body.horizn")
+            self.assertIn(f"{path}:4: body.horizn: ", str(caught.exception))
+            self.assertIn("did you mean `horizon`?", str(caught.exception))
+            with self.assertRaises(perilink.FileError):
+                perilink.read_case(path.with_name("missing.toml"))
+
+    def test_faults_of_a_changed_case_have_their_key(self):
+        case = perilink.parse_case(STRIP)
+        case["materials"][0]["youngs_modulus"] = -1
+        with self.assertRaises(perilink.InputError) as caught:
+            case.check()
+        self.assertEqual(caught.exception.line, 0)
+        self.assertEqual(caught.exception.key, "materials[1].youngs_modulus")
+        self.assertTrue(str(caught.exception).startswith("case: materials[1].youngs_modulus: "))
+        self.assertIsInstance(caught.exception, ValueError)
+
+
+if __name__ == "__main__":
+    unittest.main()
