@@ -80,7 +80,7 @@ int main(int argc, char** argv) {
     const CaseFile brittle =
         parse_case(strip("damage", "fracture_energy = 0.01\ntensile_strength = 1.0"), "brittle");
     RunSettings settings;
-    settings.old_results = OldRun::overwritten;
+    settings.old_results = OldResults::removed;
     Index rows = 0;
     settings.callbacks.on_row = [&](const RowProgress&) { ++rows; };
     const RunEnd end = run_case(brittle, directory, settings);

@@ -22,7 +22,7 @@ class RunCase : public testing::Test {
 
   test::TemporaryDirectory work_;
   CaseFile input_ = test::strip_case();
-  RunSettings settings_{1, OldRun::refused, true};
+  RunSettings settings_{1, OldResults::refused, true};
 };
 
 TEST_F(RunCase, CallsBackAtEveryRow) {
@@ -80,7 +80,7 @@ TEST_F(RunCase, RefusesResultsBeforeItBuilds) {
   settings_.callbacks.on_calibration = [&](int, double) { calibrates = true; };
   EXPECT_THROW(run_case(input_, work_ / "out", settings_), FileError);
   EXPECT_FALSE(calibrates);
-  settings_.old_results = OldRun::overwritten;
+  settings_.old_results = OldResults::removed;
   EXPECT_EQ(run_case(input_, work_ / "out", settings_).termination, Termination::collapsed);
   EXPECT_TRUE(calibrates);
 }
