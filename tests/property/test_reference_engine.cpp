@@ -35,7 +35,7 @@ TEST_P(Reference, IsFollowedEventByEvent) {
   Comparison comparison(body, 0.0);
   add_direct(comparison);
   comparison.add("conjugate gradients", iterative(), of_gradients);
-  comparison.follow(150);
+  comparison.follow(90);
   EXPECT_GT(comparison.tally().events, 10);
 }
 
@@ -45,7 +45,7 @@ TEST_P(Reference, IsFollowedByBatches) {
   Comparison comparison(body, 0.1);
   add_direct(comparison);
   comparison.add("conjugate gradients", iterative(), of_gradients);
-  comparison.follow(100);
+  comparison.follow(50);
   EXPECT_GT(comparison.tally().batches, 0);
 }
 
@@ -102,9 +102,9 @@ TEST_P(ReferenceStages, AreFollowed) {
 
 std::vector<RandomBody> staged_bodies() {
   std::vector<RandomBody> bodies = random_bodies();
-  // Bonds with a compressive branch have no stages. Bodies 13 and 31 show a known error: a bond that
-  // bends is in tension above 1e-6 of its equivalent stretch (FrameLimitSearch), or of its limit
-  // (CrossingSearch). Between both, a bond beyond its limit is missed until the next event.
+  // Bonds with a compressive branch have no stages. Bodies 13 and 31 show a known error: a bond
+  // that bends is in tension above 1e-6 of its equivalent stretch (FrameLimitSearch), or of its
+  // limit (CrossingSearch). In between, a bond beyond its limit is missed until the next event.
   std::erase_if(bodies, [](const RandomBody& body) {
     return body.laws == RandomLaws::crushing || body.seed == 13 || body.seed == 31;
   });
