@@ -50,7 +50,7 @@ ReferenceEngine::ReferenceEngine(const LoadedNetwork& body, double tolerance)
   if (body.sets.empty()) {
     settle(0.0);
   } else {
-    load_factor_ = 0.0;
+    load_factor_ = largest_factor_ = 0.0;
     begin_stage(0);
   }
 }
@@ -162,7 +162,8 @@ bool ReferenceEngine::has_side(Index element) const {
 /// \param direction  sign of the load change that decides for bonds with zero extension, or 0
 std::vector<Index> ReferenceEngine::violated(double direction) const {
   const Eigen::VectorXd motion = displacement_at(load_factor_);
-  const double noise = round_off * motion.cwiseAbs().maxCoeff();
+  const double noise = round_off * (constant_.cwiseAbs().maxCoeff() +
+                                    largest_factor_ * growing_.cwiseAbs().maxCoeff());
   std::vector<Index> wrong;
   for (Index e = 0; e < network_.num_elements(); ++e) {
     if (!can_close(e)) continue;

@@ -2,6 +2,8 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <span>
 #include <vector>
@@ -22,6 +24,7 @@ struct ReferenceEvent {
   double load_factor = 0.0;       ///< load factor of the event
   bool at_constant_load = false;  ///< an element is beyond its limit at the present load factor
   bool changes_side = false;      ///< a damaged bond closes or opens, and no element fails
+  double direction = 1.0;         ///< of a contact state change: -1 if the load factor falls
 };
 
 /// Damage analysis of trusses and micropolar bonds of one modulus ratio each, with bars, elastic
@@ -40,7 +43,10 @@ class ReferenceEngine {
   void begin_stage(std::size_t set);
   /// Sets the contact states for the first loads of a stage. \return false for a mechanism
   bool open_for(double direction) { return settle(direction); }
-  void move_to(double load_factor) { load_factor_ = load_factor; }
+  void move_to(double load_factor) {
+    load_factor_ = load_factor;
+    largest_factor_ = std::max(largest_factor_, std::abs(load_factor));
+  }
   double load_factor() const { return load_factor_; }
 
   /// Finds the next event: without load cases as the load grows from zero, else at the largest load
@@ -129,7 +135,7 @@ class ReferenceEngine {
   double tolerance_;
   Unknowns unknowns_;
   Field growing_loads_, constant_loads_;
-  double load_factor_ = 1.0;
+  double load_factor_ = 1.0, largest_factor_ = 1.0;
   std::vector<double> factors_, gripped_at_;
   std::size_t set_ = 0, newest_ = 0;
   std::vector<int> segments_;

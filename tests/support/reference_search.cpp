@@ -61,9 +61,10 @@ double ReferenceEngine::ratio(Index element, const Eigen::VectorXd& motion) cons
                          law.first_in_compression().limit * length;
     return -along / (segment == 0 ? first : limit);
   }
-  const double size = body_.sets.empty() ? stretch : (1.0 + tie) * limit;
-  const double least = is_frame(element) ? least_tension * size : 0.0;
-  return along > least ? stretch / limit : 0.0;
+  // In a stage, round-off at the load factor where tension begins must not decide.
+  const double least = body_.sets.empty() ? least_tension * stretch
+                                          : (least_tension + tie) * allowed(element) * limit;
+  return along > (is_frame(element) ? least : 0.0) ? stretch / limit : 0.0;
 }
 
 /// Returns the load factors at which an element reaches its limit, or a bond that bends becomes
@@ -78,9 +79,7 @@ std::vector<double> ReferenceEngine::crossings(Index element) const {
     return result;
   }
   const double c = squared_stretch(element, constant_), p = squared_stretch(element, growing_);
-  if (rate != 0.0)
-    result.push_back((least_tension * limit_of(element) * network_.bonds.length(element) - now) /
-                     rate);
+  if (rate != 0.0) result.push_back((least_tension * limit - now) / rate);
   if (!(p > 0.0)) return result;
   const double size = c > 0.0 ? std::sqrt(c / p) : 1.0;
   const double mixed =
@@ -128,15 +127,10 @@ ReferenceEvent ReferenceEngine::worst() const {
 /// Returns the elements that fail beyond a load factor at which none fails.
 ReferenceEvent ReferenceEngine::failing_at(double load_factor, double direction) const {
   ReferenceEvent event{{}, load_factor, false, false};
-  double rate = 0.0;
   for (Index e = 0; e < network_.num_elements(); ++e) {
-    if (limit_of(e) < never)
-      rate = std::max(
-          rate, std::sqrt(squared_stretch(e, growing_)) / (limit_of(e) * network_.bonds.length(e)));
-  }
-  const double step = direction * std::max(1e-7 / rate, 1e-9 * std::abs(load_factor));
-  for (Index e = 0; e < network_.num_elements(); ++e) {
-    if (!(limit_of(e) < never)) continue;
+    const double rate = std::sqrt(squared_stretch(e, growing_));
+    if (!(limit_of(e) < never) || rate == 0.0) continue;
+    const double step = direction * 1e-7 * limit_of(e) * network_.bonds.length(e) / rate;
     const double there = ratio_at(load_factor, e) / allowed(e);
     const double beyond = ratio_at(load_factor + step, e) / allowed(e);
     const double before = ratio_at(load_factor - step, e) / allowed(e);
@@ -159,7 +153,7 @@ ReferenceEvent ReferenceEngine::or_side_change(ReferenceEvent event, double end)
     const double change = -extension(e, motion) / rate;
     if (!(std::abs(change) < distance)) continue;
     distance = std::abs(change);
-    event = {{e}, load_factor_ + change, false, true};
+    event = {{e}, load_factor_ + change, false, true, end > load_factor_ ? 1.0 : -1.0};
   }
   return event;
 }

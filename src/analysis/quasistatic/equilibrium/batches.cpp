@@ -198,8 +198,8 @@ bool Equilibrium::follow_batch(Batch& batch, double& pivot) {
   try {
     batch.keeps_factor = way == Way::gradients;
     if (way == Way::gradients && search_equilibrium()) return true;
-    batch.keeps_factor = subdomains_ != nullptr && subdomains_->can_solve();
     if (subdomains_ != nullptr) return false;
+    batch.keeps_factor = false;
     factorize();
     return true;
   } catch (const SolverError&) {
@@ -243,7 +243,7 @@ bool Equilibrium::resists_without(const Batch& batch) {
 }
 
 void Equilibrium::bring_factor_up() {
-  if (lags_ || (subdomains_ != nullptr && !subdomains_->can_solve())) factorize();
+  if (lags_) factorize();
 }
 
 bool Equilibrium::change_factor(const Batch& batch, double& pivot) {

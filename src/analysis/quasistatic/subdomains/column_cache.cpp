@@ -199,9 +199,12 @@ void SubdomainFactor::take_in(std::span<const SparseVector> x, Correction* corre
   fill_right_sides(x, correction);
   blocks_.emplace_back(right_.size());
   const int iterations =
-      solver_->solve_block(right_, blocks_.back(), enough, size_of_last).iterations;
+      solver().solve_block(right_, blocks_.back(), enough, size_of_last).iterations;
   if (first_iterations_ == 0) first_iterations_ = iterations;
-  if (iterations > slower * first_iterations_) make_solver();
+  if (iterations > slower * first_iterations_) {
+    solver_.reset();  // frees memory first
+    solver();
+  }
   for (std::size_t k = 0; correction != nullptr && k < slot_of_.size(); ++k) {
     correction->residual[k] =
         std::exchange(blocks_.back()[slot_of_[k] * block_width + block_width - 1], 0.0);

@@ -33,14 +33,18 @@ void SubdomainFactor::begin(const Unknowns& unknowns, Secants secants,
   place_of_.assign(static_cast<std::size_t>(unknowns.count), no_index);
   window_.clear();
   clear();
-  make_solver();
+  solver_.reset();  // frees memory first
+  solver();
 }
 
-/// Makes the subdomains of the present body, split along its cracks.
-void SubdomainFactor::make_solver() {
-  solver_.reset();  // frees memory first
-  solver_ = std::make_unique<SubdomainSolver>(network_, *unknowns_, secants_, options_, ground_);
-  first_iterations_ = 0;
+/// Returns the subdomains; makes those of the present body, split along its cracks, if there are
+/// none. They are missing if the body did not resist when they were to be made anew.
+SubdomainSolver& SubdomainFactor::solver() {
+  if (!solver_) {
+    solver_ = std::make_unique<SubdomainSolver>(network_, *unknowns_, secants_, options_, ground_);
+    first_iterations_ = 0;
+  }
+  return *solver_;
 }
 
 void SubdomainFactor::factorize(const SparseMatrix& /*matrix*/, std::span<const Index> /*groups*/) {
@@ -52,11 +56,11 @@ void SubdomainFactor::refactorize(const SparseMatrix& /*matrix*/) {
 }
 
 void SubdomainFactor::solve(std::span<const double> rhs, std::span<double> solution) {
-  solver_->solve(rhs, solution);
+  solver().solve(rhs, solution);
 }
 
 void SubdomainFactor::correct(std::vector<double>& residual, double energy) {
-  energy > 0.0 ? solver_->correct(residual, residual, energy) : solver_->solve(residual, residual);
+  energy > 0.0 ? solver().correct(residual, residual, energy) : solver().solve(residual, residual);
 }
 
 /// Returns the blocks times weights, per unknown.
@@ -127,13 +131,14 @@ void SubdomainFactor::downdate(std::span<const SparseVector> x,
 void SubdomainFactor::follow(std::vector<double>& residual, double energy) {
   constexpr double many_more = 1.5;
   if (!window_.empty()) clear();
-  const int before = solver_->iterations();
+  const int before = solver().iterations();
   correct(residual, energy);
-  const int iterations = solver_->iterations() - before;
+  const int iterations = solver().iterations() - before;
   all_iterations_ += iterations;
   if (following_iterations_ == 0) following_iterations_ = iterations;
   if (iterations <= many_more * following_iterations_) return;
-  make_solver();
+  solver_.reset();  // frees memory first
+  solver();
   following_iterations_ = 0;
   ++begun_;
 }

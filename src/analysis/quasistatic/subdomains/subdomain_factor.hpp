@@ -29,8 +29,6 @@ class SubdomainFactor final : public Factor {
   /// \throws NotPositiveDefinite if a part of the body can move without resistance
   void begin(const Unknowns& unknowns, Secants secants, const std::vector<double>& ground);
 
-  /// Returns whether there are subdomains of a body that resists; else begin() must make them.
-  bool can_solve() const { return solver_ != nullptr; }
   /// Returns whether K^-1 x is in the cache.
   bool holds(const SparseVector& x) const { return parts_of(x).has_value(); }
   /// Loads the columns of these vectors into the cache. Must precede a change of the secants: a
@@ -73,7 +71,7 @@ class SubdomainFactor final : public Factor {
   using Part = VectorSpan::Part;  ///< by positions in the cache
   std::optional<std::vector<Part>> parts_of(const SparseVector& x) const;
   void keep_latest();
-  void make_solver();
+  SubdomainSolver& solver();
   std::vector<SparseVector> missing_of(std::span<const SparseVector> x) const;
   struct Correction {
     std::vector<double>& residual;
