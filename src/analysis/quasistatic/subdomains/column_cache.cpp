@@ -205,6 +205,7 @@ void SubdomainFactor::take_in(std::span<const SparseVector> x, Correction* corre
     solver_.reset();  // frees memory first
     solver();
   }
+  columns_solved_ += static_cast<Index>(x.size());
   for (std::size_t k = 0; correction != nullptr && k < slot_of_.size(); ++k) {
     correction->residual[k] =
         std::exchange(blocks_.back()[slot_of_[k] * block_width + block_width - 1], 0.0);

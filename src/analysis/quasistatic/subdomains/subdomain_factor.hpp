@@ -66,6 +66,7 @@ class SubdomainFactor final : public Factor {
   FactorStatistics statistics() const override;
 
   std::size_t num_blocks() const { return blocks_.size(); }
+  Index columns_solved() const { return columns_solved_; }
 
  private:
   using Part = VectorSpan::Part;  ///< by positions in the cache
@@ -114,6 +115,7 @@ class SubdomainFactor final : public Factor {
   Eigen::MatrixXd shares_;      ///< F: the present columns are the blocks times F
   Eigen::MatrixXd compliance_;  ///< H: e' K^-1 e of the present columns
   int begun_ = 0;
+  Index columns_solved_ = 0;
 };
 
 }  // namespace perilink
