@@ -25,6 +25,7 @@ int run_case(const RunOptions& options) {
   settings.callbacks.on_start = catch_stop_signals;
   settings.callbacks.stop_requested = stop_signal_received;
   settings.callbacks.on_fault = complain;
+  if (!options.quiet) settings.callbacks.on_note = complain;
   CaseFile input = read_case_file(options.case_path, parse_settings(options.settings), {});
   input.trust_geometry = options.trust_geometry;
   const std::filesystem::path directory = options.directory
@@ -35,7 +36,7 @@ int run_case(const RunOptions& options) {
   if (end.ran) {
     fmt::print("{}", end.summary.text);
   } else {
-    fmt::print("{}: holds the whole run already\n", directory.string());
+    fmt::print("{}: the run has ended already; raise a stop rule to go on\n", directory.string());
   }
   return exit_status_of(end.termination);
 }

@@ -30,6 +30,7 @@ struct RunCallbacks {
   CalibrationObserver on_calibration;  ///< called before every solve of the bond calibration
   std::function<void()> on_start;      ///< called before the first file is written
   std::function<void(const std::string&)> on_fault;  ///< receives errors when they happen
+  std::function<void(const std::string&)> on_note;   ///< receives where a resumed run goes on
 
   bool asks_to_stop() const { return stop_requested && stop_requested(); }
 };

@@ -23,15 +23,19 @@ namespace {
 
 /// Returns the number of rows between checkpoints for which they take about 2 % of the run time,
 /// by counted work: a new engine over an event. A run of some seconds has none.
-Index rows_of_events(const FactorStatistics& factor, const Network& network) {
+/// \param batches  elements fail together, and a row takes several solutions
+Index rows_of_events(const FactorStatistics& factor, const Network& network, bool batches) {
   constexpr double flops_per_second = 10e9, bytes_per_second = 10e9, part = 0.02;
-  constexpr double least_seconds = 10.0;
   constexpr double per_unknown = 3e-6, per_element = 1e-6, per_event = 5e-5;
+  constexpr double per_force = 1e-8, steps_of_gradients = 12.0, solutions_of_batch = 5.0;
+  constexpr double least_seconds = 5.0;
   const double elements = network.num_elements();
   const double rebuild = per_unknown * factor.size + per_element * elements +
                          factor.flops / flops_per_second + 4.0 * factor.bytes / bytes_per_second;
-  const double event = per_event + 1e-9 * elements + factor.bytes / bytes_per_second;
-  return static_cast<Index>(std::clamp(std::max(rebuild / part, least_seconds) / event, 1e3, 1e8));
+  double event = per_event + 2e-9 * elements + factor.bytes / bytes_per_second;
+  if (batches) event *= solutions_of_batch;
+  if (factor.subdomains > 0) event += steps_of_gradients * per_force * elements;
+  return static_cast<Index>(std::clamp(std::max(rebuild / part, least_seconds) / event, 20.0, 1e8));
 }
 
 }  // namespace
@@ -69,8 +73,8 @@ void DamageRun::analyse() {
 /// Follows the analysis to its end. A failure to write ends it with the results so far.
 void DamageRun::follow() {
   if (records_.checkpoint_rows == 0) {
-    records_.checkpoint_rows = input.output.checkpoint_every.value_or(
-        rows_of_events(run_->result().factor, model_.network));
+    records_.checkpoint_rows = input.output.checkpoint_every.value_or(rows_of_events(
+        run_->result().factor, model_.network, options_.engine.event_tolerance > 0.0));
   }
   try {
     while (const StepRecord* row = run_->next()) {

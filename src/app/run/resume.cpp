@@ -22,12 +22,34 @@ constexpr const char* other_ways =
 std::string first_difference(const std::string& there, const std::string& here) {
   std::istringstream old(there), now(here);
   std::string before, after;
-  do {
-    before = after = "the end";
+  while (before == after && old && now) {
     std::getline(old, before);
     std::getline(now, after);
-  } while (before == after && (old || now));
-  return fmt::format("`{}` there, `{}` here", before, after);
+  }
+  const auto shown = [](const std::string& line) {
+    return line.empty() ? std::string("nothing") : "`" + line + "`";
+  };
+  return fmt::format("{} there, {} here", shown(before), shown(after));
+}
+
+/// Refuses a stop rule that the results may have passed already.
+/// \param table  "stop", "stages[2]"
+void require_raised(const StopSection& there, const StopSection& here, const std::string& table,
+                    const std::filesystem::path& directory) {
+  const auto refuse = [&](const char* key) {
+    throw FileError(fmt::format(
+        "{}: its rows may be past {}.{}, which is lower than that of the results, or new\n"
+        "  raise stop rules or delete them to go on{}",
+        directory.string(), table, key, other_ways));
+  };
+  const auto is_lower = [](const auto& old, const auto& now) {
+    return now && (!old || *now < *old);
+  };
+  if (is_lower(there.broken_bonds, here.broken_bonds)) refuse("broken_bonds");
+  if (is_lower(there.displacement, here.displacement)) refuse("displacement");
+  if (here.load_fraction && (!there.load_fraction || *here.load_fraction > *there.load_fraction)) {
+    refuse("load_fraction");
+  }
 }
 
 bool has_ended(const std::filesystem::path& directory) {
@@ -57,6 +79,11 @@ Resumed find_results(const CaseFile& input, const std::filesystem::path& directo
   if (before != now) {
     throw FileError(fmt::format("{}: holds the results of another case: {}{}", directory.string(),
                                 first_difference(before, now), other_ways));
+  }
+  require_raised(there.stop, input.stop, "stop", directory);
+  for (std::size_t k = 0; k < input.stages.size(); ++k) {
+    require_raised(there.stages[k].stop, input.stages[k].stop, fmt::format("stages[{}]", k + 1),
+                   directory);
   }
   const bool same_rules =
       read_regular_file(old.string()) == write_case(seen_from(input, directory));

@@ -139,6 +139,13 @@ RunEnd run_case(const CaseFile& input, const fs::path& directory, const RunSetti
   if (calls.on_start) calls.on_start();
   const auto log = open_files(*run, directory, found.checkpoint);
   run->seconds.set_up = timer.seconds();
+  if (settings.old_results == OldResults::kept && calls.on_note) {
+    calls.on_note(
+        found.checkpoint
+            ? fmt::format("{}: goes on after row {}", directory.string(), run->files().rows())
+            : fmt::format("{}: has no checkpoint, so the run starts from the beginning",
+                          directory.string()));
+  }
 
   timer.restart();
   RunEnd end;

@@ -83,6 +83,15 @@ TEST_F(Resume, RefusesAnotherCaseAndSaysWhatDiffers) {
               HasSubstr("`youngs_modulus = 1000` there, `youngs_modulus = 2000` here"));
 }
 
+/// Rows beyond a lowered rule would stay in the history.
+TEST_F(Resume, RefusesALoweredStopRule) {
+  run(strip);
+  EXPECT_THAT(refusal(replaced(strip, "broken_bonds = 12", "broken_bonds = 11")),
+              HasSubstr("stop.broken_bonds"));
+  EXPECT_THAT(refusal(replaced(strip, "broken_bonds = 12", "broken_bonds = 12\ndisplacement = 1")),
+              HasSubstr("stop.displacement"));
+}
+
 TEST_F(Resume, RefusesAnotherModel) {
   run(strip);
   const Resumed found = find_results(
