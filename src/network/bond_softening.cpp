@@ -239,6 +239,12 @@ double find_energy(const StrengthFactor& factor_of, const SofteningShape& shape,
   return unit_energy * factor * factor;
 }
 
+/// Width of the classes of laws of random strength: difference of the logarithm of the fracture
+/// energy over the square of the strength, which determines the shape of a law.
+constexpr double width_of_class = 0.02;
+
+double energy_of_class(int number) { return std::exp(width_of_class * number); }
+
 Index count_segments(const BondLaw& law) {
   Index count = 0;
   while (law.segment(count).secant > 0.0) ++count;
@@ -293,10 +299,11 @@ MaterialBonds bonds_by(const StrengthFactor& factor_of, double modulus,
 
 }  // namespace
 
-TooStrong::TooStrong(Index number, double energy)
+TooStrong::TooStrong(Index number, double energy, double random)
     : std::invalid_argument("the strength of a bond does not fit its fracture energy"),
       material(number),
-      share(energy) {}
+      share(energy),
+      scatter(random) {}
 
 MaterialBonds bonds_of_material(const Body& body, const NetworkInput& input,
                                 const SolidMaterial& material, double brittle_stretch) {
@@ -319,62 +326,120 @@ MaterialBonds bonds_of_face(const Body& body, const NetworkInput& input, const F
   return bonds_by(factor_of, parted.modulus, material, brittle_stretch);
 }
 
-void soften_bonds(const Body& body, const NetworkInput& input, Network& network) {
-  const Particles& particles = network.particles;
-  // Materials, and the stretch where bonds of the same materials have different energies: in beams
-  // near ends, and in layers at joints. Slip springs have no such stretch.
-  struct Kind {
-    std::pair<Index, Index> materials;
-    double stretch;
-    auto operator<=>(const Kind&) const = default;
-  };
-  const auto kind_of = [&](Index element) -> Kind {
-    const Index j = network.bonds.second[element];
-    if (element < static_cast<Index>(network.materials_of.size())) {
-      const auto& [a, b] = network.materials_of[element];
-      return {std::minmax(a, b), network.critical_stretch[element]};
-    }
-    const double stretch = network.is_beam() ? network.critical_stretch[element] : 0.0;
+namespace {
+
+/// Bonds with one law.
+struct LawKind {
+  std::pair<Index, Index> materials;
+  int energy_class = 0;  ///< with NetworkInput::random
+  /// The stretch where bonds of the same materials have different energies: in beams near ends, and
+  /// in layers at joints. Slip springs have no such stretch.
+  double stretch = 0.0;
+  auto operator<=>(const LawKind&) const = default;
+};
+
+/// Sorts bonds and slip springs by their laws.
+class LawKinds {
+ public:
+  LawKinds(const NetworkInput& input, const Network& network)
+      : input_(input), network_(network), factors_(random_factors(input, network)) {}
+
+  LawKind of(Index element) const;
+  bool softens(const LawKind& kind) const {
+    return perilink::softens(input_.materials[kind.materials.first]) &&
+           perilink::softens(input_.materials[kind.materials.second]);
+  }
+  bool scatter() const { return !factors_.strength.empty(); }
+  /// Returns the factor on the reference stretch of an element's law.
+  double factor(Index element, const LawKind& kind) const {
+    if (element >= static_cast<Index>(factors_.strength.size())) return 1.0;
+    return softens(kind) ? factors_.strength[element] : std::sqrt(factors_.energy[element]);
+  }
+
+ private:
+  const NetworkInput& input_;
+  const Network& network_;
+  BondFactors factors_;
+};
+
+LawKind LawKinds::of(Index element) const {
+  const Index j = network_.bonds.second[element];
+  LawKind kind;
+  if (element < static_cast<Index>(network_.materials_of.size())) {
+    const auto& [a, b] = network_.materials_of[element];
+    kind.materials = std::minmax(a, b);
+    kind.stretch = network_.critical_stretch[element];
+  } else {
+    const std::vector<Index>& material = network_.particles.material;
     // The particle between two beam segments belongs to the first one.
-    const Index own = particles.material[network.is_beam() ? j : network.bonds.first[element]];
-    const bool solid = particles.kind[j] == ParticleKind::solid;
-    return {std::minmax(own, solid ? particles.material[j] : own), stretch};
-  };
-  std::map<Kind, MaterialBonds> laws;
+    const Index own = material[network_.is_beam() ? j : network_.bonds.first[element]];
+    const bool solid = network_.particles.kind[j] == ParticleKind::solid;
+    kind.materials = std::minmax(own, solid ? material[j] : own);
+    if (network_.is_beam()) kind.stretch = network_.critical_stretch[element];
+  }
+  if (element < static_cast<Index>(factors_.strength.size()) && softens(kind)) {
+    const double strength = factors_.strength[element];
+    kind.energy_class = static_cast<int>(
+        std::lround(std::log(factors_.energy[element] / (strength * strength)) / width_of_class));
+  }
+  return kind;
+}
+
+/// Returns the laws of all bonds, and those without scatter.
+std::map<LawKind, MaterialBonds> laws_of(const Body& body, const NetworkInput& input,
+                                         const LawKinds& kinds, const Network& network) {
+  std::map<LawKind, MaterialBonds> laws;
   for (Index e = 0; e < network.first_slip_spring; ++e) {
     if (!network.has_limit(e)) continue;
-    const Kind kind = kind_of(e);
+    LawKind kind = kinds.of(e);
     if (laws.contains(kind)) continue;
     const auto [a, b] = kind.materials;
     const SolidMaterial mean = mean_of(input.materials[a], input.materials[b]);
     if (!softens(mean) && !mean.softening.closes && !input.draft) continue;
-    try {
-      laws.insert({kind, bonds_of_material(body, input, mean, network.critical_stretch[e])});
-    } catch (const TooStrong& error) {
-      throw TooStrong(a, error.share);
+    for (const int number : {0, kind.energy_class}) {
+      const double energy = energy_of_class(number);
+      SolidMaterial own = mean;
+      own.fracture_energy *= energy;
+      kind.energy_class = number;
+      if (laws.contains(kind)) continue;
+      try {
+        laws.insert({kind, bonds_of_material(body, input, own,
+                                             network.critical_stretch[e] * std::sqrt(energy))});
+      } catch (const TooStrong& error) {
+        throw TooStrong(a, error.share, energy);
+      }
     }
   }
+  return laws;
+}
+
+}  // namespace
+
+void soften_bonds(const Body& body, const NetworkInput& input, Network& network) {
+  const LawKinds kinds(input, network);
+  const std::map<LawKind, MaterialBonds> laws = laws_of(body, input, kinds, network);
   network.strengths.resize(input.materials.size());
+  std::map<LawKind, Index> number;
   for (const auto& [kind, bonds] : laws) {
     const auto [a, b] = kind.materials;
-    if (a == b && network.strengths[a].segments == 0) network.strengths[a] = bonds.strength;
-  }
-  std::map<Kind, Index> number;
-  for (auto& [kind, bonds] : laws) {
+    const bool mean = a == b && kind.energy_class == 0;
+    if (mean && network.strengths[a].segments == 0) network.strengths[a] = bonds.strength;
     if (bonds.law.is_brittle()) continue;
     number[kind] = static_cast<Index>(network.laws.size());
     network.laws.push_back(bonds.law);
   }
-  if (number.empty()) return;
-  network.law_of.resize(network.stiffness.size(), 0);
+  if (!number.empty()) network.law_of.resize(network.stiffness.size(), 0);
+  if (number.empty() && !kinds.scatter()) return;
   for (Index e = 0; e < network.first_bar_element; ++e) {
     if (!network.has_limit(e)) continue;
-    const Kind kind = kind_of(e);
+    const LawKind kind = kinds.of(e);
     // Slip springs take the law with the least stretch, as bonds away from other materials do.
     const auto law = kind.stretch > 0.0 ? number.find(kind) : number.lower_bound(kind);
-    if (law == number.end() || law->first.materials != kind.materials) continue;
-    network.law_of[e] = law->second;
-    network.critical_stretch[e] = laws.at(law->first).strength.first_stretch;
+    if (law != number.end() && law->first.materials == kind.materials) {
+      network.law_of[e] = law->second;
+      network.critical_stretch[e] = laws.at(law->first).strength.first_stretch;
+    }
+    network.critical_stretch[e] *= kinds.factor(e, kind);
   }
 }
 

@@ -22,9 +22,10 @@ constexpr double most_softening = 1e10;
 /// holds more energy than it may dissipate, or less than 1 / most_softening of it.
 class TooStrong : public std::invalid_argument {
  public:
-  TooStrong(Index material, double share);
+  TooStrong(Index material, double share, double scatter = 1.0);
   Index material;  ///< number in NetworkInput::materials, then interfaces
   double share;    ///< energy that the bond may dissipate over the energy that it holds [-]
+  double scatter;  ///< factor of NetworkInput::random on this share [-]
 };
 
 /// Law and strength of the bonds of one material.
@@ -61,6 +62,10 @@ MaterialBonds bonds_of_face(const Body& body, const NetworkInput& input, const F
 /// the network's strengths. An uncalibrated model also gets the strengths of brittle materials.
 /// Bonds between two materials have their mean constants and the weaker one's curve. Bonds to a
 /// brittle material stay brittle.
+///
+/// NetworkInput::random scales the strength of each softening bond exactly. The shape of its law,
+/// which keeps the fracture energy, is that of a class: the energy of a bond is within 1 %. The
+/// critical stretch of a brittle bond follows its energy alone. Slip springs do not scatter.
 /// \throws TooStrong
 void soften_bonds(const Body& body, const NetworkInput& input, Network& network);
 

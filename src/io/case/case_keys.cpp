@@ -174,6 +174,12 @@ const Without interfaces = {
     {elements, "is \"linear_elements\", but the case has [[interfaces]], which need bonds",
      "delete one of the two", "body.method"},
     {elastic, {}, {}}};
+const Without random_tables = {
+    {particles, no_particle_table, another_model},
+    {lattice, no_lattice_table, another_model},
+    {elements, "is \"linear_elements\", but the case has [[random]], which varies bonds",
+     "delete one of the two", "body.method"},
+    {elastic, {}, {}}};
 const Without rebar = {
     {beam, no_beam, flat_instead},
     {shell, "is given, but shells cannot have rebar", flat_instead},
@@ -345,6 +351,10 @@ const std::vector<TableSchema>& case_schema() {
       {"springs", true, {"region", {"stiffness", spring_stiffness}, "total"}, springs},
       {"cracks", true, crack_keys, cracks},
       {"interfaces", true, interface_keys, interfaces},
+      {"random",
+       true,
+       {"property", "materials", "distribution", "variation", "correlation_length", "seed"},
+       random_tables},
       {"rebar", true, rebar_keys, rebar},
       {"elements",
        false,
