@@ -81,8 +81,11 @@ double UnitMean::operator()(double z) const {
   switch (distribution_) {
     case Distribution::normal: return 1.0 + variation_ * cut(z);
     case Distribution::lognormal: return std::exp(shape_ * z - 0.5 * shape_ * shape_);
-    default:
-      return std::pow(-std::log(probability(-z)), 1.0 / shape_) / std::tgamma(1.0 + 1.0 / shape_);
+    default: {
+      // The smaller one of both probabilities has all digits.
+      const double hazard = z < 0.0 ? -std::log1p(-probability(z)) : -std::log(probability(-z));
+      return std::pow(hazard, 1.0 / shape_) / std::tgamma(1.0 + 1.0 / shape_);
+    }
   }
 }
 
