@@ -35,8 +35,7 @@ inline void add_critical_stretch(const NetworkInput& input, double stretch, Netw
   if (!input.elastic) network.critical_stretch.push_back(stretch);
 }
 
-/// Factors on the strength and the fracture energy of bonds between their materials [-], per bond of
-/// the solid; both empty: nothing scatters.
+/// Factors on strength and fracture energy [-], per bond of the solid; empty: nothing scatters.
 struct BondFactors {
   std::vector<double> strength;
   std::vector<double> energy;

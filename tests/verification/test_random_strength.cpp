@@ -62,7 +62,7 @@ load_fraction = 0.1
 )";
 }
 
-/// Strengths along the axis of the strip between its unbreakable ends.
+/// Strengths along the axis of the strip, a horizon and more away from its unbreakable ends.
 struct Axis {
   double least = 1e300, place = 0.0;  ///< weakest place and its strength
   double mean = 0.0;
@@ -71,9 +71,9 @@ struct Axis {
 Axis strengths_along(const RandomField& field) {
   std::vector<double> positions;
   std::vector<Index> points;
-  for (Index x = 20; x <= 180; ++x) {
+  for (Index x = 32; x <= 168; ++x) {
     positions.insert(positions.end(), {static_cast<double>(x), 10.0});
-    points.push_back(x - 20);
+    points.push_back(x - 32);
   }
   const std::vector<double> z = normal_field(field, positions, 2, points, points);
   const UnitMean factor_of(field.distribution, field.variation);
@@ -104,7 +104,7 @@ double place_of_crack(const test::WholeRun& run) {
 }
 
 TEST(RandomStrength, AStripBreaksInItsWeakestPlaceAtItsStrength) {
-  for (const int seed : {1, 2, 3}) {
+  for (const int seed : {1, 2, 3, 4, 5, 6}) {
     const test::WholeRun run(random_strip(seed));
     const Axis axis = strengths_along(run.input.random[0].field);
     const double peak = run.summary.json.at("peak_load").get<double>();

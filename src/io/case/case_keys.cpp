@@ -306,6 +306,8 @@ const std::vector<KeySchema> rebar_keys = plain(
     "concrete_strength rib_spacing bond_failure bond_conditions megapascal millimetre "
     "ties_break perimeter hooks bends prestrain stage");
 
+const std::vector<KeySchema> stage_keys =
+    plain("name loads to to_load broken_bonds load_fraction displacement");
 const std::vector<KeySchema> random_keys =
     plain("property materials distribution variation correlation_length seed");
 
@@ -373,10 +375,7 @@ const std::vector<TableSchema>& case_schema() {
            "give `axis`"}}}}},
       {"analysis", false, analysis_keys},
       {"stop", false, {"broken_bonds", "load_fraction", "displacement"}, of_damage},
-      {"stages",
-       true,
-       {"name", "loads", "to", "to_load", "broken_bonds", "load_fraction", "displacement"},
-       stages},
+      {"stages", true, stage_keys, stages},
       {"output",
        false,
        {{"fields_at", of_damage},

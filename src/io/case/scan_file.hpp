@@ -33,8 +33,7 @@ struct ScanFile {
 };
 
 /// Runs each member once for every seed, which varies fastest. Every `seed` of the case's
-/// [[random]] gets it; tables with other seeds than the first one get others, so that fields that
-/// are alike in the case, and only these, stay alike.
+/// [[random]] gets it; tables whose seeds differ in the case get seeds that differ.
 /// \param document  of the case
 /// \throws InputError  where the case has no [[random]]
 void give_seeds(ScanFile& scan, const TomlValue& document);

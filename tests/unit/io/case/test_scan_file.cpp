@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(
         ScanRefusal{"noKeys", scan_head + "[values]\n", 2, "has no key"},
         ScanRefusal{"emptyRun", scan_head + "[[runs]]\n", 2, "runs[1]: has no key"},
         ScanRefusal{"oneTable", scan_head + "[runs]\na = 1\n", 2, "[[runs]] with two brackets"},
-        ScanRefusal{"noSeeds", scan_head + "seeds = 0\n", 2, "seeds: is 0"},
+        ScanRefusal{"noSeeds", scan_head + "seeds = 0\n", 2, "seeds: is the integer 0"},
         ScanRefusal{"emptySeeds", scan_head + "seeds = []\n", 2, "seeds: is empty"},
         ScanRefusal{"seedTwice", scan_head + "seeds = [3, 4, 3]\n", 2, "holds a seed twice"},
         ScanRefusal{"seedTooLarge", scan_head + "seeds = [1000000]\n", 2, "seeds"},
@@ -105,7 +105,7 @@ TEST(ScanFile, SeedsVaryFastest) {
   EXPECT_FALSE(is_seed(scan, "body.spacing"));
 }
 
-TEST(ScanFile, FieldsThatAreAlikeInTheCaseStayAlike) {
+TEST(ScanFile, SeedsThatAreEqualInTheCaseStayEqual) {
   const ScanFile scan = seeded("seeds = 2\n",
                                "[[random]]\nseed = 1\n[[random]]\nseed = 2\n"
                                "[[random]]\n");
