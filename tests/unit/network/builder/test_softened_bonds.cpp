@@ -137,23 +137,29 @@ TEST(SoftenedBonds, OfOtherMaterialsKeepTheirs) {
   EXPECT_EQ(keep({0, 1}), (std::array{true, true, false}));
 }
 
-/// At 0.9 of the largest strength that the fracture energy allows, some bonds would have more.
+/// At 0.75 of the largest strength that the fracture energy allows, some bonds would have more.
 TEST(SoftenedBonds, RefuseStrengthBeyondTheirEnergy) {
   const LatticeInput lattice = body_input(rectangular, 8);
   const Body body = make_body(lattice);
   NetworkInput input = softening_input(lattice);
   const Network even = build_network(body, input);
   const double largest = std::sqrt(2.0 * energy_of_bond(even, 0)) / even.critical_stretch[0];
-  input.materials[0].softening.tensile_strength *= 0.9 * largest;
+  input.materials[0].softening.tensile_strength *= 0.75 * largest;
   EXPECT_NO_THROW(build_network(body, input));
   input.random = {random_in(RandomProperty::tensile_strength)};
-  try {
-    build_network(body, input);
-    ADD_FAILURE() << "accepted";
-  } catch (const TooStrong& error) {
-    EXPECT_LT(error.share, 1.0);
-    EXPECT_NE(error.scatter, 1.0);
+  input.random[0].field.variation = 0.3;
+  int refused = 0;
+  for (input.random[0].field.seed = 1; input.random[0].field.seed <= 6;
+       ++input.random[0].field.seed) {
+    try {
+      build_network(body, input);
+    } catch (const TooStrong& error) {
+      EXPECT_LT(error.share, 1.0);
+      EXPECT_NE(error.scatter, 1.0);
+      ++refused;
+    }
   }
+  EXPECT_GT(refused, 0);
 }
 
 }  // namespace
