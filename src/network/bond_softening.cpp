@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <map>
 #include <optional>
 #include <stdexcept>
-#include <utility>
 #include <vector>
 
 #include "material/strength/bond_cell.hpp"
@@ -194,30 +192,6 @@ bool softens(const SolidMaterial& material) {
   return material.softening.shape.kind != Softening::brittle;
 }
 
-/// Returns the material of bonds between two materials: mean elastic constants, smaller strength
-/// and fracture energy, and the curve of the weaker one. A given stretch takes precedence over a
-/// missing one.
-SolidMaterial mean_of(const SolidMaterial& a, const SolidMaterial& b) {
-  const auto strength = [](const SolidMaterial& material) {
-    return std::pair(material.softening.tensile_strength, material.softening.stretches[0]);
-  };
-  const SolidMaterial& weaker = strength(b) < strength(a) ? b : a;
-  SolidMaterial mean = softens(a) && softens(b) ? weaker : SolidMaterial{};
-  mean.softening.closes = a.softening.closes && b.softening.closes;
-  mean.youngs_modulus = 0.5 * (a.youngs_modulus + b.youngs_modulus);
-  mean.poissons_ratio = 0.5 * (a.poissons_ratio + b.poissons_ratio);
-  mean.fracture_energy = energy_between(a, b);
-  mean.softening.tensile_strength =
-      std::min(a.softening.tensile_strength, b.softening.tensile_strength);
-  mean.softening.shear_softens = a.softening.shear_softens && b.softening.shear_softens;
-  for (int k = 0; k < 2; ++k) {
-    const auto [least, most] = std::minmax(a.softening.stretches[k], b.softening.stretches[k]);
-    mean.softening.stretches[k] = least > 0.0 ? least : most;
-    mean.softening.crushing[k] = std::min(a.softening.crushing[k], b.softening.crushing[k]);
-  }
-  return mean;
-}
-
 /// Returns the tensile strength over the product of modulus and s_0 [-], or the compressive
 /// strength for laws with a compressive branch.
 using StrengthFactor = std::function<double(const BondLaw&, bool compressed)>;
@@ -293,10 +267,11 @@ MaterialBonds bonds_by(const StrengthFactor& factor_of, double modulus,
 
 }  // namespace
 
-TooStrong::TooStrong(Index number, double energy)
+TooStrong::TooStrong(Index number, double energy, double random)
     : std::invalid_argument("the strength of a bond does not fit its fracture energy"),
       material(number),
-      share(energy) {}
+      share(energy),
+      scatter(random) {}
 
 MaterialBonds bonds_of_material(const Body& body, const NetworkInput& input,
                                 const SolidMaterial& material, double brittle_stretch) {
@@ -317,65 +292,6 @@ MaterialBonds bonds_of_face(const Body& body, const NetworkInput& input, const F
   const Parted parted = parted_body(body, input, material, face);
   const auto factor_of = [&](const BondLaw& law, bool) { return parted.strength(law); };
   return bonds_by(factor_of, parted.modulus, material, brittle_stretch);
-}
-
-void soften_bonds(const Body& body, const NetworkInput& input, Network& network) {
-  const Particles& particles = network.particles;
-  // Materials, and the stretch where bonds of the same materials have different energies: in beams
-  // near ends, and in layers at joints. Slip springs have no such stretch.
-  struct Kind {
-    std::pair<Index, Index> materials;
-    double stretch;
-    auto operator<=>(const Kind&) const = default;
-  };
-  const auto kind_of = [&](Index element) -> Kind {
-    const Index j = network.bonds.second[element];
-    if (element < static_cast<Index>(network.materials_of.size())) {
-      const auto& [a, b] = network.materials_of[element];
-      return {std::minmax(a, b), network.critical_stretch[element]};
-    }
-    const double stretch = network.is_beam() ? network.critical_stretch[element] : 0.0;
-    // The particle between two beam segments belongs to the first one.
-    const Index own = particles.material[network.is_beam() ? j : network.bonds.first[element]];
-    const bool solid = particles.kind[j] == ParticleKind::solid;
-    return {std::minmax(own, solid ? particles.material[j] : own), stretch};
-  };
-  std::map<Kind, MaterialBonds> laws;
-  for (Index e = 0; e < network.first_slip_spring; ++e) {
-    if (!network.has_limit(e)) continue;
-    const Kind kind = kind_of(e);
-    if (laws.contains(kind)) continue;
-    const auto [a, b] = kind.materials;
-    const SolidMaterial mean = mean_of(input.materials[a], input.materials[b]);
-    if (!softens(mean) && !mean.softening.closes && !input.draft) continue;
-    try {
-      laws.insert({kind, bonds_of_material(body, input, mean, network.critical_stretch[e])});
-    } catch (const TooStrong& error) {
-      throw TooStrong(a, error.share);
-    }
-  }
-  network.strengths.resize(input.materials.size());
-  for (const auto& [kind, bonds] : laws) {
-    const auto [a, b] = kind.materials;
-    if (a == b && network.strengths[a].segments == 0) network.strengths[a] = bonds.strength;
-  }
-  std::map<Kind, Index> number;
-  for (auto& [kind, bonds] : laws) {
-    if (bonds.law.is_brittle()) continue;
-    number[kind] = static_cast<Index>(network.laws.size());
-    network.laws.push_back(bonds.law);
-  }
-  if (number.empty()) return;
-  network.law_of.resize(network.stiffness.size(), 0);
-  for (Index e = 0; e < network.first_bar_element; ++e) {
-    if (!network.has_limit(e)) continue;
-    const Kind kind = kind_of(e);
-    // Slip springs take the law with the least stretch, as bonds away from other materials do.
-    const auto law = kind.stretch > 0.0 ? number.find(kind) : number.lower_bound(kind);
-    if (law == number.end() || law->first.materials != kind.materials) continue;
-    network.law_of[e] = law->second;
-    network.critical_stretch[e] = laws.at(law->first).strength.first_stretch;
-  }
 }
 
 }  // namespace perilink

@@ -22,9 +22,10 @@ constexpr double most_softening = 1e10;
 /// holds more energy than it may dissipate, or less than 1 / most_softening of it.
 class TooStrong : public std::invalid_argument {
  public:
-  TooStrong(Index material, double share);
+  TooStrong(Index material, double share, double scatter = 1.0);
   Index material;  ///< number in NetworkInput::materials, then interfaces
   double share;    ///< energy that the bond may dissipate over the energy that it holds [-]
+  double scatter;  ///< factor of NetworkInput::random on this share [-]
 };
 
 /// Law and strength of the bonds of one material.
@@ -56,12 +57,5 @@ struct FaceShape {
 /// \throws TooStrong
 MaterialBonds bonds_of_face(const Body& body, const NetworkInput& input, const FaceShape& face,
                             const SolidMaterial& material, double brittle_stretch);
-
-/// Sets the laws and critical stretches of bonds and slip springs between softening materials, and
-/// the network's strengths. An uncalibrated model also gets the strengths of brittle materials.
-/// Bonds between two materials have their mean constants and the weaker one's curve. Bonds to a
-/// brittle material stay brittle.
-/// \throws TooStrong
-void soften_bonds(const Body& body, const NetworkInput& input, Network& network);
 
 }  // namespace perilink

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <tuple>
 
 #include "base/csr.hpp"
@@ -120,7 +121,49 @@ Index material_entered(const NetworkInput& input, const Facets& facets, Index fa
   return first ? inside : outside;
 }
 
+/// Returns the factors on one property. Materials without it have infinite values.
+std::vector<double> factors_on(RandomProperty property, const NetworkInput& input,
+                               const Network& network) {
+  const auto count = static_cast<std::size_t>(network.num_bonds());
+  const Bonds& bonds = network.bonds;
+  std::vector<std::vector<double>> fields(input.materials.size());  // per material that scatters
+  std::vector<double> values;
+  for (const SolidMaterial& material : input.materials) {
+    values.push_back(property == RandomProperty::tensile_strength
+                         ? material.softening.tensile_strength
+                         : material.fracture_energy);
+  }
+  for (const RandomStrength& random : input.random) {
+    if (random.property != property) continue;
+    const Particles& places = network.places();
+    std::vector<double> field =
+        normal_field(random.field, places.positions, places.dim,
+                     std::span(bonds.first).first(count), std::span(bonds.second).first(count));
+    const UnitMean factor_of(random.field.distribution, random.field.variation);
+    std::ranges::transform(field, field.begin(), factor_of);
+    for (std::size_t m = 0; m < fields.size(); ++m) {
+      if (random.scatters[m] != 0) fields[m] = field;
+    }
+  }
+  std::vector<double> factors;
+  for (std::size_t b = 0; b < count; ++b) {
+    auto [i, j] = materials_of_bond(network, static_cast<Index>(b));
+    if (network.is_beam()) i = j;  // a particle between two spans belongs to the first one
+    const auto factor = [&](Index m) { return fields[m].empty() ? 1.0 : fields[m][b]; };
+    const double mean = std::min(values[i], values[j]);
+    factors.push_back(
+        std::isinf(mean) ? 1.0 : std::min(values[i] * factor(i), values[j] * factor(j)) / mean);
+  }
+  return factors;
+}
+
 }  // namespace
+
+BondFactors random_factors(const NetworkInput& input, const Network& network) {
+  if (input.random.empty()) return {};
+  return {factors_on(RandomProperty::tensile_strength, input, network),
+          factors_on(RandomProperty::fracture_energy, input, network)};
+}
 
 double energy_between(const SolidMaterial& a, const SolidMaterial& b) {
   const auto [least, most] = std::minmax(a.fracture_energy, b.fracture_energy);

@@ -35,6 +35,16 @@ inline void add_critical_stretch(const NetworkInput& input, double stretch, Netw
   if (!input.elastic) network.critical_stretch.push_back(stretch);
 }
 
+/// Factors on strength and fracture energy [-], per bond of the solid; empty: nothing scatters.
+struct BondFactors {
+  std::vector<double> strength;
+  std::vector<double> energy;
+};
+
+/// Returns the factors of NetworkInput::random in the middle of each bond. Between two materials
+/// the smaller value of a property applies, as without scatter.
+BondFactors random_factors(const NetworkInput& input, const Network& network);
+
 /// Sets critical stretches from the neighbourhoods of a lattice, as the mean over all directions of
 /// a crack.
 /// \param cell_volume  volume of an interior particle [length^3]

@@ -206,5 +206,27 @@ TEST_F(Scan, KilledAtAnyMomentItGoesOnToTheSameTable) {
   EXPECT_GT(killed, 6) << "the moments lie within the scan";
 }
 
+TEST_F(Scan, RunsSamplesOfARandomCaseAlikeWithAnyNumberOfThreads) {
+  write_text(work() / "block.toml",
+             replaced(small_ghost_case, "[analysis]",
+                      "[[random]]\nproperty = \"fracture_energy\"\ndistribution = \"weibull\"\n"
+                      "variation = 0.2\ncorrelation_length = 40\n\n[analysis]"));
+  const std::string samples = "case = \"block.toml\"\nseeds = 3\n";
+  const ProcessEnd end = scan(samples);
+  ASSERT_EQ(end.exit_status, 0) << end.err;
+  EXPECT_THAT(end.out, HasSubstr("peak_load over 3 seeds: mean "));
+  EXPECT_NE(number("results/scan", 1, 3), number("results/scan", 2, 3)) << "another seed";
+  EXPECT_THAT(file("results/scan/scan.svg"), HasSubstr("3 seeds: mean "));
+  ASSERT_EQ(scan(samples, {"--out", "again", "--threads", "2"}).exit_status, 0);
+  EXPECT_EQ(results("again"), results("results/scan"));
+  EXPECT_EQ(file("again/0002/history.csv"), file("results/scan/0002/history.csv"));
+}
+
+TEST_F(Scan, RefusesSeedsOfACaseWithoutRandomTables) {
+  const ProcessEnd end = scan("case = \"block.toml\"\nseeds = 3\n");
+  EXPECT_EQ(end.exit_status, 2);
+  EXPECT_THAT(end.err, AllOf(HasSubstr("scan.toml:2"), HasSubstr("has no [[random]]")));
+}
+
 }  // namespace
 }  // namespace perilink::test

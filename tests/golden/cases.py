@@ -50,6 +50,26 @@ regions = ["upper grip"]
 youngs_modulus = 10000
 fracture_energy = "infinite"
 """)
+case("strip_random_strength_and_energy", "strip", "linear", "yield", """
+[[random]]
+property = "tensile_strength"
+distribution = "weibull"
+variation = 0.1
+correlation_length = 30
+[[random]]
+property = "fracture_energy"
+distribution = "lognormal"
+variation = 0.1
+correlation_length = 30
+seed = 2
+""")
+case("strip_random_closing", "strip", "closing", "broken", """
+[[random]]
+property = "fracture_energy"
+distribution = "normal"
+variation = 0.1
+correlation_length = 30
+""")
 case("strip_steps_driven", "strip", "steps", "broken", """
 -[stop]
 [analysis]

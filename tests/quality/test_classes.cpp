@@ -24,7 +24,7 @@ const std::map<std::string, ClassExtent>& exceptions() {
       {"NormalEquations", {25, 30, 5}},
       {"CalibrationEquations", {25, 37, 3}},
       {"CalibrationSolver", {25, 30, 9}},
-      {"CaseFile", {26, 30, 3}},
+      {"CaseFile", {27, 30, 3}},
       {"RebarSection", {25, 30, 4}},
       {"CaseTable", {25, 31, 3}},
       {"Network", {29, 30, 3}},

@@ -18,6 +18,7 @@
 #include "base/files.hpp"
 #include "base/plain_text.hpp"
 #include "io/text/input_text.hpp"
+#include "io/text/toml_tree.hpp"
 #include "results/result_directory.hpp"
 
 namespace perilink {
@@ -36,8 +37,12 @@ struct ScanRun {
 };
 
 /// Reads and checks the case of every member. \throws InputError at the member's values
-std::vector<CaseFile> read_members(const ScanFile& scan) {
+std::vector<CaseFile> read_members(ScanFile& scan) {
   const std::string text = read_input_text(scan.case_path);
+  if (!scan.seeds.empty()) {
+    refuse_large_input(text, scan.case_path);
+    give_seeds(scan, parse_toml(text, scan.case_path));
+  }
   std::vector<CaseFile> cases;
   for (std::size_t k = 0; k < scan.members.size(); ++k) {
     const ScanMember& member = scan.members[k];

@@ -21,8 +21,10 @@ constexpr std::array<const char*, 7> line_colors = {"#0072b2", "#d55e00", "#009e
 std::string color_of_line(std::size_t line) { return line_colors[line % line_colors.size()]; }
 
 /// Returns the stroke of a line; lines beyond the number of colours are dashed.
-std::string stroke_of(std::size_t line) {
-  return fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\"{}", color_of_line(line),
+std::string stroke_of(std::size_t line, bool filled) {
+  const std::string fill =
+      filled ? color_of_line(line) + "\" fill-opacity=\"0.25" : std::string("none");
+  return fmt::format("fill=\"{}\" stroke=\"{}\" stroke-width=\"1.8\"{}", fill, color_of_line(line),
                      line / line_colors.size() % 2 == 1 ? " stroke-dasharray=\"6 4\"" : "");
 }
 
@@ -59,7 +61,8 @@ void draw_marked_lines(Svg& svg, std::span<const MarkedLine> lines, SvgPoint cor
     for (const SvgPoint point : lines[k].points) {
       path.empty() ? path.move_to(point) : path.line_to(point);
     }
-    svg.path(path, stroke_of(k));
+    svg.path(path, stroke_of(k, lines[k].filled));
+    if (lines[k].filled) continue;
     for (const SvgPoint point : lines[k].points) draw_mark(svg, k, point);
   }
   const double left = corner.x + legend_gap;
@@ -68,8 +71,8 @@ void draw_marked_lines(Svg& svg, std::span<const MarkedLine> lines, SvgPoint cor
     SvgPath sample;
     sample.move_to({left, y});
     sample.line_to({left + 28, y});
-    svg.path(sample, stroke_of(k));
-    draw_mark(svg, k, {left + 14, y});
+    svg.path(sample, stroke_of(k, false));
+    if (!lines[k].filled) draw_mark(svg, k, {left + 14, y});
     svg.text({left + 36, y + 4.5}, lines[k].name, "start", "font-size=\"13\" fill=\"#333\"");
   }
 }

@@ -14,6 +14,7 @@ namespace perilink {
 struct MarkedLine {
   std::string name;              ///< in the legend
   std::vector<SvgPoint> points;  ///< [px]
+  bool filled = false;           ///< the outline of an area, without marks
 };
 
 /// Returns width and height that the legend needs to the right of and below the corner given to

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "app/plot/plot_axes.hpp"
 #include "app/plot/plot_lines.hpp"
+#include "app/scan/scan_table.hpp"
 #include "base/types.hpp"
 
 namespace perilink {
@@ -45,6 +47,46 @@ Axis axis_of_data(double low, double high, double pixel_low, double pixel_high) 
   return {low - room, high + room, pixel_low, pixel_high};
 }
 
+/// Returns the outline of a histogram with bins of one width.
+std::vector<ScanPlot::Point> outline_of(std::span<const double> values, double low, double width,
+                                        std::size_t bins) {
+  std::vector<double> counts(bins, 0.0);
+  for (const double value : values) {
+    const double at = std::floor((value - low) / width);
+    counts[static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(bins - 1)))] += 1.0;
+  }
+  std::vector<ScanPlot::Point> points = {{low, 0.0}};
+  for (std::size_t k = 0; k < bins; ++k) {
+    points.push_back({low + width * static_cast<double>(k), counts[k]});
+    points.push_back({low + width * static_cast<double>(k + 1), counts[k]});
+  }
+  points.push_back({points.back().x, 0.0});
+  return points;
+}
+
+/// Adds the histograms of samples, with common bins.
+void add_histograms(std::span<const ScanSample> samples, ScanPlot& plot) {
+  double low = infinity, high = -infinity;
+  std::size_t most = 1;
+  for (const ScanSample& sample : samples) {
+    most = std::max(most, sample.values.size());
+    for (const double value : sample.values) {
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  }
+  // The number of bins of Sturges (1926), over the range of all samples.
+  const double bins = high > low ? 1.0 + std::ceil(std::log2(static_cast<double>(most))) : 1.0;
+  const double width = high > low ? (high - low) / bins : std::max(0.1 * std::abs(low), 1e-9);
+  if (high == low) low -= 0.5 * width;
+  for (const ScanSample& sample : samples) {
+    ScanPlot::Line& line = plot.lines.emplace_back(ScanPlot::Line{sample_text(sample), {}});
+    if (sample.values.empty()) continue;
+    line.points = outline_of(sample.values, low, width, static_cast<std::size_t>(bins));
+    line.mean = sample.mean();
+  }
+}
+
 }  // namespace
 
 ScanPlot scan_plot(const ScanFile& scan, std::span<const ScanResult> results,
@@ -60,6 +102,11 @@ ScanPlot scan_plot(const ScanFile& scan, std::span<const ScanResult> results,
   plot.x_label = key.empty() ? "member" : key;
   plot.y_label = breaks ? "peak load" : "strain energy";
   if (!force.empty()) plot.y_label += " (" + force + ")";
+  if (!scan.seeds.empty()) {
+    plot.x_label = std::exchange(plot.y_label, "members");
+    add_histograms(samples_of(scan, results, quantity), plot);
+    return plot;
+  }
   for (std::size_t k = 0; k < results.size(); ++k) {
     const double value = number_of(results[k].numbers, quantity);
     std::vector<CaseSetting> others = scan.members[k].settings;
@@ -89,7 +136,7 @@ Svg draw_scan(const ScanPlot& plot) {
   const Axis y = make_axis(low.y, high.y, scan_height - 72.0, scan_top);
   std::vector<MarkedLine> lines;
   for (const ScanPlot::Line& line : plot.lines) {
-    MarkedLine& marked = lines.emplace_back(MarkedLine{line.name, {}});
+    MarkedLine& marked = lines.emplace_back(MarkedLine{line.name, {}, line.mean.has_value()});
     for (const ScanPlot::Point& point : line.points) {
       marked.points.push_back({x.map(point.x), y.map(point.y)});
     }
@@ -99,6 +146,11 @@ Svg draw_scan(const ScanPlot& plot) {
   svg.text({scan_left, 32}, plot.title, "start",
            "font-size=\"18\" font-weight=\"bold\" fill=\"#222\"");
   draw_axes(svg, x, y, plot.x_label, plot.y_label, Grid::lines);
+  for (const ScanPlot::Line& line : plot.lines) {
+    if (!line.mean) continue;
+    svg.line({x.map(*line.mean), y.map(low.y)}, {x.map(*line.mean), y.map(high.y)},
+             "stroke=\"#444\" stroke-dasharray=\"5 4\"");
+  }
   draw_marked_lines(svg, lines, {scan_right, scan_top});
   return svg;
 }

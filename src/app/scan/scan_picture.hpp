@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,8 +18,9 @@ struct ScanPlot {
     double y = 0.0;
   };
   struct Line {
-    std::string name;           ///< values of the other keys; empty: there are none
-    std::vector<Point> points;  ///< in the order of x
+    std::string name;                 ///< values of the other keys; empty: there are none
+    std::vector<Point> points;        ///< in the order of x; the outline of a histogram
+    std::optional<double> mean = {};  ///< of a histogram
   };
   std::string title;
   std::string x_label;
@@ -28,7 +30,7 @@ struct ScanPlot {
 
 /// Returns the peak loads, or the strain energies of elastic runs, over the first key with several
 /// numbers, with a line for each combination of the other keys. Without such a key they are over
-/// the numbers of the members.
+/// the numbers of the members. Scans with seeds give a histogram for each combination of keys.
 /// \param units  of the case, "kN, m"
 ScanPlot scan_plot(const ScanFile& scan, std::span<const ScanResult> results,
                    const std::string& units);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 
 #include "io/text/csv.hpp"
 
@@ -68,6 +69,41 @@ std::string range_of(std::span<const ScanResult> results, const std::string& qua
 
 std::string member_name(std::size_t member) { return fmt::format("{:04}", member + 1); }
 
+double ScanSample::mean() const {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double ScanSample::deviation() const {
+  double squares = 0.0;
+  for (const double value : values) squares += (value - mean()) * (value - mean());
+  return std::sqrt(squares / (static_cast<double>(values.size()) - 1.0));
+}
+
+std::vector<ScanSample> samples_of(const ScanFile& scan, std::span<const ScanResult> results,
+                                   const std::string& quantity) {
+  std::vector<ScanSample> samples;
+  for (std::size_t k = 0; k < results.size() && !scan.seeds.empty(); ++k) {
+    // Members that differ in their seeds alone follow each other.
+    if (k % scan.seeds.size() == 0) {
+      std::vector<CaseSetting> others = scan.members[k].settings;
+      std::erase_if(others, [&](const CaseSetting& other) { return is_seed(scan, other.key); });
+      samples.push_back({member_text(others), {}});
+    }
+    const double value = number_of(results[k].numbers, quantity);
+    if (std::isfinite(value)) samples.back().values.push_back(value);
+  }
+  return samples;
+}
+
+std::string sample_text(const ScanSample& sample) {
+  const std::string name = sample.name.empty() ? "" : sample.name + ", ";
+  if (sample.values.empty()) return name + "no seed with a result";
+  const double mean = sample.mean(), deviation = sample.deviation();
+  if (std::isnan(deviation)) return fmt::format("{}1 seed: {:.6g}", name, mean);
+  return fmt::format("{}{} seeds: mean {:.6g}, standard deviation {:.4g} ({:.3g} %)", name,
+                     sample.values.size(), mean, deviation, 100.0 * deviation / std::abs(mean));
+}
+
 std::string scan_table(const ScanFile& scan, std::span<const ScanResult> results) {
   const std::vector<std::string> gauges = gauges_of(results);
   CsvRow header;
@@ -125,6 +161,9 @@ std::string scan_report(const ScanFile& scan, std::span<const ScanResult> result
     if (result.status != "failed") continue;
     below +=
         fmt::format("  {}: {}\n", row.front(), result.reason.substr(0, result.reason.find('\n')));
+  }
+  for (const ScanSample& sample : samples_of(scan, results, "peak_load")) {
+    below += fmt::format("  peak_load over {}\n", sample_text(sample));
   }
   return fmt::format("{}{}{} members: {}{}{}; {:.3g} s of runs\n", in_columns(rows), below,
                      results.size(), counts_of(results),

@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "app/scan/scan_result.hpp"
 #include "io/case/scan_file.hpp"
@@ -10,6 +11,22 @@
 /// Results of a scan as tables. Results are in the order of the members.
 
 namespace perilink {
+
+/// Numbers of members that differ in their seeds alone.
+struct ScanSample {
+  std::string name;            ///< values of the other keys; empty: there are none
+  std::vector<double> values;  ///< of members with the number
+  double mean() const;         ///< NaN without values
+  double deviation() const;    ///< standard deviation, with values - 1; NaN below two values
+};
+
+/// Returns the samples of a scan with seeds, else none.
+/// \param quantity  number of summary.json
+std::vector<ScanSample> samples_of(const ScanFile& scan, std::span<const ScanResult> results,
+                                   const std::string& quantity);
+
+/// Describes a sample, "20 seeds: mean 3.1, standard deviation 0.2 (6.5 %)".
+std::string sample_text(const ScanSample& sample);
 
 /// Returns scan.csv: a row for each member, with the seconds in the last column.
 std::string scan_table(const ScanFile& scan, std::span<const ScanResult> results);

@@ -13,6 +13,7 @@
 #include "io/case/case_words.hpp"
 #include "io/text/formula.hpp"
 #include "material/model_code_bond.hpp"
+#include "material/strength/random_field.hpp"
 
 /// \file The sections of a case file and all their defaults. The reader checks every value. Faults
 ///     that depend on the body (empty regions, free rigid modes) are found when the model is built.
@@ -155,6 +156,13 @@ struct InterfaceSection {
   SofteningMaterial softening;
 };
 
+/// [[random]]: a property of materials that scatters in space about their values.
+struct RandomSection {
+  RandomProperty property = RandomProperty::tensile_strength;
+  std::vector<std::string> materials;  ///< names; empty: all that have the property
+  RandomField field;
+};
+
 /// Layout of bars in a box, along an axis and `cover` from its faces: bars along one face, or
 /// stirrups around the axis.
 struct BarLayout {
@@ -292,6 +300,7 @@ struct CaseFile {
   std::vector<SpringSection> springs;
   std::vector<CrackSection> cracks;
   std::vector<InterfaceSection> interfaces;
+  std::vector<RandomSection> random;
   std::vector<RebarSection> rebar;
   std::vector<GaugeSection> gauges;
   std::optional<ElementsSection> elements;

@@ -14,10 +14,8 @@ constexpr std::string_view bonds_instead = "delete it, or the line method = \"li
 constexpr std::string_view another_model = "delete it, or choose another model in [body]";
 constexpr std::string_view lattice_instead = "delete it, or set model = \"lattice\" in [body]";
 constexpr std::string_view whole_body = "model the whole body";
-constexpr std::string_view no_lattice_table =
-    "is given, but a body with model = \"lattice\" cannot have it";
-constexpr std::string_view no_particle_table =
-    "is given, but a body with model = \"particles\" cannot have it";
+constexpr std::string_view no_such_table =
+    "is given, but a body with model = \"{model}\" cannot have it";
 constexpr std::string_view only_lattices =
     "is given, but only bodies with model = \"lattice\" have it";
 
@@ -151,7 +149,7 @@ const Without symmetry = {
      "would lack half of their bonds",
      whole_body}};
 const Without springs = {
-    {lattice, no_lattice_table, another_model},
+    {lattice, no_such_table, another_model},
     {elements, "is \"linear_elements\", but the case has [[springs]], which need bonds",
      "delete one of the two", "body.method"}};
 const Without spring_stiffness = {
@@ -162,30 +160,29 @@ const Without outside_of_mid_surfaces = {
     {shell, "is given, but positions in a shell have two coordinates, x and y", delete_it}};
 const Without cracks = {
     {beam, no_beam, flat_instead},
-    {particles, no_particle_table, another_model},
-    {lattice, no_lattice_table, another_model},
+    {particles | lattice, no_such_table, another_model},
     {elements, "is \"linear_elements\", but the case has [[cracks]], which cut bonds",
      "delete one of the two, or leave the crack out of the mesh", "body.method"}};
 const Without interfaces = {
     {beam, no_beam, flat_instead},
     {shell, "is given, but shells cannot have interfaces", flat_instead},
-    {particles, no_particle_table, another_model},
-    {lattice, no_lattice_table, another_model},
+    {particles | lattice, no_such_table, another_model},
     {elements, "is \"linear_elements\", but the case has [[interfaces]], which need bonds",
      "delete one of the two", "body.method"},
     {elastic, {}, {}}};
+const Without random_tables = {{particles | lattice, no_such_table, another_model},
+                               {elements, no_bonds, bonds_instead},
+                               {elastic, {}, {}}};
 const Without rebar = {
     {beam, no_beam, flat_instead},
     {shell, "is given, but shells cannot have rebar", flat_instead},
-    {particles, no_particle_table, another_model},
-    {lattice, no_lattice_table, another_model},
+    {particles | lattice, no_such_table, another_model},
     {elements, "is \"linear_elements\", but the case has [[rebar]], which needs bonds",
      "delete one of the two", "body.method"}};
 
 const Without hosts = {
     {shell, "is given, but elements cannot constrain particles of shells", flat_instead},
-    {particles, no_particle_table, another_model},
-    {lattice, no_lattice_table, another_model},
+    {particles | lattice, no_such_table, another_model},
     {elements, "is \"linear_elements\", but the case has [elements], which constrain particles",
      "delete one of the two", "body.method"},
     {explicit_ | relaxation, {}, {}}};
@@ -309,6 +306,11 @@ const std::vector<KeySchema> rebar_keys = plain(
     "concrete_strength rib_spacing bond_failure bond_conditions megapascal millimetre "
     "ties_break perimeter hooks bends prestrain stage");
 
+const std::vector<KeySchema> stage_keys =
+    plain("name loads to to_load broken_bonds load_fraction displacement");
+const std::vector<KeySchema> random_keys =
+    plain("property materials distribution variation correlation_length seed");
+
 /// A line in the plane and on mid-surfaces, a polygon in space.
 const std::vector<KeySchema> crack_keys = {
     {"points",
@@ -345,6 +347,7 @@ const std::vector<TableSchema>& case_schema() {
       {"springs", true, {"region", {"stiffness", spring_stiffness}, "total"}, springs},
       {"cracks", true, crack_keys, cracks},
       {"interfaces", true, interface_keys, interfaces},
+      {"random", true, random_keys, random_tables},
       {"rebar", true, rebar_keys, rebar},
       {"elements",
        false,
@@ -372,10 +375,7 @@ const std::vector<TableSchema>& case_schema() {
            "give `axis`"}}}}},
       {"analysis", false, analysis_keys},
       {"stop", false, {"broken_bonds", "load_fraction", "displacement"}, of_damage},
-      {"stages",
-       true,
-       {"name", "loads", "to", "to_load", "broken_bonds", "load_fraction", "displacement"},
-       stages},
+      {"stages", true, stage_keys, stages},
       {"output",
        false,
        {{"fields_at", of_damage},

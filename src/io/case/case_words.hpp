@@ -12,6 +12,7 @@
 #include "material/model_code_bond.hpp"
 #include "material/softening.hpp"
 #include "material/strain.hpp"
+#include "material/strength/random_field.hpp"
 #include "solver/factor_route.hpp"
 #include "solver/linear_solver.hpp"
 
@@ -120,6 +121,8 @@ constexpr auto words_of(CriticalStretch) { return words("dissipated", "lattice",
 constexpr auto words_of(Softening) {
   return words("brittle", "linear", "bilinear", "exponential", "concrete");
 }
+constexpr auto words_of(RandomProperty) { return words("tensile_strength", "fracture_energy"); }
+constexpr auto words_of(Distribution) { return words("normal", "lognormal", "weibull"); }
 constexpr auto words_of(LatticeRules) { return words("consistent", "2018", "2017"); }
 constexpr auto words_of(AnalysisType) {
   return words("damage", "elastic", "explicit", "relaxation");

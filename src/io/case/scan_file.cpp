@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -16,6 +17,9 @@ namespace perilink {
 namespace {
 
 constexpr std::size_t most_members = 9999;
+
+/// Largest seed of a list, and the distance between seeds of tables whose seeds differ.
+constexpr int most_seed = 999'999;
 
 /// Collects keys and values of a table. Tables in it are parts of keys: `body.spacing = 1` is the
 /// key "body.spacing".
@@ -96,6 +100,27 @@ void read_runs(ScanFile& scan, const TomlValue& runs) {
   }
 }
 
+/// Reads `seeds`: their number, or a list.
+void read_seeds(ScanFile& scan, const CaseTable& top, const TomlValue& root) {
+  const TomlValue* value = root.find("seeds");
+  if (value == nullptr) return;
+  scan.seeds_line = value->line;
+  if (value->kind == TomlValue::Kind::array) {
+    assign(scan.seeds, top.integers("seeds", 0, most_seed));
+  } else if (const auto count = top.integer("seeds", 1, static_cast<int>(most_members))) {
+    scan.seeds.resize(static_cast<std::size_t>(*count));
+    std::iota(scan.seeds.begin(), scan.seeds.end(), 1);
+  }
+  if (scan.seeds.empty()) {
+    top.refuse("seeds", "is empty", "give the number of samples, seeds = 20, or a list of seeds");
+  }
+  if (std::set<int>(scan.seeds.begin(), scan.seeds.end()).size() < scan.seeds.size()) {
+    top.refuse("seeds", "holds a seed twice", "give every seed once");
+  }
+}
+
+std::string seed_key(std::size_t table) { return fmt::format("random[{}].seed", table + 1); }
+
 /// Refuses cases, studies and unknown tables. Keys of [values] and [[runs]] are those of the case,
 /// which are checked with it.
 void check_tables(const TomlValue& root, const std::string& path) {
@@ -108,7 +133,7 @@ void check_tables(const TomlValue& root, const std::string& path) {
                      fmt::format("run the {} by `perilink {} {}`", of, command, path));
   }
   const std::vector<TableSchema> schema = {
-      {"", false, {"title", "case"}}, {"values", false, {}}, {"runs", true, {}}};
+      {"", false, {"title", "case", "seeds"}}, {"values", false, {}}, {"runs", true, {}}};
   TomlValue without_keys = root;
   for (TomlValue& table : without_keys.entries) {
     table.entries.clear();
@@ -135,7 +160,12 @@ ScanFile parse_scan(const std::string& text, const std::string& path) {
   assign(scan.title, top.text("title"));
   scan.case_path = beside(path, top.need("case", top.path("case"),
                                          "the case file, relative to the scan: case = \"a.toml\""));
+  read_seeds(scan, top, root);
   const TomlValue *values = root.find("values"), *runs = root.find("runs");
+  if (values == nullptr && runs == nullptr && !scan.seeds.empty()) {
+    scan.members = {{{}, scan.seeds_line}};
+    return scan;
+  }
   if ((values == nullptr) == (runs == nullptr)) {
     throw InputError({path, runs == nullptr ? 0 : runs->line, ""},
                      runs == nullptr ? "the scan has neither [values] nor [[runs]]"
@@ -149,6 +179,53 @@ ScanFile parse_scan(const std::string& text, const std::string& path) {
     read_runs(scan, *runs);
   }
   return scan;
+}
+
+void give_seeds(ScanFile& scan, const TomlValue& document) {
+  if (scan.seeds.empty()) return;
+  const TomlValue* random = document.find("random");
+  if (random == nullptr || random->items.empty()) {
+    throw InputError({scan.path, scan.seeds_line, "seeds"},
+                     fmt::format("is given, but {} has no [[random]]", scan.case_path),
+                     "add [[random]] to the case, or delete the line");
+  }
+  const auto given =
+      std::ranges::find_if(scan.keys, [&](const std::string& key) { return is_seed(scan, key); });
+  if (given != scan.keys.end()) {
+    throw InputError({scan.path, scan.seeds_line, "seeds"},
+                     fmt::format("is given together with {}", quoted(*given)),
+                     "delete one of the two");
+  }
+  std::vector<std::int64_t> different;  // seeds of the case, and for each table its number in them
+  std::vector<int> number;
+  for (const TomlValue& table : random->items) {
+    const TomlValue* seed = table.find("seed");
+    const std::int64_t own = seed == nullptr ? 1 : seed->integer;
+    const auto found = std::find(different.begin(), different.end(), own);
+    number.push_back(static_cast<int>(found - different.begin()));
+    if (found == different.end()) different.push_back(own);
+  }
+  refuse_many(scan, scan.members.size() * scan.seeds.size(), {scan.path, scan.seeds_line, "seeds"});
+  std::vector<ScanMember> product;
+  for (const ScanMember& member : scan.members) {
+    for (const int seed : scan.seeds) {
+      product.push_back(member);
+      for (std::size_t k = 0; k < number.size(); ++k) {
+        TomlValue value;
+        value.kind = TomlValue::Kind::integer;
+        value.line = scan.seeds_line;
+        value.integer = seed + number[k] * (most_seed + 1);
+        value.number = static_cast<double>(value.integer);
+        product.back().settings.push_back({seed_key(k), value});
+      }
+    }
+  }
+  scan.members = std::move(product);
+  scan.keys.push_back(seed_key(0));
+}
+
+bool is_seed(const ScanFile& scan, const std::string& key) {
+  return !scan.seeds.empty() && key.starts_with("random[") && key.ends_with("].seed");
 }
 
 ScanFile read_scan_file(const std::string& path) { return parse_scan(read_input_text(path), path); }

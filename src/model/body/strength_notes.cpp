@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
+#include "io/case/case_words.hpp"
 #include "model/body/horizon_limits.hpp"
+#include "network/bond_strength.hpp"
 
 namespace perilink {
 namespace {
@@ -115,6 +118,34 @@ std::optional<std::string> lattice_note(const CaseFile& input, const Model& mode
          "path is not known, compare with a run on an unstructured mesh ([body] mesh), with "
          "another "
          "pattern or with the body turned, and give brittle materials a tensile_strength";
+}
+
+std::vector<std::string> random_notes(const NetworkInput& input, const Network& network) {
+  const BondFactors factors = random_factors(input, network);
+  std::vector<std::string> notes;
+  for (const RandomStrength& random : input.random) {
+    const bool strength = random.property == RandomProperty::tensile_strength;
+    double count = 0.0, sum = 0.0, squares = 0.0;
+    double least = std::numeric_limits<double>::infinity(), most = 0.0;
+    for (Index b = 0; b < network.num_bonds(); ++b) {
+      const auto [i, j] = materials_of_bond(network, b);
+      if (!network.has_limit(b) || (random.scatters[i] == 0 && random.scatters[j] == 0)) continue;
+      const double factor = (strength ? factors.strength : factors.energy)[b];
+      count += 1.0;
+      sum += factor - 1.0;
+      squares += (factor - 1.0) * (factor - 1.0);
+      least = std::min(least, factor);
+      most = std::max(most, factor);
+    }
+    if (count == 0.0) continue;
+    const double mean = sum / count;
+    notes.push_back(fmt::format(
+        "random {} with seed {}: over {} bonds the factor has mean {:.4g}, standard deviation "
+        "{:.4g}, least {:.4g}, largest {:.4g}",
+        word_of(random.property), random.field.seed, count, 1.0 + mean,
+        std::sqrt(std::max(0.0, squares / count - mean * mean)), least, most));
+  }
+  return notes;
 }
 
 std::vector<std::string> bar_notes(const CaseFile& input) {

@@ -6,6 +6,7 @@
 
 #include "io/case/case_file.hpp"
 #include "model/model.hpp"
+#include "network/network_input.hpp"
 
 namespace perilink {
 
@@ -27,6 +28,9 @@ std::vector<std::string> strength_notes(const CaseFile& input, const Model& mode
 /// Returns advice on checking crack paths, where a lattice has breakable bonds and no interface
 /// prescribes the path. Lattices influence the direction of cracks.
 std::optional<std::string> lattice_note(const CaseFile& input, const Model& model);
+
+/// Returns the scatter of the factors of each NetworkInput::random over the bonds that it changes.
+std::vector<std::string> random_notes(const NetworkInput& input, const Network& network);
 
 /// Returns notes on bars with unusual moduli or yield strengths.
 std::vector<std::string> bar_notes(const CaseFile& input);

@@ -172,8 +172,37 @@ void refuse_interfaces_without_bonds(const CaseFile& input, const Network& netwo
   }
 }
 
+namespace {
+
+/// Refuses a scatter that gives some bonds a strength that does not fit their fracture energy.
+[[noreturn]] void refuse_scatter(const CaseFile& input, const NetworkInput& network,
+                                 const TooStrong& error) {
+  std::size_t k = 0;  // the bond may lie between this material and another one that scatters
+  while (k < network.random.size() && network.random[k].scatters[error.material] == 0) ++k;
+  if (k == network.random.size()) k = 0;
+  const SourceLocation where = input.where(item_key("random", k, "variation"));
+  const double variation = network.random[k].field.variation;
+  if (error.share > 1.0) {
+    throw InputError(where,
+                     fmt::format("is {:g}, which makes bonds so weak that they dissipate {:.3g} "
+                                 "times the energy that they store at their strength; at most {:g} "
+                                 "times are possible",
+                                 variation, error.share, most_softening),
+                     "give less");
+  }
+  throw InputError(where,
+                   fmt::format("is {:g}, which makes bonds so strong that with a horizon of {:.6g} "
+                               "they store {:.3g} times the energy that they may dissipate",
+                               variation, network.horizon, 1.0 / error.share),
+                   "give less, or take a smaller horizon; a table for the other property with "
+                   "equal seed and correlation_length makes strong bonds tough");
+}
+
+}  // namespace
+
 void refuse_unfit_strength(const CaseFile& input, const NetworkInput& network,
                            const TooStrong& error) {
+  if (error.scatter != 1.0) refuse_scatter(input, network, error);
   const auto count = static_cast<Index>(network.materials.size());
   const bool is_face = error.material >= count;
   const auto k = static_cast<std::size_t>(is_face ? error.material - count : error.material);

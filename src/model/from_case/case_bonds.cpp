@@ -11,6 +11,7 @@
 #include "discretization/mesh_faces.hpp"
 #include "discretization/meshes/mesh_conformity.hpp"
 #include "io/case/sections/case_kinds.hpp"
+#include "io/case/sections/laws/case_random.hpp"
 #include "io/case/sections/laws/case_softening.hpp"
 #include "model/body/bar_layout.hpp"
 #include "model/body/fracture_rule.hpp"
@@ -98,6 +99,11 @@ NetworkInput network_input(const CaseFile& input, Problem problem, double horizo
     network.materials.back().softening.closes = material.softening.closes;
   }
   for (const CrackSection& crack : input.cracks) network.cracks.push_back({crack.points});
+  for (const RandomSection& random : input.random) {
+    if (network.elastic) break;
+    network.random.push_back(
+        {random.property, random.field, materials_that_scatter(input, random)});
+  }
   network.bars = bars.lines;
   network.bar_materials = bars.materials;
   return network;
@@ -219,6 +225,7 @@ void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, 
     if (text) model.notes.push_back(*text);
   }
   for (const std::string& text : strength_notes(input, model)) model.notes.push_back(text);
+  for (const std::string& text : random_notes(network, model.network)) model.notes.push_back(text);
   for (const std::string& text : bar_notes(input)) model.notes.push_back(text);
   body.facets =
       std::move(model.network.facets);  // with the nodal area fractions that balance the bonds

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "network/bond_softening.hpp"
 #include "network/bond_strength.hpp"
+#include "network/builder/softened_bonds.hpp"
 
 namespace perilink {
 namespace {

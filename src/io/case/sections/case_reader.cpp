@@ -17,6 +17,7 @@
 #include "io/case/sections/case_stages.hpp"
 #include "io/case/sections/case_unused.hpp"
 #include "io/case/sections/laws/case_interfaces.hpp"
+#include "io/case/sections/laws/case_random.hpp"
 #include "io/text/input_text.hpp"
 #include "io/text/toml_tree.hpp"
 
@@ -175,6 +176,8 @@ CaseFile parse_case(const std::string& text, const std::string& path,
   input.springs = document.list("springs", about(read_springs, axes));
   input.cracks = document.list("cracks", about(read_crack, dim));
   input.interfaces = document.list("interfaces", about(read_interface, dim));
+  input.random = document.list(
+      "random", [](const CaseTable& table, std::size_t) { return read_random(table); });
   input.rebar = document.list("rebar", about(read_rebar, dim));
   input.gauges = document.list("gauges", about(read_gauge, input.body));
   input.elements = read_elements(document.table("elements"));

@@ -21,6 +21,7 @@
 #include "io/case/sections/case_rebar.hpp"
 #include "io/case/sections/case_sections.hpp"
 #include "io/case/sections/laws/case_interfaces.hpp"
+#include "io/case/sections/laws/case_random.hpp"
 #include "io/case/sections/laws/case_softening.hpp"
 #include "io/text/toml_tree.hpp"
 
@@ -356,6 +357,7 @@ void check_rules(const CaseFile& input) {
   check_rebar(input);
   check_between(input, names);
   check_interfaces(input);
+  check_random(input);
   if (input.elements) {
     for (const std::string& region : input.elements->regions) {
       check_reference(input, names, "elements.regions", region, Reserved::allowed);

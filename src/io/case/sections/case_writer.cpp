@@ -16,6 +16,7 @@
 #include "io/case/sections/case_sections.hpp"
 #include "io/case/sections/case_stages.hpp"
 #include "io/case/sections/laws/case_interfaces.hpp"
+#include "io/case/sections/laws/case_random.hpp"
 #include "io/case/sections/laws/case_softening.hpp"
 #include "io/text/toml_writer.hpp"
 
@@ -204,6 +205,7 @@ std::string write_case(const CaseFile& input) {
   write_more_loading(out, input);
   for (const CrackSection& crack : input.cracks) write_crack(out, crack, dim);
   for (const InterfaceSection& face : input.interfaces) write_interface(out, face, dim);
+  for (const RandomSection& random : input.random) write_random(out, random);
   for (const RebarSection& bar : input.rebar) write_rebar(out, bar, dim);
   write_gauges(out, input);
   if (input.elements) write_elements(out, *input.elements);

@@ -66,5 +66,31 @@ TEST(ScanPicture, MembersWithoutResultAreLeftOut) {
               Not(HasSubstr("nan")));
 }
 
+/// Four values give 1 + log2(4) = 3 bins, here of width 2: [1, 3), [3, 5), [5, 7].
+TEST(ScanPicture, SeedsGiveAHistogram) {
+  ScanFile scan = parse_scan("case = \"a.toml\"\nseeds = 4\n", "");
+  give_seeds(scan, parse_toml("[[random]]\n", ""));
+  const ScanPlot plot = scan_plot(scan, with_numbers("peak_load", {1, 2, 4, 7}), "kN, m");
+  EXPECT_EQ(plot.x_label, "peak load (kN)");
+  EXPECT_EQ(plot.y_label, "members");
+  ASSERT_EQ(plot.lines.size(), 1u);
+  EXPECT_EQ(plot.lines[0].mean, 3.5);
+  std::vector<double> heights;
+  for (std::size_t k = 1; k + 1 < plot.lines[0].points.size(); k += 2) {
+    EXPECT_EQ(plot.lines[0].points[k].y, plot.lines[0].points[k + 1].y);
+    heights.push_back(plot.lines[0].points[k].y);
+  }
+  EXPECT_THAT(heights, testing::ElementsAre(2.0, 1.0, 1.0));
+  EXPECT_EQ(plot.lines[0].points.back().x, 7.0);
+  const std::string text = draw_scan(plot).str();
+  EXPECT_THAT(text, HasSubstr("4 seeds: mean 3.5, standard deviation 2.646"));
+  EXPECT_THAT(text, HasSubstr("fill-opacity"));
+  const std::string same =
+      draw_scan(scan_plot(scan, with_numbers("peak_load", {5, 5, 5, 5}), "")).str();
+  EXPECT_THAT(same, Not(HasSubstr("nan")));
+  EXPECT_THAT(draw_scan(scan_plot(scan, std::vector<ScanResult>(4), "")).str(),
+              Not(HasSubstr("nan")));
+}
+
 }  // namespace
 }  // namespace perilink

@@ -42,5 +42,26 @@ TEST(ScanTable, IsPrintedWithReasonsAndASummary) {
   }
 }
 
+/// Values 2, 4, 6: mean 4, deviation sqrt(8 / 2) = 2.
+TEST(ScanTable, TellsMeanAndDeviationOverSeedsWithOtherValuesAlike) {
+  ScanFile scan = parse_scan("case = \"a.toml\"\nseeds = 3\n[values]\na = [1, 2]\n", "");
+  give_seeds(scan, parse_toml("[[random]]\n", ""));
+  std::vector<ScanResult> results(6);
+  for (std::size_t k = 0; k < 4; ++k) {
+    results[k].numbers = {{"peak_load", 2.0 * static_cast<double>(k + 1)}};
+  }
+  const std::vector<ScanSample> samples = samples_of(scan, results, "peak_load");
+  ASSERT_EQ(samples.size(), 2u);
+  EXPECT_EQ(samples[0].name, "a = 1");
+  EXPECT_EQ(samples[0].mean(), 4.0);
+  EXPECT_EQ(samples[0].deviation(), 2.0);
+  const std::string text = scan_report(scan, results);
+  EXPECT_THAT(text,
+              HasSubstr("peak_load over a = 1, 3 seeds: mean 4, standard deviation 2 (50 %)"));
+  EXPECT_THAT(text, HasSubstr("peak_load over a = 2, 1 seed: 8"));
+  EXPECT_THAT(scan_report(scan, std::vector<ScanResult>(6)), HasSubstr("no seed with a result"));
+  EXPECT_TRUE(samples_of(parse_scan(three_runs, ""), three_results(), "peak_load").empty());
+}
+
 }  // namespace
 }  // namespace perilink

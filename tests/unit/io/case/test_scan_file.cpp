@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
+#include "io/text/toml_tree.hpp"
 
 namespace perilink {
 namespace {
@@ -79,9 +80,45 @@ INSTANTIATE_TEST_SUITE_P(
         ScanRefusal{"noKeys", scan_head + "[values]\n", 2, "has no key"},
         ScanRefusal{"emptyRun", scan_head + "[[runs]]\n", 2, "runs[1]: has no key"},
         ScanRefusal{"oneTable", scan_head + "[runs]\na = 1\n", 2, "[[runs]] with two brackets"},
+        ScanRefusal{"noSeeds", scan_head + "seeds = 0\n", 2, "seeds: is the integer 0"},
+        ScanRefusal{"emptySeeds", scan_head + "seeds = []\n", 2, "seeds: is empty"},
+        ScanRefusal{"seedTwice", scan_head + "seeds = [3, 4, 3]\n", 2, "holds a seed twice"},
+        ScanRefusal{"seedTooLarge", scan_head + "seeds = [1000000]\n", 2, "seeds"},
         ScanRefusal{"aCase", "[body]\nspacing = 1\n", 1, "`perilink run a.toml`"},
         ScanRefusal{"aStudy", "[vary]\nspacing = [1]\n", 1, "`perilink converge a.toml`"}),
     [](const auto& refusal) { return std::string(refusal.param.name); });
+
+ScanFile seeded(const std::string& text, const std::string& random) {
+  ScanFile scan = scan_of(text);
+  give_seeds(scan, parse_toml(random, "b.toml"));
+  return scan;
+}
+
+TEST(ScanFile, SeedsVaryFastest) {
+  const ScanFile scan = seeded("seeds = [5, 2]\n[values]\nbody.spacing = [1, 2]\n", "[[random]]\n");
+  EXPECT_THAT(scan.keys, ElementsAre("body.spacing", "random[1].seed"));
+  EXPECT_THAT(
+      texts_of(scan),
+      ElementsAre("body.spacing = 1, random[1].seed = 5", "body.spacing = 1, random[1].seed = 2",
+                  "body.spacing = 2, random[1].seed = 5", "body.spacing = 2, random[1].seed = 2"));
+  EXPECT_TRUE(is_seed(scan, "random[1].seed"));
+  EXPECT_FALSE(is_seed(scan, "body.spacing"));
+}
+
+TEST(ScanFile, SeedsThatAreEqualInTheCaseStayEqual) {
+  const ScanFile scan = seeded("seeds = 2\n",
+                               "[[random]]\nseed = 1\n[[random]]\nseed = 2\n"
+                               "[[random]]\n");
+  EXPECT_THAT(texts_of(scan),
+              ElementsAre("random[1].seed = 1, random[2].seed = 1000001, random[3].seed = 1",
+                          "random[1].seed = 2, random[2].seed = 1000002, random[3].seed = 2"));
+}
+
+TEST(ScanFile, RefusesSeedsWithoutUseOrGivenTwice) {
+  EXPECT_THROW(seeded("seeds = 2\n", "title = \"a\"\n"), InputError);
+  EXPECT_THROW(seeded("seeds = 2\n[values]\n\"random[1].seed\" = [1, 2]\n", "[[random]]\n"),
+               InputError);
+}
 
 TEST(ScanFile, RefusesMoreMembersThanDirectoriesHaveNames) {
   std::string list = "[0";

@@ -1,8 +1,11 @@
 #include "model/body/strength_notes.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -132,6 +135,33 @@ TEST(BarNotes, TellOfOtherUnits) {
   EXPECT_THAT(bar_notes(with_bar(200e3, 500e6)),
               ElementsAre(HasSubstr("it yields at 5e+08, which is 2.5e+03 of")));
   EXPECT_THAT(bar_notes(with_bar(200e3, 0.5)), ElementsAre(HasSubstr("2.5e-06 of")));
+}
+
+/// Brittle bonds have the square root of the factor in their critical stretch.
+TEST(StrengthNotes, TellTheScatterOverTheBonds) {
+  const Model even = build_model(strip_case());
+  const CaseFile input =
+      parse_case(strip_text + std::string("[[random]]\nproperty = \"fracture_energy\"\nseed = 4\n"
+                                          "distribution = \"weibull\"\nvariation = 0.2\n"
+                                          "correlation_length = 20\n"),
+                 "strip.toml");
+  const Model model = build_model(input);
+  double sum = 0.0, squares = 0.0, least = 1e300, most = 0.0;
+  const auto count = static_cast<double>(model.network.bonds.size());
+  for (std::size_t b = 0; b < even.network.critical_stretch.size(); ++b) {
+    const double ratio = model.network.critical_stretch[b] / even.network.critical_stretch[b];
+    const double factor = ratio * ratio;
+    sum += factor;
+    squares += factor * factor;
+    least = std::min(least, factor);
+    most = std::max(most, factor);
+  }
+  const double mean = sum / count;
+  EXPECT_THAT(model.notes,
+              testing::Contains(fmt::format(
+                  "random fracture_energy with seed 4: over {} bonds the factor has mean {:.4g}, "
+                  "standard deviation {:.4g}, least {:.4g}, largest {:.4g}",
+                  count, mean, std::sqrt(squares / count - mean * mean), least, most)));
 }
 
 }  // namespace
