@@ -62,7 +62,7 @@ void add_trust_option(CLI::App& command, bool& trust_geometry) {
 void add_set_option(CLI::App& command, RunOptions& options) {
   command
       .add_option("--set", options.settings,
-                  "Another value of a key of the case, for example body.spacing=0.5 or "
+                  "Set a key of the case: KEY=VALUE, for example body.spacing=0.5 or "
                   "'materials[1].fracture_energy=0.1'; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
@@ -73,7 +73,8 @@ void add_run_options(CLI::App& command, RunOptions& options) {
   command.add_option("--out", options.directory, "Directory of the results [results/<file name>]");
   command
       .add_option("--threads", options.threads,
-                  "Most threads; results do not depend on it [OMP_NUM_THREADS, or all processors]")
+                  "Maximum number of threads; results do not depend on it "
+                  "[OMP_NUM_THREADS, or all processors]")
       ->check(CLI::Range(1, 1024));
   command.add_flag("--quiet", options.quiet, "No progress, no summary");
   command.add_flag_callback(
@@ -122,7 +123,8 @@ const CLI::App* add_scan_command(CLI::App& app, ScanOptions& options) {
                       "Directory of the results [results/<file name>]");
   command
       ->add_option("--jobs", options.jobs,
-                   "Most runs at once [OMP_NUM_THREADS, or all processors, over --threads]")
+                   "Maximum number of simultaneous runs "
+                   "[OMP_NUM_THREADS, or all processors, over --threads]")
       ->check(CLI::Range(1, 1024));
   command->add_option("--threads", options.run.threads, "Threads of each run [1]")
       ->check(CLI::Range(1, 1024));

@@ -126,7 +126,22 @@ void require_result(const fs::path& directory) {
       fmt::format("{}: is not a result of a run: it has no history.csv ({})", place, hint));
 }
 
-ResultDirectory::ResultDirectory(const fs::path& directory, OldResults old) {
+namespace {
+
+/// \param left_over  only unfinished files of a killed run
+void remove_files(const fs::path& directory, bool left_over) {
+  std::error_code error;
+  for (const fs::path& file : refuse_old_results(directory, true)) {
+    if (left_over && !is_left_over(file.filename().string())) continue;
+    if (fs::remove(file, error)) continue;
+    throw FileError(fmt::format("{}: cannot be removed: {}", file.string(), error.message()));
+  }
+}
+
+}  // namespace
+
+ResultDirectory::ResultDirectory(const fs::path& directory, OldResults old)
+    : directory_(directory) {
   const bool force = old != OldResults::refused;
   std::error_code error;
   if (!fs::is_directory(directory, error)) {
@@ -145,16 +160,15 @@ ResultDirectory::ResultDirectory(const fs::path& directory, OldResults old) {
                     directory.string()));
   }
   try {
-    for (const fs::path& file : refuse_old_results(directory, force)) {
-      if (old == OldResults::kept && !is_left_over(file.filename().string())) continue;
-      if (fs::remove(file, error)) continue;
-      throw FileError(fmt::format("{}: cannot be removed: {}", file.string(), error.message()));
-    }
+    if (old == OldResults::refused) refuse_old_results(directory, false);
+    remove_files(directory, old == OldResults::kept);
   } catch (...) {
     ::close(lock_);
     throw;
   }
 }
+
+void ResultDirectory::remove_old_results() { remove_files(directory_, false); }
 
 ResultDirectory::~ResultDirectory() { ::close(lock_); }
 

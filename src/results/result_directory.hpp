@@ -35,10 +35,13 @@ class ResultDirectory {
   /// Creates and locks the directory. \throws FileError
   ResultDirectory(const std::filesystem::path& directory, OldResults old);
   ~ResultDirectory();
+  /// Removes the files of an earlier run. \throws FileError
+  void remove_old_results();
   ResultDirectory(const ResultDirectory&) = delete;
   ResultDirectory& operator=(const ResultDirectory&) = delete;
 
  private:
+  std::filesystem::path directory_;
   int lock_ = -1;  ///< descriptor of the directory
 };
 

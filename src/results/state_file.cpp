@@ -3,19 +3,30 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "discretization/hosts/hosts.hpp"
 #include "io/checkpoint/checkpoint.hpp"
 #include "io/checkpoint/pack.hpp"
 
 namespace perilink {
-namespace {
 
 std::string fingerprint_of(const LoadedNetwork& problem) {
   const Network& network = problem.network;
-  return fingerprint({network.particles.positions, network.stiffness, network.critical_stretch,
-                      problem.loads.forces, problem.unknowns.prescribed});
+  // With hosts the motion changes as they release their particles.
+  const Unknowns& motion = problem.embedded ? problem.embedded->free : problem.unknowns;
+  std::string text = fingerprint(
+      network.particles.positions, network.particles.volumes, network.bonds.first,
+      network.bonds.second, network.stiffness, network.critical_stretch, network.support_stiffness,
+      network.cut_elements, problem.loads.forces, motion.number, motion.prescribed);
+  for (const LoadCase& loads : problem.sets) {
+    text += fingerprint(loads.loads.forces, loads.unknowns.number, loads.unknowns.prescribed);
+  }
+  if (problem.embedded) {
+    const Hosts& hosts = problem.embedded->hosts;
+    text += fingerprint(hosts.nodes, hosts.nodes_of.values, hosts.inside.offsets,
+                        hosts.inside.values, hosts.weights);
+  }
+  return text;
 }
-
-}  // namespace
 
 void write_state(const std::string& path, const LoadedNetwork& problem, const DamageState& state) {
   write_checkpoint(path, {"", fingerprint_of(problem), pack(state)});

@@ -7,6 +7,9 @@
 
 namespace perilink {
 
+/// Returns a text that identifies a problem: the state of an analysis of it fits no other.
+std::string fingerprint_of(const LoadedNetwork& problem);
+
 /// Writes the state of a damage analysis between two rows, EventRun::save(), with the version of
 /// the program and a checksum. \throws FileError
 void write_state(const std::string& path, const LoadedNetwork& problem, const DamageState& state);

@@ -74,7 +74,7 @@ std::string vector_of(const RandomBody& body, double x, double y, double z = 0.0
 }
 
 /// Sums over the body in a row; moments about the origin.
-struct Balance {
+struct MotionBalance {
   Vector3 momentum{}, spin{}, outer{};  ///< outer: loads and reactions
 };
 
@@ -87,7 +87,7 @@ class MotionRecorder final : public BondRunObserver {
   MotionRecorder(const Model& model, const Inertia& inertia) : model_(model), inertia_(inertia) {}
 
   void on_row(const ExplicitRecord& record, const BondRunState& state) override {
-    Balance row;
+    MotionBalance row;
     const std::vector<double> reactions = state.reactions();
     const int dim = model_.network.dim(), width = model_.network.width();
     for (Index i = 0; i < model_.network.particles.size(); ++i) {
@@ -110,7 +110,7 @@ class MotionRecorder final : public BondRunObserver {
     displacement = state.motion.displacement;
   }
 
-  std::vector<Balance> rows;
+  std::vector<MotionBalance> rows;
   std::vector<double> displacement;  ///< in the last row
 
  private:
@@ -197,7 +197,7 @@ TEST(BodiesInMotion, FreeOnesUnderBalancedLoadsKeepNoMomentumNoSpinAndTheirSymme
     ASSERT_EQ(run.result.termination, Termination::completed) << text << run.result.reason;
     EXPECT_GT(run.result.last.energy.stored + run.result.last.energy.kinetic, 0.0);
     const double impulse = run.size * run.result.last.time;
-    for (const Balance& row : run.recorder.rows) {
+    for (const MotionBalance& row : run.recorder.rows) {
       momentum = std::max(momentum, largest(row.momentum) / impulse);
       spin = std::max(spin, largest(row.spin) / (impulse * largest(body.size)));
     }
@@ -244,7 +244,7 @@ TEST(BodiesInMotion, ChangeTheirMomentumByLoadsAndReactions) {
                         vector_of(body, random.part(), 1.0 - 2.0 * random.part(), 0.3));
     const Moved run(text + through_time(damping));
     ASSERT_EQ(run.result.termination, Termination::completed) << text << run.result.reason;
-    const std::vector<Balance>& rows = run.recorder.rows;
+    const std::vector<MotionBalance>& rows = run.recorder.rows;
     ASSERT_EQ(rows.size(), static_cast<std::size_t>(run.result.steps) + 1);
     double most = 0.0, missing = 0.0;
     for (std::size_t n = 0; n + 1 < rows.size(); ++n) {

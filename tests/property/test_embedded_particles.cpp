@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "analysis/quasistatic/elastic_analysis.hpp"
+#include "analysis/quasistatic/event_run.hpp"
 #include "support/analysis_bodies.hpp"
 
 namespace perilink {
@@ -203,12 +204,12 @@ TEST_P(EmbeddedParticles, MayBecomeFreeDuringARun) {
       },
       60);
   const DamageOptions options;
-  EventRun run(body_, options);
-  while (const StepRecord* row = recorder.stop_requested() ? nullptr : run.next()) {
-    recorder.on_step(*row, run);
-    if (row->step == 20) run.adopt(free.unknowns);
+  EventRun path(body_, options);
+  while (const StepRecord* row = recorder.stop_requested() ? nullptr : path.next()) {
+    recorder.on_step(*row, path);
+    if (row->step == 20) path.adopt(free.unknowns);
   }
-  const DamageResult result = run.result();
+  const DamageResult result = path.result();
   ASSERT_EQ(recorder.rows.size(), 60U);
   EXPECT_GT(freed, 1e-6 * largest);
   EXPECT_NEAR(result.last.constraint_energy, freed, 10.0 * embedded_round_off * largest);

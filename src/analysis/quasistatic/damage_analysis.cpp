@@ -164,9 +164,8 @@ void EventRun::record(double load_factor, const LoadWork& work, const Event& eve
   path_.row = std::move(row);
   const bool counts = staged_ == nullptr || path_.row.load != 0.0;
   note_peaks(path_, options_.load_factors.empty() && counts);
-  const bool below =
-      stop_->load_fraction &&
-      std::abs(path_.row.load) < *stop_->load_fraction * std::abs(path_.result.peak_load);
+  path_.load_fraction = stop_->load_fraction;
+  const bool below = is_below(path_.row, path_);
   if (path_.row.side_change == 0) path_.rows_below = below ? path_.rows_below + 1 : 0;
 }
 

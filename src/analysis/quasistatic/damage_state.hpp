@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -35,8 +36,10 @@ struct PathState {
   Beside stored_by_permanent;  ///< contribution of permanent loads to the stored energy
   double most_work = 0.0;      ///< largest work or energy so far, for stages [force length]
   int events = 0;
-  int looks = 0;       ///< scheduled residual checks so far
-  int rows_below = 0;  ///< successive rows below the load fraction of the stop rule
+  int looks = 0;  ///< scheduled residual checks so far
+  /// Load fraction of the stop rule, and successive rows below it.
+  std::optional<double> load_fraction;
+  int rows_below = 0;
   Index broken_bonds = 0;
   Index yield_events = 0;
   /// Bonds that host releases freed since the last event, with the load factor of each release.
@@ -58,9 +61,15 @@ struct PathState {
   void serialize(Archive& archive) {
     archive(row, rows, result, pending, position, in_stage, over, energy, following, strains,
             compliance, checked_compliance, stored_by_elements, stored_by_permanent, most_work,
-            events, looks, rows_below, broken_bonds, yield_events, freed, whole);
+            events, looks, load_fraction, rows_below, broken_bonds, yield_events, freed, whole);
   }
 };
+
+/// Returns whether a row lies below the load fraction of the stop rule.
+inline bool is_below(const StepRecord& row, const PathState& path) {
+  return path.load_fraction &&
+         std::abs(row.load) < *path.load_fraction * std::abs(path.result.peak_load);
+}
 
 /// State of a damage analysis between two rows: all that the run cannot rebuild from its problem
 /// and options.

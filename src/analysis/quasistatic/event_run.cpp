@@ -68,6 +68,15 @@ EventRun::EventRun(const LoadedNetwork& problem, const DamageOptions& options, D
                                    host_release_->release_threshold());
   }
   engine_->load_work();  // the measure of a later separation
+  if (path_.load_fraction == stop_->load_fraction) return;
+  // The rule was raised: rows below it are counted anew.
+  path_.load_fraction = stop_->load_fraction;
+  path_.rows_below = path_.rows.empty() && is_below(path_.row, path_) ? 1 : 0;
+  for (auto row = path_.rows.rbegin(); row != path_.rows.rend(); ++row) {
+    if (row->side_change != 0) continue;
+    if (row->stage != path_.row.stage || !is_below(*row, path_)) break;
+    ++path_.rows_below;
+  }
 }
 
 DamageState EventRun::save() const {

@@ -36,7 +36,7 @@ int run_case(const RunOptions& options) {
   if (end.ran) {
     fmt::print("{}", end.summary.text);
   } else {
-    fmt::print("{}: the run has ended already; raise a stop rule to go on\n", directory.string());
+    fmt::print("{}: the run has ended already\n", directory.string());
   }
   return exit_status_of(end.termination);
 }

@@ -280,10 +280,25 @@ function scaleOfRow(panel, values, known) {
   return new Scale(choices.field, scaleOfAll(choices.field).unit, low, high);
 }
 
+// Names of the length of displacements and of the fields of all bodies.
+const fieldNames = () => ["displacement", ...new Set(runs.flatMap(({ body }) =>
+  (body ? body.fields.map((field) => field.name) : [])))];
+
+const noField = make("p", { class: "alert", role: "alert", hidden: true });
+
+// Chooses a field by its name here or in the field files; an unknown name changes nothing.
+function chooseField(name) {
+  const known = fieldNames(), text = words(name || "");
+  const others = new Map([["stress", "von Mises stress"], ["region", "material"]]);
+  const field = [text, others.get(text), "largest " + text].find((one) => known.includes(one));
+  choices.field = field || choices.field;
+  noField.hidden = Boolean(!name || field);
+  noField.textContent = noField.hidden ? "" : `no field ${name}; known: ${known.join(", ")}`;
+}
+
 // The controls of all bodies.
 function bodyControls() {
-  const names = [...new Set(panels.flatMap(({ body }) => body.fields.map((field) => field.name)))];
-  names.unshift("displacement");
+  const names = fieldNames();
   const hasDamage = panels.some(({ body }) => body.fields.some(
     (field) => field.name === "damage" && field.range[1] > 0));
   const hasStress = names.includes("von Mises stress");
@@ -302,7 +317,7 @@ function bodyControls() {
   const label = (text, input) => make("label", {}, text + " ", input);
   const tools = make("div", { class: "tools" },
     label("Field", select("field", names.map((name) => [name, name]))),
-    label("colours over", select("range", [["all", "all rows"], ["row", "this row"]])),
+    label("colour range:", select("range", [["all", "all rows"], ["row", "this row"]])),
     label("displacements ×", make("input", { type: "number", min: "0", step: "any",
       value: short(displacementScale()), oninput: set("scale", number) })));
   if (panels.some(({ body }) => body.dimension === 3)) {

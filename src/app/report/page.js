@@ -55,7 +55,8 @@ function listTables(key, title) {
     const names = [...new Set(entriesOf(run).flatMap((entry) => Object.keys(entry)))];
     const text = (value) => (typeof value === "number" ? value : Array.isArray(value)
       ? value.map((part) => short(part)).join(", ") : String(value ?? "–"));
-    return tableOf(names.map((name) => withBrackets(words(name), run.units[name])),
+    const heading = (name) => (key === "cracks" && name === "bonds" ? "damaged bonds" : words(name));
+    return tableOf(names.map((name) => withBrackets(heading(name), run.units[name])),
       entriesOf(run).map((entry) => names.map((name) => text(entry[name]))),
       runs.length > 1 ? title + ": " + run.name : "");
   });
@@ -147,8 +148,8 @@ async function addBodies(page) {
   for (const run of withBody) await new Panel(run).open();
   const few = withBody.filter((run) => run.body.frames.length < run.body.files).map((run) =>
     `${run.name}: ${run.body.frames.length} of ${run.body.files} field files are in this report, for its size.`);
-  page.append(section("Body", bodyControls(), beside(...panels.map((panel) => panel.element)),
-    make("p", { class: "hint" }, "Values have 14 bits of the range of their field. Drag to move" +
+  page.append(section("Body", bodyControls(), noField, beside(...panels.map((panel) => panel.element)),
+    make("p", { class: "hint" }, "Colours are rounded to 1/16000 of the range. Drag to move" +
       (panels.some(({ body }) => body.dimension === 3) ? " or turn (shift: move)" : "") +
       ", wheel or + and − to zoom, 0 or double click for the whole body; arrow keys move the slider. " +
       "Cracks are drawn for each row, other fields for the field file before it."),
@@ -160,7 +161,8 @@ async function addBodies(page) {
 // Reads choices from the address: #row=120&field=damage&scale=50&cut=x&cutAt=0.5&hide=0.3
 function applyAddress() {
   const hash = new URLSearchParams(location.hash.slice(1));
-  for (const key of ["field", "range", "cut"]) choices[key] = hash.get(key) || choices[key];
+  chooseField(hash.get("field"));
+  for (const key of ["range", "cut"]) choices[key] = hash.get(key) || choices[key];
   for (const key of ["scale", "cutAt", "hide"]) {
     if (hash.has(key)) choices[key] = Number(hash.get(key));
   }
@@ -178,7 +180,7 @@ async function showPage() {
   const pick = (run, row) => panels.filter((panel) => panel.run === run).forEach((panel) => panel.goTo(row));
   const unitsOf = (run) => run.unit_names.split(",").slice(0, 2).join().replaceAll(" ", "");
   const differ = runs.some((run) => unitsOf(run) !== unitsOf(runs[0]));
-  page.append(section("In words", beside(...runs.map(wordsOf)), list("warnings", differ
+  page.append(section("Summary", beside(...runs.map(wordsOf)), list("warnings", differ
     ? ["Warning: the runs have different units; curves are drawn as numbers"] : [])));
   const addEnergies = addCurves(page, pick);
   await addBodies(page);

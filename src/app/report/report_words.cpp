@@ -138,23 +138,22 @@ std::string sentence_of_body(const Figures& figure, const TomlValue& root) {
 
 std::string sentence_of_peak(const Figures& figure) {
   if (!figure.has("peak_load") || !figure.has("peak_displacement")) return "";
-  std::string text = fmt::format("The peak load is {} at displacement {}", figure("peak_load"),
+  std::string text = fmt::format("Peak load {} at displacement {}", figure("peak_load"),
                                  figure("peak_displacement"));
   if (figure.has("smoothed_peak_load")) {
-    text += fmt::format(", that of the envelope {}", figure("smoothed_peak_load"));
+    text += fmt::format(" (smoothed {})", figure("smoothed_peak_load"));
   }
   return text + ".";
 }
 
 std::string sentence_of_energy(const Figures& figure) {
   if (!figure.has("dissipated_energy")) return "";
-  std::string text = figure("dissipated_energy") + " were dissipated";
+  std::string text = "Dissipated energy " + figure("dissipated_energy");
   if (figure.has("broken_bonds")) {
-    text += fmt::format(" and {} bonds broke", figure.count("broken_bonds"));
+    text += fmt::format("; {} broken bonds", figure.count("broken_bonds"));
   }
   if (!figure.has("energy_error")) return text + ".";
-  return fmt::format("{}; the largest energy error is {} of the work.", text,
-                     figure("energy_error"));
+  return fmt::format("{}; largest energy error {} of the work.", text, figure("energy_error"));
 }
 
 }  // namespace
@@ -187,7 +186,7 @@ std::vector<std::string> sentences_of_run(const nlohmann::ordered_json& summary,
   };
   const std::string analysis = text_in(summary, "analysis"), status = text_in(summary, "status"),
                     reason = text_in(summary, "reason");
-  if (!analysis.empty()) add("The analysis is of type " + in_words(analysis) + ".");
+  if (!analysis.empty()) add(heading_of(analysis) + " analysis.");
   add(sentence_of_body(figure, root));
   if (!status.empty()) {
     add(fmt::format("Status: {}{}.", status, reason.empty() ? "" : " (" + reason + ")"));

@@ -93,8 +93,12 @@ void DamageRun::follow() {
 /// Saves the state, and goes on from it as a run that is taken up again does.
 void DamageRun::go_on_from_checkpoint() {
   DamageState state = run_->save();
+  if (state.path.over) return;  // a stop rule or a signal ended the run within a load step
   const std::string bytes = pack(records_, state);
-  if (2.0 * run_->result().factor.bytes > available_memory()) run_.reset();
+  if (2.0 * run_->result().factor.bytes > available_memory()) {
+    result_ = run_->result();
+    run_.reset();
+  }
   try {
     run_ = std::make_unique<EventRun>(model_, options_, std::move(state));
   } catch (const SolverError&) {

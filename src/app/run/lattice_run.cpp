@@ -34,7 +34,19 @@ class LatticeRun final : public RunKind, private ExplicitObserver {
   }
 
   std::string model_fingerprint() const override {
-    return fingerprint({built_.model.lattice.positions});
+    const ExplicitModel& model = built_.model;
+    std::vector<double> loads;
+    for (const auto& row : model.prescribed) {
+      for (const PrescribedMotion& motion : row) {
+        loads.insert(loads.end(), {1.0 * motion.slot, 1.0 * motion.component, motion.amplitude});
+      }
+    }
+    for (const auto& row : model.applied) {
+      for (const AppliedForce& force : row) {
+        loads.insert(loads.end(), {1.0 * force.slot, 1.0 * force.component, force.value});
+      }
+    }
+    return fingerprint(model.lattice.positions, model.mass, model.volume, loads);
   }
 
   RunOutcome run_outcome() override { return {result_.termination, result_.reason}; }

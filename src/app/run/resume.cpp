@@ -38,7 +38,7 @@ void require_raised(const StopSection& there, const StopSection& here, const std
                     const std::filesystem::path& directory) {
   const auto refuse = [&](const char* key) {
     throw FileError(fmt::format(
-        "{}: its rows may be past {}.{}, which is lower than that of the results, or new\n"
+        "{}: its rows may be past {}.{}, which comes earlier than that of the results, or is new\n"
         "  raise stop rules or delete them to go on{}",
         directory.string(), table, key, other_ways));
   };
@@ -65,7 +65,7 @@ bool has_ended(const std::filesystem::path& directory) {
 std::string resumable_case(const CaseFile& input, const std::filesystem::path& directory) {
   CaseFile seen = seen_from(input, directory);
   seen.stop = {};
-  for (StageSection& stage : seen.stages) stage.stop = {};
+  if (!seen.stages.empty()) seen.stages.back().stop = {};
   return write_case(seen);
 }
 
@@ -81,9 +81,9 @@ Resumed find_results(const CaseFile& input, const std::filesystem::path& directo
                                 first_difference(before, now), other_ways));
   }
   require_raised(there.stop, input.stop, "stop", directory);
-  for (std::size_t k = 0; k < input.stages.size(); ++k) {
-    require_raised(there.stages[k].stop, input.stages[k].stop, fmt::format("stages[{}]", k + 1),
-                   directory);
+  if (!input.stages.empty()) {
+    require_raised(there.stages.back().stop, input.stages.back().stop,
+                   fmt::format("stages[{}]", input.stages.size()), directory);
   }
   const bool same_rules =
       read_regular_file(old.string()) == write_case(seen_from(input, directory));

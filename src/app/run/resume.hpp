@@ -16,7 +16,7 @@ namespace perilink {
 inline constexpr const char* checkpoint_name = "checkpoint.bin";
 
 /// Returns the text of a case as its result directory sees it, without the rules that may change
-/// before a run is taken up again: its stop rules.
+/// before a run is taken up again: its stop rules, or those of the last stage.
 std::string resumable_case(const CaseFile& input, const std::filesystem::path& directory);
 
 /// Results that `--resume` finds in a directory.

@@ -126,20 +126,29 @@ RunEnd run_case(const CaseFile& input, const fs::path& directory, const RunSetti
   const RunCallbacks& calls = settings.callbacks;
   refuse_own_file(directory, "case.toml", input.path, "this case with its resolved form");
   // All before the model is built, which may take minutes.
-  refuse_old_results(directory, settings.old_results != OldResults::refused);
+  const bool goes_on = settings.old_results == OldResults::kept &&
+                       fs::exists(directory / "case.toml") && !fs::exists(directory / "study.toml");
+  refuse_old_results(directory, goes_on || settings.old_results == OldResults::removed);
+  std::optional<ResultDirectory> hold;
   Resumed found;
-  if (settings.old_results == OldResults::kept) found = find_results(input, directory);
+  if (goes_on) {
+    hold.emplace(directory, OldResults::kept);  // before results are read that others could change
+    found = find_results(input, directory);
+  }
   if (found.is_finished) return {.ran = false};
 
   Timer timer;
   const std::unique_ptr<RunKind> run = make_run(input, settings.threads, calls);
   if (found.checkpoint) require_same_model(*found.checkpoint, run->model_fingerprint(), directory);
-  const bool begins_anew = settings.old_results == OldResults::kept && !found.checkpoint;
-  const ResultDirectory hold(directory, begins_anew ? OldResults::removed : settings.old_results);
+  if (!hold) {
+    hold.emplace(directory, settings.old_results);
+  } else if (!found.checkpoint) {
+    hold->remove_old_results();
+  }
   if (calls.on_start) calls.on_start();
   const auto log = open_files(*run, directory, found.checkpoint);
   run->seconds.set_up = timer.seconds();
-  if (settings.old_results == OldResults::kept && calls.on_note) {
+  if (goes_on && calls.on_note) {
     calls.on_note(
         found.checkpoint
             ? fmt::format("{}: goes on after row {}", directory.string(), run->files().rows())

@@ -65,9 +65,11 @@ void RunFiles::remove_later_files() const {
   };
   for (const auto& entry : std::filesystem::directory_iterator(directory_)) {
     const std::string name = entry.path().filename().string();
-    const bool is_field_file =
-        (name.starts_with("fields_") && name.ends_with(".vtu")) ||
-        ((name.starts_with("bars_") || name.starts_with("reactions_")) && name.ends_with(".csv"));
+    const std::size_t begin = name.find('_') + 1, end = name.find_first_not_of("0123456789", begin);
+    const bool is_numbered = begin > 0 && end != std::string::npos && end >= begin + 6;
+    const std::string kind = name.substr(0, begin), suffix = is_numbered ? name.substr(end) : "";
+    const bool is_field_file = (kind == "fields_" && suffix == ".vtu") ||
+                               ((kind == "bars_" || kind == "reactions_") && suffix == ".csv");
     if (is_field_file && !is_known(name)) std::filesystem::remove(entry.path());
   }
 }

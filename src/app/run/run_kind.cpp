@@ -10,6 +10,7 @@
 #include "io/checkpoint/checkpoint.hpp"
 #include "io/checkpoint/pack.hpp"
 #include "results/calibration_text.hpp"
+#include "results/state_file.hpp"
 #include "results/summary_file.hpp"
 #include "solver/ranks/process_ranks.hpp"
 
@@ -46,10 +47,7 @@ Index RunKind::rows_between_checkpoints(double elements, double particles, doubl
       std::clamp(std::max(per_particle * particles / part, least_seconds) / row, 1.0, 1e8));
 }
 
-std::string NetworkRun::model_fingerprint() const {
-  const Network& network = model_.network;
-  return fingerprint({network.particles.positions, network.stiffness, network.critical_stretch});
-}
+std::string NetworkRun::model_fingerprint() const { return fingerprint_of(model_); }
 
 NetworkRun::NetworkRun(const CaseFile& of_case, int on_threads, const RunCallbacks& calls)
     : RunKind(of_case, on_threads, calls), model_(build_model_visibly(of_case, calls)) {

@@ -64,12 +64,17 @@ class KeyReader {
     return result;
   }
   std::size_t number() {
+    const std::size_t begin = at_;
     const std::string digits = until("]");
     const bool good = !digits.empty() && digits.size() < 8 &&
                       digits.find_first_not_of("0123456789") == std::string::npos;
     if (!good || std::stoul(digits) == 0 || !take(']')) {
+      const bool is_name = digits.find_first_not_of("0123456789.+- ") != std::string::npos;
       refuse_setting(key_, fmt::format("has {} between brackets", quoted(digits)),
-                     "entries of lists have numbers from 1, as in materials[1]");
+                     is_name ? fmt::format("names stand after a dot: '{}.{}.KEY'; numbers in "
+                                           "brackets: materials[1]",
+                                           key_.substr(0, begin - 1), digits)
+                             : "entries of lists have numbers from 1, as in materials[1]");
     }
     return std::stoul(digits);
   }
@@ -93,13 +98,15 @@ std::string name_of_entry(const TomlValue& entry) {
 TomlValue& entry_of(TomlValue& list, const KeyPart& part, const std::string& key,
                     const std::string& list_key) {
   const std::size_t count = list.items.size();
+  const std::string only = fmt::format("the only entry is {}[1]", list_key);
   if (part.number > 0) {
     if (part.number <= count) return list.items[part.number - 1];
-    refuse_setting(
-        key,
-        fmt::format("there is no {}[{}]: the list has {} entr{}", list_key, part.number, count,
-                    count == 1 ? "y" : "ies"),
-        count == 0 ? "add it to the case" : fmt::format("give a number from 1 to {}", count));
+    refuse_setting(key,
+                   fmt::format("there is no {}[{}]: the list has {} entr{}", list_key, part.number,
+                               count, count == 1 ? "y" : "ies"),
+                   count == 0   ? "add it to the case"
+                   : count == 1 ? only
+                                : fmt::format("give a number from 1 to {}", count));
   }
   TomlValue* found = nullptr;
   std::vector<std::string> names;
@@ -114,10 +121,14 @@ TomlValue& entry_of(TomlValue& list, const KeyPart& part, const std::string& key
   }
   if (found != nullptr) return *found;
   std::erase(names, "");
+  const std::string fault = fmt::format("no entry of {} is named {}", list_key, quoted(part.name));
+  if (count == 1) {
+    refuse_setting(key, fault, only + (names.empty() ? "" : ", named " + quoted(names[0])));
+  }
   const std::string by_number = fmt::format("give its number, from 1 to {}: {}[1]{}", count,
                                             list_key, names.empty() ? "" : ", or its name: ");
   refuse_setting(
-      key, fmt::format("no entry of {} is named {}", list_key, quoted(part.name)),
+      key, fault,
       by_number + (names.empty() ? "" : suggest(part.name, {names.begin(), names.end()})));
 }
 
@@ -180,7 +191,7 @@ CaseSetting parse_setting(const std::string& text) {
     refuse_setting(text, setting.key.empty() ? "has no key" : "has no value", how_to_set);
   }
   const std::string value(trimmed(std::string_view(text).substr(equals + 1)));
-  if (value.empty()) refuse_setting(setting.key, "has no value", how_to_set);
+  if (value.empty()) refuse_setting(setting.key, "has nothing after =", how_to_set);
   try {
     setting.value = parse_toml("value = " + value, "").entries.at(0);
   } catch (const InputError&) {

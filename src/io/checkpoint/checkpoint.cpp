@@ -30,14 +30,13 @@ std::uint32_t checksum(const Range& range, std::uint32_t before = 0) {
 
 }  // namespace
 
-std::string fingerprint(std::initializer_list<std::span<const double>> numbers) {
+std::string fingerprint(std::initializer_list<std::span<const std::byte>> lists) {
   std::uint32_t sum = 0;
-  std::string text;
-  for (const std::span<const double> part : numbers) {
-    sum = checksum(part, sum);
-    text += fmt::format("{} ", part.size());
+  for (const std::span<const std::byte> list : lists) {
+    const std::size_t size = list.size();
+    sum = checksum(list, checksum(std::span(&size, 1), sum));
   }
-  return text + fmt::format("{:08x}", sum);
+  return fmt::format("{:08x}", sum);
 }
 
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint) {

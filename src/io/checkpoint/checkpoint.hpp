@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <initializer_list>
 #include <optional>
 #include <span>
@@ -14,8 +15,12 @@ struct Checkpoint {
   std::string state;  ///< bytes of pack()
 };
 
-/// Returns a text that changes with any of the numbers.
-std::string fingerprint(std::initializer_list<std::span<const double>> numbers);
+/// Returns a text that changes with any of the numbers or with the sizes of their lists.
+std::string fingerprint(std::initializer_list<std::span<const std::byte>> lists);
+template <class... Lists>
+std::string fingerprint(const Lists&... lists) {
+  return fingerprint({std::as_bytes(std::span(lists))...});
+}
 
 /// Writes a checkpoint in one step, see write_whole_file(). The file holds the version of the
 /// program and a checksum. \throws FileError

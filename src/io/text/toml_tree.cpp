@@ -133,9 +133,13 @@ TomlValue parse_toml(const std::string& text, const std::string& path) {
     const toml::table document = toml::parse(std::string_view(safe), std::string_view(path));
     return convert(document, 1);
   } catch (const toml::parse_error& error) {
+    const bool is_bracket = error.description().find("'=', saw '['") != std::string_view::npos;
     throw InputError({path, line_of(error.source()), ""},
                      fmt::format("is not valid TOML: {}", error.description()),
-                     "docs/case_file.md shows how a case is written; text stands between quotes");
+                     is_bracket ? "put a key with brackets between quotes: "
+                                  "\"materials[1].tensile_strength\" = [2, 3]"
+                                : "docs/case_file.md shows how a case is written; text stands "
+                                  "between quotes");
   } catch (const BrokenAssumption&) {
     throw InputError({path, 0, ""}, "is not valid TOML",
                      "docs/case_file.md shows how a case is written; look for a misplaced bracket");

@@ -39,13 +39,14 @@ void write_body(TomlWriter& out, const BodySection& body) {
   out.write("mesh_size", body.mesh_size);
   if (!body.mesh && !is_beam(body)) out.write("pattern", word_of(body.pattern));
   const bool has_horizon = bonds && !is_particles(body);
-  if (has_horizon) out.write("surface", word_of(body.surface));
+  const bool has_neighbourhoods = has_horizon && !is_beam(body);
+  if (has_neighbourhoods) out.write("surface", word_of(body.surface));
   out.write("columns", body.columns);
   out.write("spacing", body.spacing);
   out.write("horizon", body.horizon);
   out.write("horizon_level", body.horizon_level);
   out.write("horizon_ratio", body.horizon_ratio);
-  if (!has_horizon) return;
+  if (!has_neighbourhoods) return;
   out.write("micromodulus", word_of(body.micromodulus));
   out.write("critical_stretch", word_of(body.critical_stretch));
 }

@@ -77,6 +77,8 @@ INSTANTIATE_TEST_SUITE_P(
                     "values.a: is the integer 1, but must be a list"},
         ScanRefusal{"emptyList", scan_head + "[values]\na = []\n", 3, "values.a: is empty"},
         ScanRefusal{"twice", scan_head + "[values]\na = [1, 2, 1]\n", 3, "holds 1 twice"},
+        ScanRefusal{"noQuotes", scan_head + "[values]\na[1].b = [1]\n", 3,
+                    "between quotes: \"materials[1].tensile_strength\" = [2, 3]"},
         ScanRefusal{"noKeys", scan_head + "[values]\n", 2, "has no key"},
         ScanRefusal{"emptyRun", scan_head + "[[runs]]\n", 2, "runs[1]: has no key"},
         ScanRefusal{"oneTable", scan_head + "[runs]\na = 1\n", 2, "[[runs]] with two brackets"},

@@ -87,9 +87,9 @@ TEST_F(CheckpointFile, IsRefusedWhereAByteIsWrong) {
 TEST(Fingerprint, ChangesWithAnyNumberAndWithTheSizes) {
   const std::vector<double> a = {1.0, 2.0}, b = {3.0}, c = {1.0, 2.0000000000000004},
                             all = {1, 2, 3};
-  EXPECT_EQ(fingerprint({a, b}), fingerprint({a, b}));
-  EXPECT_NE(fingerprint({a, b}), fingerprint({c, b}));
-  EXPECT_NE(fingerprint({a, b}), fingerprint({all}));
+  EXPECT_EQ(fingerprint(a, b), fingerprint(a, b));
+  EXPECT_NE(fingerprint(a, b), fingerprint(c, b));
+  EXPECT_NE(fingerprint(a, b), fingerprint(all));
 }
 
 }  // namespace
