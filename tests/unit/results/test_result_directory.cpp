@@ -27,9 +27,9 @@ TEST(ResultDirectory, IsNamedAfterTheCase) {
 
 TEST(ResultDirectory, IsMadeWithItsParents) {
   const test::TemporaryDirectory work;
-  ResultDirectory(work / "a/b/c", false);
+  ResultDirectory(work / "a/b/c", OldResults::refused);
   EXPECT_TRUE(fs::is_directory(work / "a/b/c"));
-  ResultDirectory(work / "a/b/c", false);  // empty: nothing to lose
+  ResultDirectory(work / "a/b/c", OldResults::refused);  // empty: nothing to lose
 }
 
 TEST(ResultDirectory, RefusesAnEarlierResultAndLeavesItAlone) {
@@ -39,7 +39,7 @@ TEST(ResultDirectory, RefusesAnEarlierResultAndLeavesItAlone) {
     const test::TemporaryDirectory work;
     test::write_text(work / name, "old");
     try {
-      ResultDirectory(work.path(), false);
+      ResultDirectory(work.path(), OldResults::refused);
       ADD_FAILURE() << name << " was not seen";
     } catch (const FileError& error) {
       EXPECT_NE(std::string(error.what()).find("--force"), std::string::npos);
@@ -59,7 +59,7 @@ TEST(ResultDirectory, ForceRemovesTheFilesOfARunAndOnlyThose) {
   }
   fs::create_directories(work / "sub");
   test::write_text(work / "sub/history.csv", "of another run");
-  ResultDirectory(work.path(), true);
+  ResultDirectory(work.path(), OldResults::removed);
   std::set<std::string> left = own;
   left.insert("sub");
   EXPECT_EQ(names_in(work.path()), left);
@@ -73,7 +73,7 @@ TEST(ResultDirectory, ForceRemovesWhatAKilledRunLeftHalfWritten) {
   for (const char* name : {"fields_000010.vtu.0123abcd.part", "summary.json.00000000.part"}) {
     test::write_text(work / name, "half");
   }
-  ResultDirectory(work.path(), true);
+  ResultDirectory(work.path(), OldResults::removed);
   EXPECT_EQ(names_in(work.path()), own);
 }
 
@@ -94,18 +94,18 @@ TEST(ResultDirectory, IsOneRunsAtATime) {
   const test::TemporaryDirectory work;
   fs::create_directory_symlink("a", work / "link");
   {
-    const ResultDirectory first(work / "a", false);
+    const ResultDirectory first(work / "a", OldResults::refused);
     for (const char* name : {"a", "link"}) {
       try {
-        ResultDirectory(work / name, true);
+        ResultDirectory(work / name, OldResults::removed);
         ADD_FAILURE() << "a second run had the directory";
       } catch (const FileError& error) {
         EXPECT_NE(std::string(error.what()).find("another run is writing"), std::string::npos);
       }
     }
-    const ResultDirectory other(work / "b", false);
+    const ResultDirectory other(work / "b", OldResults::refused);
   }
-  ResultDirectory(work / "link", false);
+  ResultDirectory(work / "link", OldResults::refused);
   EXPECT_TRUE(fs::is_empty(work / "a")) << "a lock leaves nothing behind";
 }
 
@@ -116,8 +116,8 @@ TEST(ResultDirectory, LinksInItGoTheirTargetsStay) {
   for (const char* name : {"history.csv", "log.txt", "summary.json", "table.csv"}) {
     fs::create_symlink("../mine", work / "r" / name);
   }
-  EXPECT_THROW(ResultDirectory(work / "r", false), FileError);
-  ResultDirectory(work / "r", true);
+  EXPECT_THROW(ResultDirectory(work / "r", OldResults::refused), FileError);
+  ResultDirectory(work / "r", OldResults::removed);
   EXPECT_TRUE(fs::is_empty(work / "r"));
   EXPECT_EQ(test::read_text(work / "mine"), "mine");
 }
@@ -125,8 +125,8 @@ TEST(ResultDirectory, LinksInItGoTheirTargetsStay) {
 TEST(ResultDirectory, RefusesAFileInItsPlace) {
   const test::TemporaryDirectory work;
   test::write_text(work / "results", "a file");
-  EXPECT_THROW(ResultDirectory(work / "results", true), FileError);
-  EXPECT_THROW(ResultDirectory(work / "results/deeper", true), FileError);
+  EXPECT_THROW(ResultDirectory(work / "results", OldResults::removed), FileError);
+  EXPECT_THROW(ResultDirectory(work / "results/deeper", OldResults::removed), FileError);
   EXPECT_EQ(test::read_text(work / "results"), "a file");
 }
 

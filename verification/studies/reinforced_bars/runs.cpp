@@ -104,7 +104,7 @@ BarRun run_bars(const std::string& label, const std::string& case_text) {
   BarRun run;
   run.directory = folder / label;
   Timer timer;
-  run_case({case_path.string(), run.directory.string(), 1, true, true});
+  run_case({case_path.string(), run.directory.string(), 1, true, OldResults::removed});
   run.seconds = timer.seconds();
   run.rows = read_history(run.directory);
   for (const fs::path& path : files_like(run.directory, "bars_", ".csv")) {

@@ -128,7 +128,7 @@ StudyMember run_calculix_member(const fs::path& work, const StudyFile& study,
   member.method = "calculix";
   try {
     const CaseFile input = read_case_file(
-        study.case_path, {body_key("method", std::string("linear_elements")), value});
+        study.case_path, {}, {body_key("method", std::string("linear_elements")), value});
     const Model model = build_model(input);
     const CalculixMesh mesh =
         subdomains ? boxes_for_calculix(model) : simplices_for_calculix(model);
