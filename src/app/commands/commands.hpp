@@ -19,7 +19,7 @@ struct RunOptions {
   bool quiet = false;
   OldResults old_results = OldResults::refused;  ///< kept: goes on with results of the same case
   bool trust_geometry = false;                   ///< gmsh scripts may run commands and write files
-  std::vector<std::string> settings;             ///< KEY=VALUE, other values of keys of the case
+  std::vector<std::string> settings = {};        ///< KEY=VALUE, other values of keys of the case
 };
 
 /// Runs a case, `perilink run`.

@@ -4,9 +4,11 @@
 #include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "app/run/resume.hpp"
 #include "app/run/run_kind.hpp"
@@ -120,14 +122,22 @@ void write_summary(RunKind& run, const fs::path& directory, RunEnd& end) {
   }
 }
 
+/// Returns whether results in a directory are of a run, which may have been killed as it began.
+bool holds_a_run(const fs::path& directory) {
+  if (fs::exists(directory / "case.toml")) return !fs::exists(directory / "study.toml");
+  const std::vector<fs::path> files = refuse_old_results(directory, true);
+  return std::ranges::all_of(files, [](const fs::path& file) {
+    return file.filename() == "summary.json" || file.extension() == ".part";
+  });
+}
+
 }  // namespace
 
 RunEnd run_case(const CaseFile& input, const fs::path& directory, const RunSettings& settings) {
   const RunCallbacks& calls = settings.callbacks;
   refuse_own_file(directory, "case.toml", input.path, "this case with its resolved form");
   // All before the model is built, which may take minutes.
-  const bool goes_on = settings.old_results == OldResults::kept &&
-                       fs::exists(directory / "case.toml") && !fs::exists(directory / "study.toml");
+  const bool goes_on = settings.old_results == OldResults::kept && holds_a_run(directory);
   refuse_old_results(directory, goes_on || settings.old_results == OldResults::removed);
   std::optional<ResultDirectory> hold;
   Resumed found;

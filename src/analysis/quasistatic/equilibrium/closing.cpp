@@ -30,9 +30,8 @@ constexpr double flops_per_second = 15e9, bytes_per_second = 36e9, seconds_per_e
 template <class BondEnds>
 BondEnds ends_of(const Network& network, Index element) {
   const auto width = static_cast<std::size_t>(network.width());
-  const std::span<const double> n = network.bonds.direction(element);
   BondEnds ends{width * network.bonds.first[element], width * network.bonds.second[element], {}};
-  std::copy(n.begin(), n.end(), ends.n);
+  std::ranges::copy(network.bonds.direction(element), ends.n);
   return ends;
 }
 
@@ -75,8 +74,8 @@ auto Equilibrium::extension_at(const BondEnds& bond) const -> Extension {
 }
 
 auto Equilibrium::extension_of(Index element) const -> Extension {
-  const BondEnds ends = ends_of<BondEnds>(network_, element);
-  return network_.dim() == 2 ? extension_at<2>(ends) : extension_at<3>(ends);
+  const BondEnds e = ends_of<BondEnds>(network_, element);
+  return network_.dim() == 2 ? extension_at<2>(e) : extension_at<3>(e);
 }
 
 /// Calls visit(element, extension) for all of damaged_.

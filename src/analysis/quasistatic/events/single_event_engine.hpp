@@ -17,8 +17,8 @@ namespace perilink {
 class SingleEventEngine : public EventEngine {
  public:
   /// \param saved     state to go on from; null: begins with the intact body
-  /// \param unknowns  motion of the particles in that state, must outlive this object; null: that of
-  ///                  the problem
+  /// \param unknowns  motion of the particles in that state, must outlive this object; null: as the
+  ///                  problem says
   SingleEventEngine(const LoadedNetwork& problem, const EquilibriumOptions& options,
                     const BodyState* saved = nullptr, const Unknowns* unknowns = nullptr);
 
