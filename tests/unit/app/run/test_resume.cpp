@@ -79,8 +79,8 @@ TEST_F(Resume, GoesOnWithARaisedStopRule) {
 
 TEST_F(Resume, RefusesAnotherCaseAndSaysWhatDiffers) {
   run(strip);
-  EXPECT_THAT(refusal(replaced(strip, "youngs_modulus = 1000", "youngs_modulus = 2000")),
-              HasSubstr("`youngs_modulus = 1000` there, `youngs_modulus = 2000` here"));
+  EXPECT_THAT(refusal(replaced(strip, "youngs_modulus = 3000.0", "youngs_modulus = 2000.0")),
+              HasSubstr("`youngs_modulus = 3000` there, `youngs_modulus = 2000` here"));
 }
 
 /// Rows beyond a lowered rule would stay in the history.
