@@ -12,8 +12,8 @@
 namespace perilink {
 namespace {
 
-/// Axial over equivalent stretch above which a bond that bends counts as stretched [-], as in
-/// FrameLimitSearch. Where symmetry keeps its length, round-off must not decide.
+/// Axial stretch over its limit above which a bond that bends counts as stretched [-]. Where
+/// symmetry keeps its length, round-off must not decide.
 constexpr double least_stretch = 1e-6;
 
 /// Fraction of the ends' motion below which an extension is round-off [-].
@@ -161,12 +161,7 @@ void CrossingSearch::visit(const Element& element, const Query& query, Sink&& si
   // Interval in which the element is stretched, if it fails in tension only.
   double from = -infinity, to = infinity;
   if (!element.both) {
-    double least = 0.0;
-    if constexpr (Turns) {  // the equivalent stretch where the length passes its first one
-      const double pass = stretching != 0.0 ? -stretch / stretching : 0.0;
-      least = least_stretch *
-              std::sqrt(std::max(0.0, square + pass * (2.0 * now.times(growing) + pass * rate)));
-    }
+    const double least = Turns ? least_stretch : 0.0;
     if (stretching > 0.0) {
       from = (least - stretch) / stretching;
     } else if (stretching < 0.0) {
