@@ -19,6 +19,7 @@ std::string this_program() { return program_version() + " (commit " + program_co
 template <class Range>
 std::uint32_t checksum(const Range& range, std::uint32_t before = 0) {
   const auto bytes = std::as_bytes(std::span(range));
+  if (bytes.empty()) return before;  // zlib would begin again at a null pointer
   return static_cast<std::uint32_t>(
       crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }

@@ -90,6 +90,8 @@ TEST(Fingerprint, ChangesWithAnyNumberAndWithTheSizes) {
   EXPECT_EQ(fingerprint(a, b), fingerprint(a, b));
   EXPECT_NE(fingerprint(a, b), fingerprint(c, b));
   EXPECT_NE(fingerprint(a, b), fingerprint(all));
+  const std::vector<double> none;
+  EXPECT_NE(fingerprint(a, none, b), fingerprint(c, none, b)) << "before an empty list";
 }
 
 }  // namespace
