@@ -18,7 +18,8 @@ set(warnings
   -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion
   # In files that are compiled as one, helpers of others would count as shadowed by local names.
   $<IF:$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>,-Wshadow=local,-Wshadow>
-  -Wno-restrict  # GCC 12 sees overlaps in std::string operator+ that are not there (PR 105651)
+  # GCC 12 sees overlaps and overflows in std::string operator+ that are not there (PR 105651).
+  -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow
   -Wno-psabi     # wide vectors without AVX-512 (docs/decisions/0005)
   $<$<BOOL:${PERILINK_WARNINGS_ARE_ERRORS}>:-Werror>)
 target_compile_options(perilink_options INTERFACE "$<BUILD_INTERFACE:${warnings}>"
