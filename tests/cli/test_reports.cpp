@@ -20,7 +20,7 @@ using testing::Not;
 class Reports : public testing::Test {
  protected:
   void SetUp() override {
-    if (report_assets().library.empty()) GTEST_SKIP() << "built without dygraphs";
+    if (report_assets().dygraphs.empty()) GTEST_SKIP() << "built without dygraphs";
     fs::create_directories(work());
   }
   fs::path work() const { return temporary_ / "work"; }
@@ -46,7 +46,7 @@ class Reports : public testing::Test {
 };
 
 TEST(ReportsWithoutTheLibrary, AreRefusedWithTheNameOfThePackage) {
-  if (!report_assets().library.empty()) GTEST_SKIP() << "built with dygraphs";
+  if (!report_assets().dygraphs.empty()) GTEST_SKIP() << "built with dygraphs";
   const TemporaryDirectory temporary;
   fs::create_directories(temporary / "work");
   const ProcessEnd end = run_program(temporary / "work", {"report", "."});

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t most_characters = 2'600'000;
 
 void require_library() {
-  if (!report_assets().library.empty()) return;
+  if (!report_assets().dygraphs.empty()) return;
   throw FileError(
       "perilink report draws curves by dygraphs, which was missing when this program was built\n"
       "  install it (Debian: libjs-dygraphs) and build the program again");

@@ -10,7 +10,7 @@ struct ReportAssets {
   std::string_view style, script;
   /// dygraphs: program, style sheet, licence; empty where it was missing when the build was
   /// configured.
-  std::string_view library, library_style, library_licence;
+  std::string_view dygraphs, dygraphs_style, dygraphs_licence;
 };
 
 const ReportAssets& report_assets();

@@ -24,7 +24,7 @@ std::string report_page(const nlohmann::ordered_json& runs, const ReportStreams&
                         bool is_running) {
   const ReportAssets& assets = report_assets();
   const nlohmann::ordered_json data = {
-      {"version", program_version()}, {"licence", assets.library_licence}, {"runs", runs}};
+      {"version", program_version()}, {"licence", assets.dygraphs_licence}, {"runs", runs}};
   std::string page = std::string(report_mark) +
                      "\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
                      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
@@ -35,7 +35,7 @@ std::string report_page(const nlohmann::ordered_json& runs, const ReportStreams&
   page += fmt::format(
       "<style>{}\n{}</style></head>\n<body><noscript>This report draws curves and "
       "bodies with JavaScript, which this browser does not run.</noscript>\n",
-      assets.library_style, assets.style);
+      assets.dygraphs_style, assets.style);
   page += fmt::format("<script type=\"application/json\" id=\"report\">{}</script>\n",
                       json_for_page(data));
   for (std::size_t k = 0; k < streams.texts().size(); ++k) {
@@ -43,7 +43,7 @@ std::string report_page(const nlohmann::ordered_json& runs, const ReportStreams&
                         streams.texts()[k]);
   }
   return page + fmt::format("<script>{}</script>\n<script>{}</script>\n</body></html>\n",
-                            assets.library, assets.script);
+                            assets.dygraphs, assets.script);
 }
 
 }  // namespace perilink

@@ -55,8 +55,8 @@ TEST(ReportPage, LoadsItselfAgainWhileTheRunGoesOn) {
 }
 
 TEST(ReportPage, ListsTheLicenceOfTheLibrary) {
-  if (report_assets().library.empty()) GTEST_SKIP() << "built without dygraphs";
-  EXPECT_THAT(std::string(report_assets().library_licence),
+  if (report_assets().dygraphs.empty()) GTEST_SKIP() << "built without dygraphs";
+  EXPECT_THAT(std::string(report_assets().dygraphs_licence),
               HasSubstr("Permission is hereby granted, free of charge"));
   EXPECT_THAT(page(), HasSubstr("Permission is hereby granted, free of charge"));
 }
