@@ -84,6 +84,10 @@ std::optional<nlohmann::ordered_json> read_summary_file(const fs::path& director
   return json;
 }
 
+bool is_end(const std::string& status) {
+  return status == "completed" || status == "collapsed" || status == "nothing_breaks";
+}
+
 std::string summary_text(const nlohmann::ordered_json& summary, const std::string& key,
                          const fs::path& directory) {
   const auto found = summary.find(key);

@@ -34,6 +34,9 @@ void write_summary_file(const std::filesystem::path& directory,
 /// \throws FileError where it is not a JSON object, lacks a status, or a quantity is not a number
 std::optional<nlohmann::ordered_json> read_summary_file(const std::filesystem::path& directory);
 
+/// Returns whether a status says that a run came to its end: completed, collapsed, nothing_breaks.
+bool is_end(const std::string& status);
+
 /// Returns a printable text of a summary; empty where the key is missing.
 /// \throws FileError where the value is not a text
 std::string summary_text(const nlohmann::ordered_json& summary, const std::string& key,

@@ -326,7 +326,7 @@ DamageResult run_damage_analysis(const LoadedNetwork& problem, const DamageOptio
   EventRun run(problem, own);
   try {
     while (const StepRecord* row = run.next()) observer.on_step(*row, run);
-    if (!run.has_failed()) observer.on_end(run.result().last, run);
+    if (!run.has_failed()) observer.on_end(run.last(), run);
   } catch (const std::exception& error) {
     run.fail(error);
   }

@@ -15,6 +15,7 @@
 #include "analysis/quasistatic/events/event_engine.hpp"
 #include "analysis/quasistatic/path_energy.hpp"
 #include "analysis/quasistatic/strain_watch.hpp"
+#include "base/error.hpp"
 
 namespace perilink {
 
@@ -46,6 +47,14 @@ struct PathState {
   std::vector<std::pair<std::vector<Index>, double>> freed;
   std::vector<std::uint8_t> whole;  ///< per finite element: it is an active host; empty: none
 
+  /// Sets the compliance under the loads of a run or stage.
+  /// \throws SolverError if they do no work on the body
+  void begin_work(const LoadWork& work) {
+    const double whole = work.forces + work.supports;
+    compliance = work.compliance();
+    if (!(whole > 0.0)) throw SolverError("the loads do no work on the body");
+    if (!std::isfinite(whole)) throw SolverError("the elastic solution is not finite");
+  }
   void end(Termination termination, std::string reason) {
     result.termination = termination;
     result.reason = std::move(reason);

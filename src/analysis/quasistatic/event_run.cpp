@@ -24,7 +24,8 @@ EventRun::EventRun(const LoadedNetwork& problem, const DamageOptions& options)
                                    host_release_->release_threshold());
     result.elements = host_release_->num_whole();
   }
-  const LoadWork work = begin_work();
+  const LoadWork work = engine_->load_work();
+  path_.begin_work(work);
   const double whole = work.forces + work.supports;
   result.initial_stiffness = reference_->driven
                                  ? work.supports / (reference_->value * reference_->value)
@@ -81,21 +82,9 @@ EventRun::EventRun(const LoadedNetwork& problem, const DamageOptions& options, D
 
 DamageState EventRun::save() const {
   DamageState saved{engine_->state(), path_};
-  const FactorStatistics factor = engine_->factor_statistics();
-  saved.path.result.factor.factorizations += factor.factorizations;
-  saved.path.result.factor.iterations += factor.iterations;
+  saved.path.result.factor = factor_statistics();
   if (host_release_) saved.path.whole = host_release_->whole();
   return saved;
-}
-
-/// \throws SolverError if the loads do no work on the body
-LoadWork EventRun::begin_work() {
-  const LoadWork work = engine_->load_work();
-  const double whole = work.forces + work.supports;
-  path_.compliance = work.forces - work.supports;
-  if (!(whole > 0.0)) throw SolverError("the loads do no work on the body");
-  if (!std::isfinite(whole)) throw SolverError("the elastic solution is not finite");
-  return work;
 }
 
 const StepRecord* EventRun::next() {
@@ -124,10 +113,15 @@ DamageResult EventRun::result() const {
   result.last = path_.row;
   result.broken_bonds += path_.broken_bonds;
   find_peaks(network_, path_.rows, result);
-  result.factor = engine_->factor_statistics();
-  result.factor.factorizations += path_.result.factor.factorizations;
-  result.factor.iterations += path_.result.factor.iterations;
+  result.factor = factor_statistics();
   return result;
+}
+
+FactorStatistics EventRun::factor_statistics() const {
+  FactorStatistics factor = engine_->factor_statistics();
+  factor.factorizations += path_.result.factor.factorizations;
+  factor.iterations += path_.result.factor.iterations;
+  return factor;
 }
 
 StepState EventRun::state() {

@@ -36,7 +36,6 @@ class EventRun final : public StateSource {
   /// one went on from it too: the new factor changes the last digits.
   /// \param saved  of this problem with these options, except for stop rules
   EventRun(const LoadedNetwork& problem, const DamageOptions& options, DamageState saved);
-  EventRun(const EventRun&) = delete;
 
   /// Advances to the next row.
   /// \return the row, valid until the next call; null at the end: see result(). If the solver fails
@@ -51,7 +50,11 @@ class EventRun final : public StateSource {
   void fail(const std::exception& error);
   /// Returns whether the run has failed.
   bool has_failed() const { return path_.result.termination == Termination::failed; }
-  /// Returns the result so far.
+  /// Returns the last row.
+  const StepRecord& last() const { return path_.row; }
+  /// Returns sizes of the factor, and its work so far.
+  FactorStatistics factor_statistics() const;
+  /// Returns the result so far. Peaks are found anew from all rows.
   DamageResult result() const;
   /// Returns the active hosts with which the analysis must start again, if a host release was
   /// missed and DamageOptions::begins_again is set; the run has then ended.
@@ -69,7 +72,6 @@ class EventRun final : public StateSource {
 
  private:
   std::unique_ptr<EventEngine> make_engine();
-  LoadWork begin_work();
   bool by_events();
   bool by_steps();
   // Control by stages: staged_run.cpp.

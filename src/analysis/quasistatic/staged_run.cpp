@@ -101,7 +101,7 @@ void EventRun::begin_stage() {
   const Unknowns& held = problem_.sets[set].unknowns;
   const bool is_embedded = host_release_ && staged_->is_new(set);
   staged_->begin_stage(set, is_embedded ? host_release_->hold(held) : held);
-  begin_work();
+  path_.begin_work(engine_->load_work());
   check();
   path_.energy.begin_stage(staged_->load_factor(), engine_->load_work(), flowed);
 }

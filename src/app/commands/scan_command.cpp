@@ -11,6 +11,7 @@
 #include "app/process/rank_start.hpp"
 #include "app/process/signals.hpp"
 #include "app/process/threads.hpp"
+#include "app/run/resume.hpp"
 #include "app/scan/scan_picture.hpp"
 #include "app/scan/scan_result.hpp"
 #include "app/scan/scan_table.hpp"
@@ -64,17 +65,9 @@ std::vector<CaseFile> read_members(ScanFile& scan) {
 void keep_results(ScanRun& run, const std::vector<CaseFile>& cases, bool force) {
   run.results.resize(cases.size());
   for (std::size_t k = 0; k < cases.size(); ++k) {
-    const EarlierResult earlier =
-        force ? EarlierResult::partial : earlier_result(run.place(k), cases[k]);
-    if (earlier == EarlierResult::other) {
-      throw FileError(fmt::format(
-          "{}: holds the result of another case than member {} ({})\n"
-          "  choose another directory with --out DIR, or run all members anew with "
-          "--force",
-          run.place(k).string(), member_name(k), member_text(run.scan.members[k].settings)));
-    }
-    if (earlier == EarlierResult::same) {
-      run.results[k] = read_scan_result(run.place(k));
+    const fs::path place = run.place(k);
+    if (!force && holds_a_run(place) && find_results(cases[k], place).is_finished) {
+      run.results[k] = read_scan_result(place);
       run.results[k].kept = true;
     } else {
       run.to_run.push_back(k);
@@ -126,7 +119,8 @@ void run_members_of_scan(ScanRun& run, const RunOptions& options, std::size_t jo
       run.results[process.number] = result_of_process(process, run.place(process.number));
       write_scan_table(run);
       progress.finish();
-      if (!options.quiet) tell_member(run, process.number, ++done);
+      ++done;
+      if (!options.quiet) tell_member(run, process.number, done);
     }
     if (!stopped && stop_signal_received()) {
       stopped = true;

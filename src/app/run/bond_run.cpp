@@ -154,9 +154,8 @@ class BondRun final : public MovingBondsRun {
       : MovingBondsRun(of_case, on_threads, calls), built_(build_bond_run(of_case, model_)) {
     built_.options.threads = threads;
     steps_ = built_.options.steps();
-    checkpoint_rows_ =
-        rows_between_checkpoints(model_.network.num_elements(), model_.network.particles.size(),
-                                 static_cast<double>(steps_) / built_.options.rows);
+    checkpoint_rows_ = rows_of_time(model_.network.num_elements(), model_.network.particles.size(),
+                                    static_cast<double>(steps_) / built_.options.rows);
     plan += fmt::format(", {} steps of {:.4g} (critical {:.4g})", steps_, built_.options.time_step,
                         built_.inertia.critical_time_step());
   }

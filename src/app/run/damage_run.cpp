@@ -21,21 +21,20 @@
 namespace perilink {
 namespace {
 
-/// Returns the number of rows between checkpoints for which they take about 2 % of the run time,
-/// by counted work: a new engine over an event. A run of some seconds has none.
+/// Returns the number of rows between checkpoints by counted work: a new engine over an event.
 /// \param batches  elements fail together, and a row takes several solutions
 Index rows_of_events(const FactorStatistics& factor, const Network& network, bool batches) {
-  constexpr double flops_per_second = 10e9, bytes_per_second = 10e9, part = 0.02;
+  constexpr double flops_per_second = 10e9, bytes_per_second = 10e9;
   constexpr double per_unknown = 3e-6, per_element = 1e-6, per_event = 5e-5;
   constexpr double per_force = 1e-8, steps_of_gradients = 12.0, solutions_of_batch = 5.0;
-  constexpr double least_seconds = 5.0;
+  constexpr Index fewest_rows = 20;
   const double elements = network.num_elements();
-  const double rebuild = per_unknown * factor.size + per_element * elements +
-                         factor.flops / flops_per_second + 4.0 * factor.bytes / bytes_per_second;
+  const double engine = per_unknown * factor.size + per_element * elements +
+                        factor.flops / flops_per_second + 4.0 * factor.bytes / bytes_per_second;
   double event = per_event + 2e-9 * elements + factor.bytes / bytes_per_second;
   if (batches) event *= solutions_of_batch;
   if (factor.subdomains > 0) event += steps_of_gradients * per_force * elements;
-  return static_cast<Index>(std::clamp(std::max(rebuild / part, least_seconds) / event, 20.0, 1e8));
+  return std::max(fewest_rows, rows_between_checkpoints(engine, event));
 }
 
 }  // namespace
@@ -74,7 +73,7 @@ void DamageRun::analyse() {
 void DamageRun::follow() {
   if (records_.checkpoint_rows == 0) {
     records_.checkpoint_rows = input.output.checkpoint_every.value_or(rows_of_events(
-        run_->result().factor, model_.network, options_.engine.event_tolerance > 0.0));
+        run_->factor_statistics(), model_.network, options_.engine.event_tolerance > 0.0));
   }
   try {
     while (const StepRecord* row = run_->next()) {
@@ -82,7 +81,7 @@ void DamageRun::follow() {
       const Index every = records_.checkpoint_rows;
       if (every > 0 && row->step % every == 0) go_on_from_checkpoint();
     }
-    if (!run_->has_failed() && !run_->missed_release()) end(run_->result().last, *run_);
+    if (!run_->has_failed() && !run_->missed_release()) end(run_->last(), *run_);
   } catch (const std::exception& error) {
     if (!run_) throw;
     failure = std::current_exception();
@@ -95,7 +94,7 @@ void DamageRun::go_on_from_checkpoint() {
   DamageState state = run_->save();
   if (state.path.over) return;  // a stop rule or a signal ended the run within a load step
   const std::string bytes = pack(records_, state);
-  if (2.0 * run_->result().factor.bytes > available_memory()) {
+  if (2.0 * run_->factor_statistics().bytes > available_memory()) {
     result_ = run_->result();
     run_.reset();
   }

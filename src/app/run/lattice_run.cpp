@@ -18,9 +18,9 @@ class LatticeRun final : public RunKind, private ExplicitObserver {
   LatticeRun(const CaseFile& of_case, int on_threads, const RunCallbacks& calls)
       : RunKind(of_case, on_threads, calls), built_(build_explicit_case(of_case)) {
     built_.options.threads = threads;
-    checkpoint_rows_ = rows_between_checkpoints(
-        static_cast<double>(built_.bonds), built_.model.lattice.particles(),
-        static_cast<double>(built_.options.steps()) / built_.options.rows);
+    checkpoint_rows_ =
+        rows_of_time(static_cast<double>(built_.bonds), built_.model.lattice.particles(),
+                     static_cast<double>(built_.options.steps()) / built_.options.rows);
     notes = built_.notes;
     plan = fmt::format("{} particles, {} bonds, {} steps of {:.4g} (critical {:.4g})",
                        built_.model.lattice.particles(), built_.bonds, built_.options.steps(),

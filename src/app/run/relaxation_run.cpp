@@ -31,8 +31,8 @@ class RelaxationRun final : public MovingBondsRun {
       : MovingBondsRun(of_case, on_threads, calls) {
     steps_ = static_cast<Index>(input.analysis.load_factors.size());
     constexpr double usual_iterations = 3000.0;  // of a load step
-    checkpoint_rows_ = rows_between_checkpoints(model_.network.num_elements(),
-                                                model_.network.particles.size(), usual_iterations);
+    checkpoint_rows_ = rows_of_time(model_.network.num_elements(), model_.network.particles.size(),
+                                    usual_iterations);
     plan += fmt::format(", {} load steps", steps_);
   }
 

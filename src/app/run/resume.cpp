@@ -2,21 +2,21 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <sstream>
 
 #include "base/error.hpp"
 #include "base/files.hpp"
 #include "io/case/case_file.hpp"
 #include "model/body/mesh_input.hpp"
+#include "results/result_directory.hpp"
 #include "results/summary_file.hpp"
 
 namespace perilink {
 namespace {
 
 constexpr const char* other_ways =
-    "\n  begin it again with --force in place of --resume, or choose another directory with --out "
-    "DIR";
+    "\n  begin it again with --force, or choose another directory with --out DIR";
 
 /// Returns the first lines that differ, "`a = 1` there, `a = 2` here".
 std::string first_difference(const std::string& there, const std::string& here) {
@@ -53,14 +53,30 @@ void require_raised(const StopSection& there, const StopSection& here, const std
 }
 
 bool has_ended(const std::filesystem::path& directory) {
-  const auto summary = read_summary_file(directory);
-  if (!summary) return false;
-  const std::string status = summary_text(*summary, "status", directory);
-  constexpr std::array<const char*, 3> ends = {"completed", "collapsed", "nothing_breaks"};
-  return std::ranges::any_of(ends, [&](const char* end) { return status == end; });
+  try {
+    const auto summary = read_summary_file(directory);
+    return summary && is_end(summary_text(*summary, "status", directory));
+  } catch (const FileError&) {  // a damaged summary is written anew
+    return false;
+  }
 }
 
 }  // namespace
+
+Index rows_between_checkpoints(double checkpoint, double row) {
+  constexpr double part = 0.02, least_seconds = 5.0;
+  return static_cast<Index>(std::clamp(std::max(checkpoint / part, least_seconds) / row, 1.0, 1e8));
+}
+
+bool holds_a_run(const std::filesystem::path& directory) {
+  if (std::filesystem::exists(directory / "case.toml")) {
+    return !std::filesystem::exists(directory / "study.toml");
+  }
+  return std::ranges::all_of(
+      refuse_old_results(directory, true), [](const std::filesystem::path& file) {
+        return file.filename() == "summary.json" || file.extension() == ".part";
+      });
+}
 
 std::string resumable_case(const CaseFile& input, const std::filesystem::path& directory) {
   CaseFile seen = seen_from(input, directory);

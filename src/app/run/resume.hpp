@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "base/types.hpp"
 #include "io/case/case_file.hpp"
 #include "io/checkpoint/checkpoint.hpp"
 
@@ -15,9 +16,19 @@ namespace perilink {
 /// Name of the file with the state of a run, in its directory.
 inline constexpr const char* checkpoint_name = "checkpoint.bin";
 
+/// Returns the number of rows between checkpoints for which they take about 2 % of the run time. A
+/// run of some seconds has none.
+/// \param checkpoint  estimated time of a checkpoint [s]
+/// \param row         estimated time of a row [s]
+Index rows_between_checkpoints(double checkpoint, double row);
+
 /// Returns the text of a case as its result directory sees it, without the rules that may change
 /// before a run is taken up again: its stop rules, or those of the last stage.
 std::string resumable_case(const CaseFile& input, const std::filesystem::path& directory);
+
+/// Returns whether results in a directory, if there are any, are of a run, which may have been
+/// killed as it began.
+bool holds_a_run(const std::filesystem::path& directory);
 
 /// Results that `--resume` finds in a directory.
 struct Resumed {

@@ -4,11 +4,9 @@
 #include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "app/run/resume.hpp"
 #include "app/run/run_kind.hpp"
@@ -120,15 +118,6 @@ void write_summary(RunKind& run, const fs::path& directory, RunEnd& end) {
     tell_of_failure(directory, run.input, error);  // kept if the full summary cannot be written
     attempt(run_outcome, end, sum_up);
   }
-}
-
-/// Returns whether results in a directory are of a run, which may have been killed as it began.
-bool holds_a_run(const fs::path& directory) {
-  if (fs::exists(directory / "case.toml")) return !fs::exists(directory / "study.toml");
-  const std::vector<fs::path> files = refuse_old_results(directory, true);
-  return std::ranges::all_of(files, [](const fs::path& file) {
-    return file.filename() == "summary.json" || file.extension() == ".part";
-  });
 }
 
 }  // namespace

@@ -37,14 +37,12 @@ void RunKind::save(const std::string& state) {
                     pack(files_->save(), seconds.analysis + since_opened_.seconds(), state)});
 }
 
-Index RunKind::rows_between_checkpoints(double elements, double particles, double steps) const {
+Index RunKind::rows_of_time(double elements, double particles, double steps) const {
   if (ranks() != nullptr) return 0;
   if (input.output.checkpoint_every) return *input.output.checkpoint_every;
   constexpr double per_element = 2e-9, per_particle = 5e-7;  // of a step, of a state [s]
-  constexpr double part = 0.02, least_seconds = 10.0;
   const double row = std::max(1.0, steps) * per_element * std::max(1.0, elements);
-  return static_cast<Index>(
-      std::clamp(std::max(per_particle * particles / part, least_seconds) / row, 1.0, 1e8));
+  return rows_between_checkpoints(per_particle * particles, row);
 }
 
 std::string NetworkRun::model_fingerprint() const { return fingerprint_of(model_); }

@@ -68,12 +68,12 @@ class RunKind {
   void save(const std::string& state);
   /// Goes on from the bytes given to save(). \throws FileError
   virtual void restore(const std::string& /*state*/) {}
-  /// Returns the number of rows between checkpoints of a run over time: as the case says, else so
-  /// that they take about 2 % of the run time. A run of some seconds has none.
+  /// Returns the number of rows between checkpoints of a run over time: as the case says, else by
+  /// counted work; 0: none.
   /// \param elements   number of bonds that each step visits
   /// \param particles  number of particles in a saved state
   /// \param steps      between two rows
-  Index rows_between_checkpoints(double elements, double particles, double steps) const;
+  Index rows_of_time(double elements, double particles, double steps) const;
 
   std::filesystem::path directory_;
   Timer since_opened_;

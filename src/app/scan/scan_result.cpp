@@ -5,9 +5,6 @@
 #include <cstring>
 
 #include "base/error.hpp"
-#include "base/files.hpp"
-#include "model/body/mesh_input.hpp"
-#include "results/result_directory.hpp"
 #include "results/summary_file.hpp"
 
 namespace perilink {
@@ -31,10 +28,6 @@ std::string first_error(const FinishedProcess& process) {
 }
 
 }  // namespace
-
-bool ScanResult::finished() const {
-  return status == "completed" || status == "collapsed" || status == "nothing_breaks";
-}
 
 ScanResult read_scan_result(const fs::path& directory) {
   ScanResult result;
@@ -66,24 +59,6 @@ ScanResult result_of_process(const FinishedProcess& process, const fs::path& dir
   }
   result.status = "failed";
   return result;
-}
-
-EarlierResult earlier_result(const fs::path& directory, const CaseFile& member) {
-  std::error_code error;
-  if (!fs::exists(directory, error)) return EarlierResult::none;
-  const std::vector<fs::path> files = refuse_old_results(directory, true);
-  if (files.empty()) return EarlierResult::none;
-  const fs::path written = directory / "case.toml";
-  // A run that is killed at its start leaves a summary without a case.
-  if (!fs::exists(written, error)) return EarlierResult::partial;
-  if (read_regular_file(written.string()) != write_case(seen_from(member, directory))) {
-    return EarlierResult::other;
-  }
-  try {
-    return read_scan_result(directory).finished() ? EarlierResult::same : EarlierResult::partial;
-  } catch (const FileError&) {
-    return EarlierResult::partial;
-  }
 }
 
 }  // namespace perilink

@@ -7,7 +7,7 @@
 
 #include "app/compare/run_result.hpp"
 #include "app/process/process_pool.hpp"
-#include "io/case/case_file.hpp"
+#include "results/summary_file.hpp"
 
 /// \file
 /// Results of the members of a scan, from their directories.
@@ -30,7 +30,7 @@ struct ScanResult {
   bool kept = false;               ///< from an earlier scan
 
   /// Whether the run came to its end: completed, collapsed or nothing_breaks.
-  bool finished() const;
+  bool finished() const { return is_end(status); }
 };
 
 /// Returns the result in a directory; status "not run" where it has no summary.json.
@@ -40,16 +40,5 @@ ScanResult read_scan_result(const std::filesystem::path& directory);
 /// Returns the result of a member whose process has ended. Failures are told in its reason.
 ScanResult result_of_process(const FinishedProcess& process,
                              const std::filesystem::path& directory);
-
-/// Content of the directory of a member before a scan.
-enum class EarlierResult {
-  none,     ///< nothing
-  same,     ///< the finished result of this case
-  partial,  ///< an unfinished or failed run of this case
-  other     ///< the result of another case
-};
-
-/// Compares the case in a directory with a member's case.
-EarlierResult earlier_result(const std::filesystem::path& directory, const CaseFile& member);
 
 }  // namespace perilink

@@ -64,6 +64,24 @@ TEST_F(Resume, KnowsARunThatHasEnded) {
   EXPECT_TRUE(find_results(parse_case(strip, "strip.toml"), work_.path()).is_finished);
 }
 
+TEST_F(Resume, TakesADamagedSummaryForNoEnd) {
+  run(strip);
+  write_whole_file((work_ / "summary.json").string(), "");
+  EXPECT_FALSE(find_results(parse_case(strip, "strip.toml"), work_.path()).is_finished);
+}
+
+TEST_F(Resume, KnowsARunFromOtherResults) {
+  EXPECT_TRUE(holds_a_run(work_ / "nowhere"));
+  write_whole_file((work_ / "summary.json").string(), "{}");
+  EXPECT_TRUE(holds_a_run(work_.path())) << "killed as it began";
+  write_whole_file((work_ / "history.csv").string(), "load\n");
+  EXPECT_FALSE(holds_a_run(work_.path())) << "of another program";
+  write_whole_file((work_ / "case.toml").string(), "");
+  EXPECT_TRUE(holds_a_run(work_.path()));
+  write_whole_file((work_ / "study.toml").string(), "");
+  EXPECT_FALSE(holds_a_run(work_.path())) << "a study";
+}
+
 /// A run that goes on after its stop rule was raised has the bytes of one that was never stopped.
 TEST_F(Resume, GoesOnWithARaisedStopRule) {
   const std::string more = replaced(strip, "broken_bonds = 12", "broken_bonds = 25");

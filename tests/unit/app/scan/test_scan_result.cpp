@@ -64,22 +64,5 @@ TEST_F(ScanResults, OfFailedProcessesTellTheReason) {
   EXPECT_EQ(result_of_process({0, 4, 0, ""}, place()).status, "interrupted");
 }
 
-TEST_F(ScanResults, AreKeptOnlyForTheSameCase) {
-  const CaseFile strip = test::strip_case();
-  EXPECT_EQ(earlier_result(directory_ / "nowhere", strip), EarlierResult::none);
-  EXPECT_EQ(earlier_result(place(), strip), EarlierResult::none);
-  write_status("running");
-  EXPECT_EQ(earlier_result(place(), strip), EarlierResult::partial) << "killed at its start";
-  write("case.toml", write_case(strip));
-  EXPECT_EQ(earlier_result(place(), strip), EarlierResult::partial);
-  write_status("completed");
-  EXPECT_EQ(earlier_result(place(), strip), EarlierResult::same);
-  CaseFile other = strip;
-  other.body.spacing = 5.0;
-  EXPECT_EQ(earlier_result(place(), other), EarlierResult::other);
-  write("summary.json", "");
-  EXPECT_EQ(earlier_result(place(), strip), EarlierResult::partial) << "damaged";
-}
-
 }  // namespace
 }  // namespace perilink
