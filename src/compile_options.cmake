@@ -48,6 +48,8 @@ function(perilink_module name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
   add_library(perilink_${name} STATIC ${sources})
   add_library(perilink::${name} ALIAS perilink_${name})
+  # It also goes into shared libraries, as that of Python.
+  set_target_properties(perilink_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   target_include_directories(perilink_${name} PUBLIC
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/perilink>)
@@ -82,6 +84,7 @@ endfunction()
 function(perilink_reuse_headers)
   file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/headers.cpp CONTENT "")
   add_library(perilink_headers OBJECT ${CMAKE_CURRENT_BINARY_DIR}/headers.cpp)
+  set_target_properties(perilink_headers PROPERTIES POSITION_INDEPENDENT_CODE ON)
   target_link_libraries(perilink_headers PRIVATE perilink::options fmt::fmt Eigen3::Eigen)
   target_precompile_headers(perilink_headers PRIVATE
     <algorithm> <array> <cmath> <functional> <map> <memory> <optional> <span> <string>
