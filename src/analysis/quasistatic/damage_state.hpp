@@ -50,10 +50,10 @@ struct PathState {
   /// Sets the compliance under the loads of a run or stage.
   /// \throws SolverError if they do no work on the body
   void begin_work(const LoadWork& work) {
-    const double whole = work.forces + work.supports;
+    const double sum = work.forces + work.supports;
     compliance = work.compliance();
-    if (!(whole > 0.0)) throw SolverError("the loads do no work on the body");
-    if (!std::isfinite(whole)) throw SolverError("the elastic solution is not finite");
+    if (!(sum > 0.0)) throw SolverError("the loads do no work on the body");
+    if (!std::isfinite(sum)) throw SolverError("the elastic solution is not finite");
   }
   void end(Termination termination, std::string reason) {
     result.termination = termination;
