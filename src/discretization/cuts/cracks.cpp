@@ -181,6 +181,14 @@ bool CrackCutter::cuts(const Vector3& first, const Vector3& second, std::span<In
   return last != no_index;
 }
 
+const CrackCutter::Piece* CrackCutter::piece_between(const Vector3& first,
+                                                     const Vector3& second) const {
+  const Vector3 from = shifted(first), to = shifted(second);
+  const auto piece = std::ranges::find_if(
+      pieces_, [&](const Piece& p) { return crosses(p, from, to, tolerance_); });
+  return piece == pieces_.end() ? nullptr : &*piece;
+}
+
 void check_crack(const Crack& crack, int dim) { pieces_of({&crack, 1}, dim); }
 
 CutBonds find_cut_bonds(const Particles& particles, const Bonds& bonds,

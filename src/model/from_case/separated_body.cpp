@@ -53,9 +53,9 @@ void refuse_pieces_on_bars(const CaseFile& input, const Model& model, int thread
 std::optional<std::string> note_of_separated_body(const CaseFile& input, const Model& model,
                                                   int threads) {
   refuse_pieces_on_bars(input, model, threads);
-  const bool may_close = model.network.has_closing() && !model.network.cut_elements.empty();
+  const bool may_close = model.network.has_closing() && model.network.num_contacts > 0;
   if (!may_close) return std::nullopt;
-  const std::string piece = loose_piece(model, model.network.cut_elements);
+  const std::string piece = loose_piece(model, model.network.contacts());
   if (piece.empty()) return std::nullopt;
   try {
     if (input.analysis.type == AnalysisType::elastic) {
