@@ -26,8 +26,15 @@ struct Contact {
   double distance() const { return arm / stiffness; }
 };
 
-/// Layers of particles across the crack are told apart by their distance in spacings.
-using Layer = std::tuple<Index, Vector3, long>;
+/// Layers of particles across a crack are told apart by their distance in spacings, and pieces of
+/// cracks by the components of their normals, in units that are far above round-off.
+using Layer = std::tuple<Index, std::array<long, 3>, long>;
+
+std::array<long, 3> rounded(const Vector3& normal) {
+  std::array<long, 3> result{};
+  for (int a = 0; a < 3; ++a) result[a] = std::lround(1e6 * normal[a]);
+  return result;
+}
 
 /// Returns the contact springs of both sides, ordered by particle.
 std::vector<Contact> contacts_of(const Network& network, double spacing,
@@ -43,7 +50,7 @@ std::vector<Contact> contacts_of(const Network& network, double spacing,
     const long layer = std::max(1L, std::lround(distance / spacing));
     for (const auto& [particle, sign] : {std::pair(bond.first, 1.0), {bond.second, -1.0}}) {
       const Vector3 normal = {sign * bond.normal[0], sign * bond.normal[1], sign * bond.normal[2]};
-      Contact& contact = layers[{particle, normal, layer}];
+      Contact& contact = layers[{particle, rounded(normal), layer}];
       contact.particle = particle;
       contact.normal = normal;
       contact.stiffness += 0.5 * bond.stiffness;

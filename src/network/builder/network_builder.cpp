@@ -167,18 +167,19 @@ std::vector<CutBond> cut_bonds(const Body& body, const NetworkInput& input, Netw
   CutBonds cut = find_cut_bonds(network.particles, network.bonds, cracks, body.lattice.spacing);
   network.cut_by_crack = std::move(cut.count);
   const CrackCutter cutter(cracks, network.dim(), body.lattice.spacing);
-  const auto closes = [&](Index bond) {
-    return network.particles.kind[network.bonds.second[bond]] == ParticleKind::solid &&
-           std::ranges::all_of(materials_of_bond(network, bond),
-                               [&](Index m) { return input.materials[m].softening.closes; });
+  const auto closes = [&](Index bond, const Crack& crack) {
+    if (network.particles.kind[network.bonds.second[bond]] != ParticleKind::solid) return false;
+    return crack.closes.value_or(
+        std::ranges::all_of(materials_of_bond(network, bond),
+                            [&](Index m) { return input.materials[m].softening.closes; }));
   };
   const auto at = [&](Index i) { return point_of(network.particles.positions, network.dim(), i); };
   std::vector<CutBond> closing;
   for (Index b = 0; b < network.bonds.size(); ++b) {
-    if (cut.keep[b] != 0 || !closes(b)) continue;
+    if (cut.keep[b] != 0) continue;
     const auto* piece =
         cutter.piece_between(at(network.bonds.first[b]), at(network.bonds.second[b]));
-    closing.push_back(cut_bond(network, b, piece->normal));
+    if (closes(b, cracks[piece->crack])) closing.push_back(cut_bond(network, b, piece->normal));
   }
   keep_elements(network, cut.keep);
   return closing;

@@ -42,7 +42,8 @@ struct CutBody {
     };
     input.cracks.emplace_back();
     input.cracks[0].points = {at(-far, 0.0), at(far, 0.0)};
-    if (dim() == 3) input.cracks[0].points = {at(-far, -far), at(far, -far), at(far, far), at(-far, far)};
+    if (dim() == 3)
+      input.cracks[0].points = {at(-far, -far), at(far, -far), at(far, far), at(-far, far)};
     return build_network(make_body(body), input);
   }
 };
@@ -69,9 +70,9 @@ std::vector<double> motion_of(const CutBody& body, const Network& network, const
 double extension_of(const Network& network, std::span<const double> motion, Index e) {
   double extension = 0.0;
   for (int a = 0; a < network.dim(); ++a) {
-    extension += network.bonds.direction(e)[a] *
-                 (motion[network.bonds.second[e] * network.width() + a] -
-                  motion[network.bonds.first[e] * network.width() + a]);
+    extension +=
+        network.bonds.direction(e)[a] * (motion[network.bonds.second[e] * network.width() + a] -
+                                         motion[network.bonds.first[e] * network.width() + a]);
   }
   return extension;
 }
@@ -130,14 +131,14 @@ TEST_P(CrackContacts, ResistNeitherSlipNorRotation) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Bodies, CrackContacts,
-    ::testing::Values(CutBody{"rectangular", rectangular, 0.0},
-                      CutBody{"rectangular_oblique", rectangular, 0.6},
-                      CutBody{"hexagonal", hexagonal, 0.0}, CutBody{"cubic", cubic, 0.0},
-                      CutBody{"cubic_oblique", cubic, 0.5},
-                      CutBody{"micropolar", rectangular, 0.3, true}),
-    [](const auto& body) { return body.param.name; });
+INSTANTIATE_TEST_SUITE_P(Bodies, CrackContacts,
+                         ::testing::Values(CutBody{"rectangular", rectangular, 0.0},
+                                           CutBody{"rectangular_oblique", rectangular, 0.6},
+                                           CutBody{"hexagonal", hexagonal, 0.0},
+                                           CutBody{"cubic", cubic, 0.0},
+                                           CutBody{"cubic_oblique", cubic, 0.5},
+                                           CutBody{"micropolar", rectangular, 0.3, true}),
+                         [](const auto& body) { return body.param.name; });
 
 }  // namespace
 }  // namespace perilink
