@@ -121,10 +121,10 @@ void DamageRun::restore(const std::string& saved) {
   run_ = std::make_unique<EventRun>(model_, options_, std::move(state));
 }
 
-/// Marks the broken elements, and those that pre-cracks cut.
+/// Marks the broken elements, and the contact springs of pre-cracks.
 void DamageRun::mark_broken() {
   is_broken_.assign(static_cast<std::size_t>(model_.network.num_elements()), 0);
-  for (const Index element : model_.network.cut_elements) is_broken_[element] = 1;
+  for (const Index element : model_.network.contacts()) is_broken_[element] = 1;
   for (const Index element : records_.broken) is_broken_[element] = 1;
 }
 

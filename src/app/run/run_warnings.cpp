@@ -183,11 +183,10 @@ double energy_until(const BondLaw& law, double secant) {
 SoftenedEnergy softened_energy(const Network& network, Secants secants) {
   constexpr double of_crack = 0.1;  // bonds of an intact body at its strength have lost 3 to 5 %
   SoftenedEnergy energy;
-  for (Index e = 0; e < network.first_slip_spring; ++e) {
+  for (Index e = 0; e < network.first_contact(); ++e) {
     const double left = secants.least(e);
     const BondLaw& law = network.law(e);
     if (left == 1.0 || !network.can_break(e) || law.is_brittle() || law.crushes()) continue;
-    if (std::ranges::binary_search(network.cut_elements, e)) continue;
     const double lost = energy_until(law, left);
     const bool cracked = lost >= of_crack * energy_until(law, 0.0);
     const double extension = network.critical_stretch[e] * network.bonds.length(e);
