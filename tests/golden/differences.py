@@ -7,7 +7,7 @@ import re
 import struct
 import zlib
 
-# Entries of summary.json that describe the clock, the memory, the threads and the program.
+# Entries of summary.json that describe the clock, the memory, the threads, the program and files.
 NOT_COMPARED = {
     "seconds",
     "particle_steps_per_second",
@@ -15,6 +15,7 @@ NOT_COMPARED = {
     "threads",
     "version",
     "commit",
+    "mesh_checksum",
 }
 # Texts of summary.json that the program prints too: they are compared as messages.
 TEXTS = {"reason", "notes", "doubts"}

@@ -57,10 +57,9 @@ std::shared_ptr<spdlog::logger> open_log(const fs::path& directory, const RunCal
 
 /// Writes a summary with the status "failed". Errors of this write are ignored, because the first
 /// failure is reported.
-void tell_of_failure(const fs::path& directory, const CaseFile& input,
-                     const std::exception& error) {
+void tell_of_failure(const fs::path& directory, const RunKind& run, const std::exception& error) {
   try {
-    write_failed_summary(directory, input, failure_text(error));
+    write_failed_summary(directory, run.input, run.meshes, failure_text(error));
   } catch (const std::exception&) {
   }
 }
@@ -88,7 +87,7 @@ std::shared_ptr<spdlog::logger> open_files(RunKind& run, const fs::path& directo
                                            const std::optional<Checkpoint>& checkpoint) {
   try {
     const CaseFile seen = seen_from(run.input, directory);
-    write_running_summary(directory, seen);
+    write_running_summary(directory, seen, run.meshes);
     write_whole_file((directory / "case.toml").string(), write_case(seen));
     const auto log = open_log(directory, run.callbacks, checkpoint.has_value());
     log->info("{} : {}, {} threads", run.input.path, run.plan, run.threads);
@@ -98,7 +97,7 @@ std::shared_ptr<spdlog::logger> open_files(RunKind& run, const fs::path& directo
     if (checkpoint) log->info("goes on after row {}", run.files().rows());
     return log;
   } catch (const std::exception& error) {
-    tell_of_failure(directory, run.input, error);
+    tell_of_failure(directory, run, error);
     throw;
   }
 }
@@ -115,7 +114,7 @@ void write_summary(RunKind& run, const fs::path& directory, RunEnd& end) {
   } catch (const std::exception& error) {
     if (run.callbacks.on_fault) run.callbacks.on_fault(failure_text(error));
     fail(run_outcome, end, error);
-    tell_of_failure(directory, run.input, error);  // kept if the full summary cannot be written
+    tell_of_failure(directory, run, error);  // kept if the full summary cannot be written
     attempt(run_outcome, end, sum_up);
   }
 }

@@ -33,7 +33,7 @@ void RunKind::open(const std::filesystem::path& directory, const RunCallbacks& c
 
 void RunKind::save(const std::string& state) {
   write_checkpoint((directory_ / checkpoint_name).string(),
-                   {resumable_case(input, directory_), model_fingerprint(),
+                   {resumable_case(input, meshes), model_fingerprint(),
                     pack(files_->save(), seconds.analysis + since_opened_.seconds(), state)});
 }
 
@@ -81,7 +81,7 @@ Summary summary_of(RunKind& run, const std::filesystem::path& directory) {
   const std::string status = to_string(run_outcome.termination);
   Summary summary;
   summary.notes = run.notes;
-  summary.json = summary_head(run.input, status, run_outcome.reason);
+  summary.json = summary_head(run.input, run.meshes, status, run_outcome.reason);
   summary.text = (run.input.title.empty() ? run.input.path : run.input.title) + "\n";
   summary.line("ended", "{} ({})", status, run_outcome.reason);
   run.tell(summary);

@@ -7,11 +7,13 @@
 #include <string_view>
 
 #include "base/error.hpp"
+#include "base/files.hpp"
 #include "base/plain_text.hpp"
 #include "discretization/meshes/mesh_body.hpp"
 #include "discretization/meshes/mesh_conformity.hpp"
 #include "io/case/case_schema.hpp"
 #include "io/case/case_words.hpp"
+#include "io/checkpoint/checkpoint.hpp"
 #include "io/mesh/gmsh_file.hpp"
 #include "io/mesh/gmsh_mesher.hpp"
 #include "io/text/toml_tree.hpp"
@@ -245,6 +247,22 @@ CaseFile seen_from(const CaseFile& input, const fs::path& directory) {
   move(moved.body.mesh);
   if (moved.elements) move(moved.elements->mesh);
   return moved;
+}
+
+std::string mesh_checksum(const CaseFile& input) {
+  std::vector<std::string> contents;
+  try {
+    const auto read = [&](const std::optional<std::string>& file) {
+      if (file) contents.push_back(read_regular_file(seen_from_case(input, *file).string()));
+    };
+    read(input.body.mesh);
+    if (input.elements) read(input.elements->mesh);
+  } catch (const FileError&) {  // the mesh's reader reports it
+    return "";
+  }
+  if (contents.empty()) return "";
+  contents.resize(2);
+  return fingerprint(contents[0], contents[1]);
 }
 
 }  // namespace perilink
