@@ -21,7 +21,7 @@ class Chart {
     tools.append(button("Whole curve", () => this.graph.resetZoom()),
       button("PNG", () => this.savePng()), button("SVG", () => this.saveSvg()),
       button("CSV", () => this.runs.forEach((run) =>
-        save(run.name + "_history.csv", run.history.text, "text/csv"))));
+        save(run.directory + "_history.csv", run.history.text, "text/csv"))));
     this.element = make("figure", {}, tools, this.legend, this.box, this.says);
     charts.push(this);
   }

@@ -69,6 +69,32 @@ std::string range_of(std::span<const ScanResult> results, const std::string& qua
 
 std::string member_name(std::size_t member) { return fmt::format("{:04}", member + 1); }
 
+std::string scanned_values(const std::filesystem::path& directory) {
+  const std::filesystem::path place =
+      std::filesystem::weakly_canonical(directory / "").parent_path();
+  const std::filesystem::path table = place.parent_path() / "scan.csv";
+  if (!std::filesystem::exists(table)) return "";
+  const std::vector<std::vector<std::string>> rows = read_texts(table.string());
+  const auto own = std::find_if(rows.begin(), rows.end(), [&](const auto& row) {
+    return row.front() == place.filename().string() && row.size() == rows.front().size();
+  });
+  if (own == rows.end()) return "";
+  const auto first = rows.front().begin() + 1;
+  const std::vector<std::string> keys(first, std::find(first, rows.front().end(), "status"));
+  const auto last_name = [](const std::string& key) { return key.substr(key.rfind('.') + 1); };
+  std::string text;
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    const std::string& value = (*own)[k + 1];
+    if (value.empty()) continue;  // the case's own value
+    const std::string name = last_name(keys[k]);
+    const auto same = std::count_if(keys.begin(), keys.end(), [&](const std::string& other) {
+      return last_name(other) == name;
+    });
+    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", same > 1 ? keys[k] : name, value);
+  }
+  return text;
+}
+
 double ScanSample::mean() const {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }

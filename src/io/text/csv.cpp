@@ -151,6 +151,26 @@ CsvRow& CsvRow::append(const std::string& field) {
   return *this;
 }
 
+std::vector<std::vector<std::string>> read_texts(const std::string& path) {
+  std::vector<std::vector<std::string>> rows;
+  bool quoted = false, begins = true;
+  char before = 0;
+  for (const char c : read_regular_file(path)) {
+    if (begins) rows.push_back({""});
+    begins = c == '\n' && !quoted;
+    if (c == '"') {
+      if (before == '"' && !quoted) rows.back().back() += c;  // two quotes are one
+      quoted = !quoted;
+    } else if (c == ',' && !quoted) {
+      rows.back().emplace_back();
+    } else if (!begins) {
+      rows.back().back() += c;
+    }
+    before = c;
+  }
+  return rows;
+}
+
 int CsvTable::column(const std::string& name) const {
   const auto found = std::find(columns.begin(), columns.end(), name);
   return found == columns.end() ? -1 : static_cast<int>(found - columns.begin());
