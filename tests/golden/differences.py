@@ -18,7 +18,7 @@ NOT_COMPARED = {
     "mesh_checksum",
 }
 # Texts of summary.json that the program prints too: they are compared as messages.
-TEXTS = {"reason", "notes", "doubts"}
+TEXTS = {"reason", "notes", "doubts", "warnings"}
 # Files that hold wall time or messages, or the state of a run with its times.
 SKIPPED = {"timing.csv", "log.txt", "checkpoint.bin"}
 # Numbers that are round-off themselves or count steps to a tolerance. A tolerance passes over them,

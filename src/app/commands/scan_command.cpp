@@ -155,7 +155,7 @@ void run_members_of_scan(ScanRun& run, const RunOptions& options, std::size_t jo
       pool.stop();
     }
     if (!progress.is_due()) continue;
-    progress.draw(fmt::format("{} of {} members", done, run.to_run.size()),
+    progress.draw(fmt::format("{} of {}", done, counted(run.to_run.size(), "member")),
                   static_cast<double>(done) / static_cast<double>(run.to_run.size()));
   }
   progress.finish();

@@ -71,7 +71,7 @@ class Chart {
         curve.points.push([x[row], y[row], row]);
       }
       if (!envelope) return;
-      list.push({ run, label: (of ? of + ", " : "") + "envelope of equal energy", color: color(r),
+      list.push({ run, label: (of ? of + ", " : "") + "smoothed curve of equal energy", color: color(r),
         points: envelope.map(([u, p]) => [u, p, -1]), dash: null, pale: false, width: 2.6 });
     }));
     list.forEach((curve, k) => (curve.key = k + " " + curve.label));

@@ -115,7 +115,7 @@ function wordsOf(run) {
     ...run.tables.map((table) => tableOf([table.heading, ""], table.entries)));
   return make("article", {}, runs.length > 1 ? make("h3", {}, run.title) : null,
     make("p", {}, run.sentences.join(" ")), list("notes", run.notes),
-    list("warnings", listOf(run.summary.doubts).map((text) => "Warning: " + text)),
+    list("warnings", listOf(run.summary.warnings).map((text) => "Warning: " + text)),
     list("notes", listOf(run.summary.notes).map((text) => "Note: " + text)), tables);
 }
 

@@ -90,7 +90,7 @@ std::shared_ptr<spdlog::logger> open_files(RunKind& run, const fs::path& directo
     write_running_summary(directory, seen, run.meshes);
     write_whole_file((directory / "case.toml").string(), write_case(seen));
     const auto log = open_log(directory, run.callbacks, checkpoint.has_value());
-    log->info("{} : {}, {} threads", run.input.path, run.plan, run.threads);
+    log->info("{} : {}, {}", run.input.path, run.plan, counted(run.threads, "thread"));
     if (run.calibration) log->info("calibration: {}", *run.calibration);
     for (const std::string& note : run.notes) log->info("note: {}", note);
     run.open(directory, run.callbacks, checkpoint ? checkpoint->state : "");
@@ -169,7 +169,7 @@ RunEnd run_case(const CaseFile& input, const fs::path& directory, const RunSetti
     log->info("note: {}", summary.notes[k]);
   }
   log->info("{}: {}; {}", to_string(run_outcome.termination), run_outcome.reason, summary.outcome);
-  for (const std::string& warning : summary.warnings) log->info("doubt: {}", warning);
+  for (const std::string& warning : summary.warnings) log->info("warning: {}", warning);
   if (!end.error) end.error = run->failure;
   end.termination = run_outcome.termination;
   end.reason = run_outcome.reason;

@@ -87,7 +87,7 @@ Summary summary_of(RunKind& run, const std::filesystem::path& directory) {
   run.tell(summary);
 
   summary.add("notes", summary.notes);
-  summary.add("doubts", summary.warnings);
+  summary.add("warnings", summary.warnings);
   nlohmann::ordered_json phases = {
       {"set_up", seconds.set_up}, {"analysis", seconds.analysis}, {"output", seconds.output}};
   for (const auto& [part, time] : seconds.parts) phases[part] = time;
@@ -100,7 +100,7 @@ Summary summary_of(RunKind& run, const std::filesystem::path& directory) {
   summary.add("version", program_version());
   summary.add("commit", program_commit());
   for (const std::string& note : summary.notes) summary.line("note", "{}", note);
-  for (const std::string& warning : summary.warnings) summary.line("doubt", "{}", warning);
+  for (const std::string& warning : summary.warnings) summary.line("warning", "{}", warning);
   summary.line("results", "{}", directory.string());
   return summary;
 }

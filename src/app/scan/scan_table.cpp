@@ -8,6 +8,7 @@
 #include <map>
 #include <numeric>
 
+#include "base/plain_text.hpp"
 #include "io/text/csv.hpp"
 
 namespace perilink {
@@ -125,9 +126,10 @@ std::string sample_text(const ScanSample& sample) {
   const std::string name = sample.name.empty() ? "" : sample.name + ", ";
   if (sample.values.empty()) return name + "no seed with a result";
   const double mean = sample.mean(), deviation = sample.deviation();
-  if (std::isnan(deviation)) return fmt::format("{}1 seed: {:.6g}", name, mean);
-  return fmt::format("{}{} seeds: mean {:.6g}, standard deviation {:.4g} ({:.3g} %)", name,
-                     sample.values.size(), mean, deviation, 100.0 * deviation / std::abs(mean));
+  const std::string seeds = counted(sample.values.size(), "seed");
+  if (std::isnan(deviation)) return fmt::format("{}{}: {:.6g}", name, seeds, mean);
+  return fmt::format("{}{}: mean {:.6g}, standard deviation {:.4g} ({:.3g} %)", name, seeds, mean,
+                     deviation, 100.0 * deviation / std::abs(mean));
 }
 
 std::string scan_table(const ScanFile& scan, std::span<const ScanResult> results) {
@@ -191,8 +193,8 @@ std::string scan_report(const ScanFile& scan, std::span<const ScanResult> result
   for (const ScanSample& sample : samples_of(scan, results, "peak_load")) {
     below += fmt::format("  peak_load over {}\n", sample_text(sample));
   }
-  return fmt::format("{}{}{} members: {}{}{}; {:.3g} s of runs\n", in_columns(rows), below,
-                     results.size(), counts_of(results),
+  return fmt::format("{}{}{}: {}{}{}; {:.3g} s of runs\n", in_columns(rows), below,
+                     counted(results.size(), "member"), counts_of(results),
                      kept > 0 ? fmt::format(" ({} kept from an earlier scan)", kept) : "",
                      range_of(results, "peak_load"), seconds);
 }

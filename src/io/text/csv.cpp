@@ -57,8 +57,8 @@ double parse_number(std::string_view field, const std::string& place) {
 std::vector<double> parse_row(const std::vector<std::string_view>& fields, const CsvTable& table,
                               EmptyCells empty, const std::string& place) {
   if (fields.size() != table.columns.size()) {
-    throw FileError(fmt::format("{}: {} fields, but the header has {}", place, fields.size(),
-                                table.columns.size()));
+    throw FileError(fmt::format("{}: {}, but the header has {}", place,
+                                counted(fields.size(), "field"), table.columns.size()));
   }
   std::vector<double> row;
   row.reserve(fields.size());

@@ -216,14 +216,14 @@ Body read_mesh_body(const CaseFile& input, int dim, std::vector<std::string>& no
   const bool takes_cracks = input.body.method == BodyMethod::bonds && !input.elements &&
                             input.body.model != BodyModel::particles;
   if (const Index sides = takes_cracks ? weld_slits(read.mesh) : 0; sides > 0) {
-    notes.push_back(
-        fmt::format("the mesh has slits of {} cell sides, treated as pre-cracks", sides));
+    notes.push_back(fmt::format("the mesh has slits of {}, treated as pre-cracks",
+                                counted(sides, "cell side")));
   }
   const auto& [mesh, material, mesh_notes] = read;
   const auto left_out = std::count(material.begin(), material.end(), no_index);
   if (left_out > 0) {
-    notes.push_back(fmt::format("{} of the {} cells of the mesh have no material and are left out",
-                                left_out, material.size()));
+    notes.push_back(fmt::format("left out: {} of the {} of the mesh, without material", left_out,
+                                counted(material.size(), "cell")));
   }
   try {
     Body body = make_mesh_body(mesh, material, dim == 2 ? input.body.thickness : 1.0,
