@@ -113,11 +113,7 @@ void DamageRun::go_on_from_checkpoint() {
 void DamageRun::restore(const std::string& saved) {
   DamageState state;
   unpack(saved, records_, state);
-  if (model_.embedded && !records_.whole.empty()) {
-    EmbeddedBody& body = *model_.embedded;
-    body.whole = records_.whole;
-    model_.unknowns = embedded_motion(body.hosts, body.free, body.whole);
-  }
+  if (model_.embedded && !records_.whole.empty()) begin_with_hosts(model_, records_.whole);
   mark_broken();
   run_ = std::make_unique<EventRun>(model_, options_, std::move(state));
 }
@@ -132,9 +128,7 @@ void DamageRun::mark_broken() {
 /// Restarts the run with the elements released so far.
 void DamageRun::begin_again(const std::vector<std::uint8_t>& whole) {
   std::filesystem::remove(directory_ / checkpoint_name);  // before the files that it refers to
-  EmbeddedBody& body = *model_.embedded;
-  body.whole = whole;
-  model_.unknowns = embedded_motion(body.hosts, body.free, body.whole);
+  begin_with_hosts(model_, whole);
   files_->begin_again();
   Records anew;
   anew.missed_releases = records_.missed_releases + 1;
