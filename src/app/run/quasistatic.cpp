@@ -207,7 +207,7 @@ void tell_quasistatic(Summary& summary, const CaseFile& input, const Model& mode
   summary.add("notes", summary.notes);
   summary.add("factorizations", found.factor.factorizations);
   if (found.factor.iterations > 0) summary.add("iterations", found.factor.iterations);
-  summary.add("factor_bytes", found.factor.bytes);
+  summary.add("factor_bytes", std::max(found.factor.bytes, found.factor.most_bytes));
   if (found.factor.ranks > 1) summary.add("ranks", found.factor.ranks);
   summary.line("solver", "{}, largest residual {:.1e}", found.solver, found.largest_residual);
   if (found.has_events) summary.outcome = counted(found.broken_bonds, "broken bond") + ", ";
