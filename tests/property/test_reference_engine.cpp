@@ -103,8 +103,7 @@ TEST_P(ReferenceStages, AreFollowed) {
 std::vector<RandomBody> staged_bodies() {
   std::vector<RandomBody> bodies = random_bodies();
   // Bonds with a compressive branch have no stages.
-  std::erase_if(bodies,
-                [](const RandomBody& body) { return body.laws == RandomLaws::crushing; });
+  std::erase_if(bodies, [](const RandomBody& body) { return body.laws == RandomLaws::crushing; });
   return bodies;
 }
 

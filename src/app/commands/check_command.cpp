@@ -59,8 +59,8 @@ double memory_without_factor(const Network& network, bool events) {
   return boxes + 8.0 * unknowns * static_cast<double>(columns);
 }
 
-/// Prints the least time per event. An event, or a batch of events, reads the factor twice; searches
-/// and sums over bonds come on top.
+/// Prints the least time per event. An event, or a batch of events, reads the factor twice;
+/// searches and sums over bonds come on top.
 void print_time_of_events(const CaseFile& input, const Network& network, double factor_bytes) {
   const bool many = softens(network), batches = many && event_tolerance_of(input) > 0.0;
   const double seconds = 2.0 * factor_bytes / read_bytes_per_second;

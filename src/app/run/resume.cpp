@@ -51,7 +51,7 @@ void require_raised(const StopSection& there, const StopSection& here, const std
   }
 }
 
-/// What the summary of earlier results says; nothing where it is damaged, as it is written anew.
+/// State of earlier results in their summary; empty where it is damaged, as it is written anew.
 struct Earlier {
   bool has_ended = false;
   std::string meshes;  ///< mesh_checksum() of the run

@@ -22,7 +22,7 @@ inline constexpr const char* checkpoint_name = "checkpoint.bin";
 /// \param row         estimated time of a row [s]
 Index rows_between_checkpoints(double checkpoint, double row);
 
-/// Returns the text of a case with a checksum in place of mesh paths, and without the rules that may
+/// Returns the text of a case with a checksum in place of mesh paths. It lacks the rules that may
 /// change before a run is taken up again: its stop rules, or those of the last stage.
 /// \param meshes  mesh_checksum()
 std::string resumable_case(const CaseFile& input, const std::string& meshes);
