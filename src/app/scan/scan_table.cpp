@@ -71,8 +71,8 @@ std::string range_of(std::span<const ScanResult> results, const std::string& qua
 std::string member_name(std::size_t member) { return fmt::format("{:04}", member + 1); }
 
 std::string scanned_values(const std::filesystem::path& directory) {
-  const std::filesystem::path place =
-      std::filesystem::weakly_canonical(directory / "").parent_path();
+  std::filesystem::path place = std::filesystem::weakly_canonical(directory);
+  if (!place.has_filename()) place = place.parent_path();  // "0001/"
   const std::filesystem::path table = place.parent_path() / "scan.csv";
   if (!std::filesystem::exists(table)) return "";
   const std::vector<std::vector<std::string>> rows = read_texts(table.string());

@@ -49,6 +49,7 @@ TEST(ScanTable, NamesTheValuesOfAMember) {
   const test::TemporaryDirectory work;
   write_whole_file((work / "scan.csv").string(),
                    scan_table(parse_scan(three_runs, ""), three_results()));
+  std::filesystem::create_directories(work / "0001");
   EXPECT_EQ(scanned_values(work / "0001"), "spacing = 2");
   EXPECT_EQ(scanned_values(work / "0002/"), "spacing = 1, title = b, c");
   EXPECT_EQ(scanned_values(work / "0009"), "");
