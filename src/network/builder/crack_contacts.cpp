@@ -144,13 +144,13 @@ CutBond cut_bond(const Network& network, Index bond, const Vector3& normal) {
           network.stiffness[bond] * along * along + shear * (1.0 - along * along)};
 }
 
-void add_contacts(const Body& body, const NetworkInput& input, const std::vector<CutBond>& cut,
+void add_contacts(const Body& body, const NetworkInput& input, const ClosingCracks& closing,
                   Network& network) {
-  if (cut.empty()) return;
+  if (closing.bonds.empty()) return;
   const double spacing = body.lattice.spacing;
   const int dim = network.dim();
-  const std::vector<Contact> contacts = contacts_of(network, spacing, cut);
-  const CrackCutter cutter(input.cracks, dim, spacing);
+  const std::vector<Contact> contacts = contacts_of(network, spacing, closing.bonds);
+  const CrackCutter cutter(closing.cracks, dim, spacing);
   const std::vector<ParticleKind>& kind = network.particles.kind;
   const auto num_solid =
       std::ranges::find_if(kind, [](ParticleKind k) { return k != ParticleKind::solid; }) -

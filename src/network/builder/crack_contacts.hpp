@@ -14,6 +14,12 @@ struct CutBond {
   double stiffness;  ///< resistance of the intact bond to motion along the normal [force/length]
 };
 
+/// What pre-cracks that close have cut.
+struct ClosingCracks {
+  std::vector<Crack> cracks;  ///< all pre-cracks, oriented as they cut the bonds
+  std::vector<CutBond> bonds;
+};
+
 /// Returns the cut bonds without the axial and shear stiffness that does not act along the normal.
 /// \param cut  bonds of the network, with the normal of the crack
 CutBond cut_bond(const Network& network, Index bond, const Vector3& normal);
@@ -25,7 +31,7 @@ CutBond cut_bond(const Network& network, Index bond, const Vector3& normal);
 /// stress along the normal. Slip of the faces and rotations of the body meet no resistance
 /// (docs/theory/softening.md, section 8).
 /// Call it after the particles of bars are known.
-void add_contacts(const Body& body, const NetworkInput& input, const std::vector<CutBond>& cut,
+void add_contacts(const Body& body, const NetworkInput& input, const ClosingCracks& closing,
                   Network& network);
 
 }  // namespace perilink

@@ -161,9 +161,9 @@ std::vector<Crack> cracks_on_weaker_sides(const Body& body, const NetworkInput& 
 }
 
 /// Removes the bonds that cross a pre-crack.
-/// \return those between materials whose cracks close
-std::vector<CutBond> cut_bonds(const Body& body, const NetworkInput& input, Network& network) {
-  const std::vector<Crack> cracks = cracks_on_weaker_sides(body, input, network);
+ClosingCracks cut_bonds(const Body& body, const NetworkInput& input, Network& network) {
+  ClosingCracks closing{cracks_on_weaker_sides(body, input, network), {}};
+  const std::vector<Crack>& cracks = closing.cracks;
   CutBonds cut = find_cut_bonds(network.particles, network.bonds, cracks, body.lattice.spacing);
   network.cut_by_crack = std::move(cut.count);
   const CrackCutter cutter(cracks, network.dim(), body.lattice.spacing);
@@ -174,12 +174,12 @@ std::vector<CutBond> cut_bonds(const Body& body, const NetworkInput& input, Netw
                             [&](Index m) { return input.materials[m].softening.closes; }));
   };
   const auto at = [&](Index i) { return point_of(network.particles.positions, network.dim(), i); };
-  std::vector<CutBond> closing;
   for (Index b = 0; b < network.bonds.size(); ++b) {
     if (cut.keep[b] != 0) continue;
     const auto* piece =
         cutter.piece_between(at(network.bonds.first[b]), at(network.bonds.second[b]));
-    if (closes(b, cracks[piece->crack])) closing.push_back(cut_bond(network, b, piece->normal));
+    if (closes(b, cracks[piece->crack]))
+      closing.bonds.push_back(cut_bond(network, b, piece->normal));
   }
   keep_elements(network, cut.keep);
   return closing;
@@ -232,9 +232,9 @@ void set_stretches(const Body& body, const NetworkInput& input, const PairConsta
 }
 
 /// Builds calibrated bonds, from a template box if possible, and removes those that pre-cracks cut.
-/// \param cut  receives the bonds of pre-cracks that close
+/// \param closing  receives the pre-cracks that close
 Network build_bonds(const Body& body, const NetworkInput& input, const PairConstants& constants,
-                    std::vector<CutBond>& cut) {
+                    ClosingCracks& closing) {
   const auto make = [&](const Body& whole_or_part, const NetworkInput& its_input) {
     return make_calibrated_bonds(whole_or_part, its_input, constants);
   };
@@ -243,20 +243,20 @@ Network build_bonds(const Body& body, const NetworkInput& input, const PairConst
   Network network = repeated ? std::move(*repeated) : make(body, input);
   if (!input.cracks.empty()) {
     // After the calibration: crack faces must not balance uniform stresses as surfaces do.
-    cut = cut_bonds(body, input, network);
+    closing = cut_bonds(body, input, network);
   }
   return network;
 }
 
 /// Builds the bonds of the body, or of a part with cells in the rest.
-/// \param cut  receives the bonds of pre-cracks that close
+/// \param closing  receives the pre-cracks that close
 Network build_bonds_and_cells(const Body& body, const NetworkInput& input,
-                              const PairConstants& constants, std::vector<CutBond>& cut) {
-  if (body.tied.empty()) return build_bonds(body, input, constants, cut);
+                              const PairConstants& constants, ClosingCracks& closing) {
+  if (body.tied.empty()) return build_bonds(body, input, constants, closing);
   const BondedPart part = bonded_part(body, input.thickness);
-  Network network = build_bonds(part.body, input, constants, cut);
+  Network network = build_bonds(part.body, input, constants, closing);
   join_cells(body, part, input, network);
-  for (CutBond& bond : cut) {
+  for (CutBond& bond : closing.bonds) {
     bond.first = part.whole_of[bond.first];
     bond.second = part.whole_of[bond.second];
   }
@@ -280,7 +280,7 @@ EvenBonds even_bonds(const Body& body, const NetworkInput& input, const Network&
   even.cracks.clear();
   even.on_search = {};
   const PairConstants constants(body, even);
-  std::vector<CutBond> none;
+  ClosingCracks none;
   const Network whole = build_bonds_and_cells(body, even, constants, none);
   EvenBonds bonds{std::vector<double>(static_cast<std::size_t>(network.num_bonds()), 0.0)};
   if (!whole.bending.empty()) bonds.bending = bonds.stiffness;
@@ -305,11 +305,11 @@ Network build_network(const Body& body, const NetworkInput& input) {
   check_input(body, input);
   if (!body.spans.empty()) return make_beam(body, input);
   const PairConstants constants(body, input);
-  std::vector<CutBond> cut;
-  Network network = build_bonds_and_cells(body, input, constants, cut);
+  ClosingCracks closing;
+  Network network = build_bonds_and_cells(body, input, constants, closing);
   RebarMesh mesh = add_rebar(network.particles, input.bars, body.lattice.spacing, input.horizon,
                              body.lattice.cell_volume);
-  add_contacts(body, input, cut, network);
+  add_contacts(body, input, closing, network);
   add_bars(
       body, input, std::move(mesh), [&](Index material) { return constants.tie(material); },
       network);
