@@ -328,29 +328,12 @@ void InPlaceFactor::change_path(const SparseVector& permuted, double sign) {
 
 void InPlaceFactor::update(const SparseVector& x) { change_path(permute(x, position_), 1.0); }
 
-/// Returns bytes of L that the last event read. These are the supernodes of the backward pass; the
-/// path counts twice, because the forward elimination reads it too.
-double InPlaceFactor::bytes_read_by_event() const {
-  double numbers = 0.0;
-  for (Index s = 0; s < static_cast<Index>(tree_.parent.size()); ++s) {
-    const Supernode<double> b = block(s);
-    const double trapezoid = b.columns * (b.count - 0.5 * (b.columns - 1.0));
-    if (on_path_[s]) {
-      numbers += 2.0 * trapezoid;
-    } else if (is_wanted(s)) {
-      numbers += trapezoid;
-    }
-  }
-  return 8.0 * numbers;
-}
-
 FactorStatistics InPlaceFactor::statistics() const {
   FactorStatistics result;
   result.size = size_;
   if (factor_) {
     result.entries = static_cast<double>(factor_->xsize);
     result.bytes = 8.0 * result.entries + 4.0 * static_cast<double>(factor_->ssize);
-    result.event_bytes = bytes_read_by_event();
   }
   result.flops = flops_;
   result.factorizations = factorizations_;

@@ -45,7 +45,6 @@ class InPlaceFactor final : public Factor {
   Index num_supernodes() const { return static_cast<Index>(factor_->nsuper); }
 
   double* diagonal(Index supernode, Index column) const;
-  double bytes_read_by_event() const;
   void adopt_pattern();
   void turn_into_ldl();
   void forward_on(Index supernode, Index start, double* vector, double* local) const;

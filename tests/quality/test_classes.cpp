@@ -16,8 +16,7 @@ constexpr int most_members = 25, most_functions = 30, most_booleans = 3;
 /// Classes above a limit, with what they may have until they are divided. Numbers only fall.
 const std::map<std::string, ClassExtent>& exceptions() {
   static const std::map<std::string, ClassExtent> table = {
-      {"Decision", {25, 30, 4}},
-      {"Equilibrium", {54, 122, 10}},
+      {"Decision", {25, 30, 4}},  // members, functions, booleans
       {"EventRun", {28, 36, 3}},
       {"SingleEventEngine", {25, 32, 3}},
       {"SubdomainFactor", {25, 35, 3}},
@@ -29,7 +28,7 @@ const std::map<std::string, ClassExtent>& exceptions() {
       {"CaseTable", {25, 31, 3}},
       {"Network", {29, 30, 3}},
       {"NetworkInput", {25, 30, 5}},
-      {"InPlaceFactor", {25, 34, 3}},
+      {"InPlaceFactor", {25, 33, 3}},
   };
   return table;
 }

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "analysis/quasistatic/equilibrium/event_outcome.hpp"
+#include "analysis/quasistatic/equilibrium/body/event_outcome.hpp"
 #include "network/loaded_network.hpp"
 
 /// \file

@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "analysis/quasistatic/equilibrium/equilibrium.hpp"
-#include "analysis/quasistatic/equilibrium/mechanism.hpp"
+#include "analysis/quasistatic/equilibrium/update/mechanism.hpp"
 #include "assembly/internal_force.hpp"
 #include "assembly/stiffness.hpp"
 #include "base/error.hpp"

@@ -3,386 +3,248 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 
-#include "analysis/quasistatic/equilibrium/mechanism.hpp"
-#include "assembly/linear_elements.hpp"
-#include "assembly/stiffness.hpp"
-#include "base/error.hpp"
 #include "base/rare_branch.hpp"
+#include "solver/conjugate_gradients.hpp"
 
 namespace perilink {
 namespace {
 
-/// Residual of a fresh factor above which all further figures would be meaningless [-].
+/// Residual of a new K^-1 above which all further figures would be meaningless [-].
 constexpr double hopeless_residual = 1e-3;
 
-/// Residuals up to this many tolerances are removed by a plain step of refinement if a fresh factor
+/// Residuals up to this many tolerances are removed by a plain step of refinement if a new K^-1
 /// leaves as much. Double precision has enough digits for it.
 constexpr double most_to_refine = 10.0;
 
-/// Work over the sum of its absolute terms below which seven of sixteen digits are lost [-].
-constexpr double cancelled_work = 1e-7;
-
-/// Number of events at which the work of prescribed displacements is updated by the growth of the
-/// compliance. It is then summed over the elements again.
-constexpr int most_events_to_follow = 16;
-
-/// Returns the stiffness of elements and ground springs.
-SparseMatrix stiffness_of(const Network& network, Secants secants, const Unknowns& unknowns,
-                          std::span<const double> ground_springs) {
-  SparseMatrix stiffness = assemble_stiffness(network, secants, unknowns);
-  for (std::size_t k = 0; k < ground_springs.size(); ++k) {
-    const Index unknown = static_cast<Index>(k);
-    stiffness.coeffRef(unknown, unknown) += ground_springs[k];
-  }
-  return stiffness;
+std::vector<double> ground_load_of(const LoadedNetwork& problem, const ElementState* saved) {
+  if (saved == nullptr) return {};
+  return problem.sets.empty() ? saved->ground_load : saved->constant_ground_load;
 }
 
 }  // namespace
 
 Equilibrium::Equilibrium(const LoadedNetwork& problem, const EquilibriumOptions& options,
-                         const Unknowns& unknowns, const ElementState* saved)
-    : network_(problem.network),
-      unknowns_(&unknowns),
-      loads_(&problem.loads),
-      options_(options),
-      secants_(static_cast<std::size_t>(network_.num_elements()), 1.0),
-      has_kept_(network_.has_kept_shear()) {
-  if (is_followed_by_subdomains(problem, options)) {
-    if (problem.embedded)
-      throw std::invalid_argument(
-          "conjugate gradients with subdomains do not support embedded particles");
-    auto subdomains = std::make_unique<SubdomainFactor>(network_, options.subdomains);
-    subdomains_ = subdomains.get();
-    factor_ = std::move(subdomains);
-  } else {
-    factor_ = make_factor(options.route, options.threads);
-  }
-  for (const double stiffness : network_.stiffness) stiffness_sum_ += stiffness;
-  for (const double stiffness : network_.support_stiffness) stiffness_sum_ += stiffness;
-  if (network_.has_closing() || has_kept_) axial_ = secants_;
-  damaged_ = network_.contacts();
-  for (const Index element : damaged_) secants_[element] = 0.0;  // closed at first
-  if (saved != nullptr) {
-    secants_ = saved->secants;
-    axial_ = saved->axial;
-    damaged_ = saved->damaged;
-    ground_stiffness_ = saved->ground_stiffness;
-    ground_load_ = problem.sets.empty() ? saved->ground_load : saved->constant_ground_load;
-  }
-  find_driven_elements();
-  adopt_motion(saved != nullptr);
-  if (!ground_stiffness_.empty()) keep_all_current();
-  // Stages open cracks as their loads begin to grow.
-  if (saved == nullptr && problem.sets.empty()) open_cut_elements();
+                         const Unknowns* unknowns, const ElementState* saved)
+    : tolerance_(options.residual_tolerance),
+      body_(problem, unknowns != nullptr ? *unknowns : problem.unknowns, saved),
+      update_(make_update(body_, problem, options)),
+      solution_(body_, *update_, problem.loads, ground_load_of(problem, saved)),
+      work_(solution_),
+      separation_(body_, solution_, work_),
+      sides_(body_, solution_, separation_, work_) {
+  adopt_motion(body_.unknowns(), saved != nullptr);
+  if (!body_.ground_stiffness().empty()) solution_.keep_all_current();
+  // Stages open initial cracks as their loads begin to grow.
+  if (saved != nullptr || !problem.sets.empty() || body_.unilateral().empty()) return;
+  EventOutcome outcome;
+  sides_.settle(outcome);
+  if (outcome.mechanism) throw CracksSeparate();
 }
 
 ElementState Equilibrium::state() const {
-  return {secants_,     axial_,
-          damaged_,     ground_stiffness_,
-          ground_load_, constant_ ? constant_->ground_load : std::vector<double>()};
+  ElementState state = body_.state();
+  state.ground_load = solution_.growing().field().ground_load;
+  const PermanentLoad* const permanent = solution_.permanent();
+  if (permanent != nullptr) state.constant_ground_load = permanent->field().ground_load;
+  return state;
 }
 
-double Equilibrium::norm(std::span<const double> values) {
-  double square = 0.0;
-  for (const double value : values) square += value * value;
-  return std::sqrt(square);
-}
-
-void Equilibrium::find_driven_elements() {
-  driven_spring_work_ = 0.0;
-  driven_elements_.clear();
-  const std::vector<double>& prescribed = unknowns_->prescribed;
-  for (std::size_t slot = 0; slot < network_.support_stiffness.size(); ++slot) {
-    driven_spring_work_ += network_.support_stiffness[slot] * prescribed[slot] * prescribed[slot];
-  }
-  const int width = network_.width();
-  auto driven = [&](Index particle) {
-    const auto begin = prescribed.begin() + static_cast<std::ptrdiff_t>(particle) * width;
-    return std::any_of(begin, begin + width, [](double value) { return value != 0.0; });
-  };
-  for (Index e = 0; e < network_.num_elements(); ++e) {
-    if (driven(network_.bonds.first[e]) || driven(network_.bonds.second[e])) {
-      driven_elements_.push_back(e);
-    }
-  }
-}
-
-/// Finds the slots with forces. A force at a prescribed displacement is a part of the reaction
-/// there, whose work counts.
-void Equilibrium::find_loaded_slots() {
-  loaded_slots_.clear();
-  for (std::size_t slot = 0; slot < unknowns_->number.size(); ++slot) {
-    if (unknowns_->number[slot] == no_index) continue;
-    if (loads_->forces[slot] != 0.0) loaded_slots_.push_back(slot);
-  }
-}
-
-/// Makes a new factor for the present unknowns.
-/// \param resists  the body is known to resist its loads, and is not examined for mechanisms
-void Equilibrium::factorize_anew(bool resists) {
-  lags_ = false;
-  missed_savings_ = 0.0;
-  slot_of_ = unknowns_->slots();
-  solution_.assign(static_cast<std::size_t>(unknowns_->count), 0.0);
-  if (subdomains_ != nullptr) return subdomains_->begin(*unknowns_, secants(), ground_stiffness_);
-  const SparseMatrix stiffness = stiffness_of(network_, secants(), *unknowns_, ground_stiffness_);
-  if (resists) return factor_->factorize(stiffness, unknowns_->owners());
-  const auto forces_of = [&](std::span<const double> u) {
-    return internal_force(network_, secants(), u);
-  };
-  factorize_stiffness(*factor_, stiffness, *unknowns_, &network_.particles, forces_of);
-}
-
-/// Finds the equilibrium under the present unknowns with a new factor.
-void Equilibrium::adopt_motion(bool resists) {
-  displacement_ = unknowns_->prescribed;
-  find_loaded_slots();
-  factorize_anew(resists);
-  choose_current_unknowns();
-  adopt_load();
-}
-
-/// Finds the displacements under the present load.
-void Equilibrium::adopt_load() {
-  load_norm_ = norm(present_load());
-  // Displacements prescribed on free parts cause no load.
-  if (load_norm_ == 0.0) load_norm_ = 1.0;
-  residual_floor_ = factor_floor_ = 0.0;
-  refresh();
-  std::vector<double> residual;
-  fresh_residual_ = measure_residual(residual);
-  refine(residual);
+/// Finds the equilibrium under these unknowns with a new K^-1.
+/// \param resists  see Update::begin()
+void Equilibrium::adopt_motion(const Unknowns& unknowns, bool resists) {
+  body_.set_unknowns(unknowns);
+  if (solution_.permanent() != nullptr) solution_.permanent()->set_unknowns(unknowns);
+  solution_.begin(resists, work_.is_driven());
+  reachable_ = {solution_.find()};
 }
 
 Freedom Equilibrium::change_motion(const Unknowns& unknowns) {
-  if (!ground_stiffness_.empty()) {
+  if (!body_.ground_stiffness().empty()) {
     throw SolverError("the unknowns cannot change while ground springs hold a loose part");
   }
-  if (unknowns.prescribed != unknowns_->prescribed) {
+  if (unknowns.prescribed != body_.unknowns().prescribed) {
     throw std::invalid_argument("new unknowns must keep the prescribed motions");
   }
-  bring_factor_up();
-  if (stale_) refresh();
-  events_to_follow_ = 0;
+  solution_.bring_inverse_up();
+  solution_.make_current();
+  work_.sum_anew();
   const LoadWork before = work();
-  const ConstantWork beside = constant_ ? constant_work() : ConstantWork();
-  const Unknowns* const old = unknowns_;
+  const Unknowns& old = body_.unknowns();
   try {
-    use_motion(unknowns);
+    adopt_motion(unknowns, false);
     EventOutcome sides;
-    if (!axial_.empty()) settle_closing(sides);
+    if (body_.has_sides()) sides_.settle(sides);
     if (sides.mechanism) {
       throw SolverError("only closed bonds would hold the released particles");
     }
-    events_to_follow_ = 0;
+    work_.sum_anew();
     const LoadWork after = work();
     if (before.separated || after.separated) {
       throw SolverError(
           "the unknowns cannot change while the body does not resist the prescribed displacements");
     }
-    Freedom freedom{after.compliance() - before.compliance()};
-    if (constant_) freedom.beside = permanent_growth(beside, constant_work());
-    return freedom;
+    return {after.compliance() - before.compliance(),
+            permanent_growth(before.constant, after.constant)};
   } catch (const std::exception&) {
-    use_motion(*old);
+    adopt_motion(old, false);
     throw;
   }
 }
 
-void Equilibrium::use_motion(const Unknowns& unknowns) {
-  unknowns_ = &unknowns;
-  if (constant_) {
-    std::vector<double> stays = std::move(constant_->unknowns.prescribed);
-    constant_->unknowns = unknowns;
-    constant_->unknowns.prescribed = std::move(stays);
+void Equilibrium::begin_stage(const Unknowns& unknowns, const Loads& loads,
+                              ConstantLoads permanent) {
+  solution_.bring_inverse_up();
+  solution_.keep_all_current();
+  const bool fewer_move = static_cast<std::size_t>(unknowns.count) != body_.num_unknowns();
+  if (fewer_move && !body_.ground_stiffness().empty()) {
+    throw SolverError("particles cannot be clamped while ground springs hold a loose part");
   }
-  adopt_motion();
-}
-
-std::vector<double> Equilibrium::present_load() const {
-  std::vector<double> load = assemble_right_hand_side(network_, secants(), *unknowns_, *loads_);
-  for (std::size_t k = 0; k < ground_load_.size(); ++k) load[k] += ground_load_[k];
-  return load;
-}
-
-/// Solves for all displacements with the present factor.
-void Equilibrium::refresh() {
-  factor_->solve(present_load(), solution_);
-  scatter_solution();
-  stale_ = false;
-  force_work_ = work_of_forces();
-  if (constant_) refresh_constant();
-}
-
-/// Makes one step of iterative refinement; the current `residual` becomes the correction.
-void Equilibrium::refine(std::vector<double>& residual) {
-  if (subdomains_ != nullptr) {
-    subdomains_->correct(residual, 2.0 * internal_.energy);
-  } else {
-    factor_->solve(residual, residual);
+  body_.set_unknowns(unknowns);
+  solution_.begin_stage(loads, std::move(permanent));
+  work_.begin_stage();
+  if (fewer_move) {
+    solution_.begin(false, true);
+  } else if (restored_) {
+    solution_.renew();
   }
-  for (std::size_t k = 0; k < residual.size(); ++k) solution_[k] += residual[k];
-  scatter_solution();
-  force_work_ = work_of_forces();
+  restored_ = false;
+  reachable_ = {solution_.find()};
 }
 
-void Equilibrium::scatter_solution() {
-  if (unknowns_->carries()) {
-    unknowns_->expand(solution_, moving_slots_, displacement_);
-    return;
-  }
-  for (std::size_t k = 0; k < slot_of_.size(); ++k) displacement_[slot_of_[k]] = solution_[k];
-  find_largest_motion();
+void Equilibrium::go_on(const ElementState& saved) {
+  if (saved.ground_load.empty()) return;
+  solution_.growing().set_ground_load(saved.ground_load);
+  solution_.refresh();
 }
 
-/// Returns the work of forces and reactions. The latter is summed over elements at prescribed
-/// displacements, or follows from the growth of the compliance.
+void Equilibrium::restore(std::span<const Index> elements) {
+  for (const Index element : elements) body_.set_secant(element, 1.0);
+  restored_ = restored_ || !elements.empty();
+}
+
 LoadWork Equilibrium::work() {
-  if (partial_) return {force_work_, 0.0};
-  const double forces = work_of_forces();
-  if (driven_elements_.empty()) return {forces, 0.0};
-  LoadWork work{forces, forces - followed_compliance_};
-  const double whole = work.forces + work.supports;
-  const bool halved = whole < 0.5 * followed_from_;
-  if (events_to_follow_ <= 0 || halved || take_rare_branch("summed work")) {
-    work = sum_work();
-    if ((work.forces + work.supports) * next_to_infinite < last_work_) work.separated = true;
-    followed_from_ = work.forces + work.supports;
-    followed_compliance_ = work.compliance();
-    events_to_follow_ = work.separated ? 0 : most_events_to_follow;
-  }
-  if (!work.separated) last_work_ = work.forces + work.supports;
+  LoadWork work = work_of_growing();
+  work.constant = solution_.constant_work();
   return work;
 }
 
-LoadWork Equilibrium::sum_work() {
-  LoadWork work{work_of_forces(), driven_spring_work_};
-  double sizes = driven_spring_work_;
-  for (const Index e : driven_elements_) {
-    if (secants().axial(e) == 0.0) continue;
-    const auto [share, size] = driven_work_of(e);
-    work.supports += share;
-    sizes += size;
-  }
-  if (network_.cells) {
-    const auto [share, size] =
-        work_between(*network_.cells, network_.width(), displacement_, unknowns_->prescribed);
-    work.supports += share;
-    sizes += size;
-  }
-  return work.forces + work.supports > cancelled_work * sizes ? work : work_by_energy();
+/// Returns the work of forces and reactions of the growing loads.
+LoadWork Equilibrium::work_of_growing() {
+  const double forces = solution_.growing().work();
+  if (!solution_.growing().is_whole() || !work_.is_driven()) return {forces, 0.0};
+  if (const auto followed = work_.followed(forces)) return *followed;
+  const auto sum = work_.sum();
+  return work_.follow(sum ? *sum : separation_.work_by_energy());
 }
 
-/// Returns the work at load factor 1 of an element's forces on prescribed displacements, and the
-/// sum of its absolute terms.
-std::pair<double, double> Equilibrium::driven_work_of(Index element) const {
-  double work = 0.0, sizes = 0.0;
-  const auto add = [&](const Removal& modes) {
-    const Deformations deformation = deformations(modes, element);
-    for (int m = 0; m < modes.rank; ++m) {
-      work += deformation[m] * modes.prescribed[m];
-      double size = std::abs(modes.prescribed[m]);
-      const SparseVector& x = modes.x[m];
-      for (int k = 0; k < x.size(); ++k) size += std::abs(x.values[k] * solution_[x.rows[k]]);
-      sizes += size * std::abs(modes.prescribed[m]);
-    }
-  };
-  add(removal_from(*unknowns_, element, 0.0));
-  if (!axial_.empty() && is_closed(element)) {
-    add(make_axial_removal(network_, *unknowns_, element, 1.0 - secants_[element]));
-  }
-  return {work, sizes};
+EventOutcome Equilibrium::pass_side_change(double direction) {
+  EventOutcome outcome;
+  outcome.secant = 1.0;
+  sides_.settle(outcome, direction);
+  return outcome;
 }
 
-double Equilibrium::measure_residual(std::vector<double>& residual) {
-  internal_force(network_, secants(), where_elements_fail(), internal_);
-  for (std::size_t slot = 0; slot < internal_.forces.size(); ++slot) {
-    internal_.forces[slot] = loads_->forces[slot] - internal_.forces[slot];
-  }
-  residual = unknowns_->restrict(internal_.forces);
-  double square = 0.0;
-  for (std::size_t k = 0; k < residual.size(); ++k) {
-    if (!ground_stiffness_.empty()) {
-      residual[k] += ground_load_[k] - ground_stiffness_[k] * solution_[k];
-    }
-    square += residual[k] * residual[k];
-  }
-  return std::sqrt(square) / load_norm_;
+void Equilibrium::prepare(Index element, std::span<const Index> expected) {
+  Residual residual = solution_.growing().residual();
+  const std::vector<double> missing = residual.forces;
+  const double energy = 2.0 * residual.energy;
+  if (!update_->prepare(element, expected, residual.forces, energy)) return;
+  solution_.growing().correct(residual.forces);
+  update_->judge(scalar_product(missing, residual.forces), energy);
 }
 
 Balance Equilibrium::check_cheaply() {
-  if (!stale_ || checked_elements_.empty() || take_rare_branch("full check")) return check();
-  const double residual = residual_of_current();
-  if (residual <= std::max(options_.residual_tolerance, residual_floor_)) {
+  const bool has_part = !solution_.growing().is_current() && solution_.growing().has_checked_part();
+  if (!has_part || take_rare_branch("full check")) return check();
+  const double residual = solution_.growing().residual_of_part();
+  if (residual <= std::max(tolerance_, reachable_.refined)) {
     return {residual, std::numeric_limits<double>::quiet_NaN()};
   }
   return check();
 }
 
 Balance Equilibrium::check() {
-  if (stale_) refresh();
-  std::vector<double> residual;
-  double size = measure_residual(residual);
-  if (subdomains_ != nullptr) size = refine_followed(size, residual);
-  // Written so that a residual that is not a number exceeds every tolerance.
-  if (size <= options_.residual_tolerance) residual_floor_ = 0.0;
-  if (size <= std::max(options_.residual_tolerance, residual_floor_) &&
-      !take_rare_branch("refinement")) {
-    return {size, internal_.energy};
-  }
-  events_to_follow_ = 0;
-  if (lags_) {
-    factorize();
-    size = measure_residual(residual);
-  }
-  if (size <= std::min(2.0 * fresh_residual_, most_to_refine * options_.residual_tolerance)) {
-    // The factor is as accurate as a fresh one, whose solutions need a step of refinement here.
-    refine(residual);
-    const double refined = measure_residual(residual);
-    if (refined <= options_.residual_tolerance) return {refined, internal_.energy};
-  }
-  return restore();
-}
-
-/// Refines the displacements, with a fresh factor if the present one is not accurate enough.
-Balance Equilibrium::restore() {
-  const double tolerance = std::max(options_.residual_tolerance, residual_floor_);
-  Balance balance = refine_in_extended_precision();
-  // Refined displacements do not help the next event, which depends on the factor.
-  const double usable = std::max(options_.residual_tolerance, factor_floor_);
-  if (!(balance.residual <= tolerance) || !(factor_error_ <= usable)) {
-    factorize();
-    std::vector<double> residual;
-    fresh_residual_ = measure_residual(residual);
-    balance = refine_in_extended_precision();
-    // A nearly separated body moves so far that even a fresh factor leaves more than the tolerance.
-    // Factorising again for less than twice that would be useless.
-    residual_floor_ = 2.0 * balance.residual;
-    factor_floor_ = 2.0 * factor_error_;
-    if (!(balance.residual <= hopeless_residual)) {
-      throw SolverError(fmt::format(
-          "a fresh factor leaves {:.1e} of the load out of balance: the body is on the verge of "
-          "separation and its stiffness matrix is singular to working precision",
-          balance.residual));
-    }
-  }
-  if (balance.residual <= options_.residual_tolerance) residual_floor_ = 0.0;
+  Balance balance = check_growing();
+  if (solution_.permanent() != nullptr) check_permanent(balance);
   return balance;
 }
 
-void Equilibrium::factorize() {
-  if (subdomains_ != nullptr) {
-    factorize_anew();
-    return refresh();
+Balance Equilibrium::check_growing() {
+  solution_.make_current();
+  GrowingLoad& growing = solution_.growing();
+  Residual residual = growing.residual();
+  // Written so that a residual that is not a number exceeds every tolerance.
+  if (const auto drift = update_->drift(); drift && !(residual.size <= drift->removed)) {
+    const std::vector<double> missing = residual.forces;
+    growing.refine(residual);  // the forces become the correction
+    update_->judge(scalar_product(missing, residual.forces), 2.0 * residual.energy);
+    if (!(residual.size <= std::max(tolerance_, drift->doubtful))) separation_.doubt_pivots();
+    residual = growing.residual();
   }
-  factor_->refactorize(stiffness_of(network_, secants(), *unknowns_, ground_stiffness_));
-  lags_ = false;
-  missed_savings_ = 0.0;
-  refresh();
+  if (residual.size <= tolerance_) reachable_.refined = 0.0;
+  if (residual.size <= std::max(tolerance_, reachable_.refined) &&
+      !take_rare_branch("refinement")) {
+    return {residual.size, residual.energy};
+  }
+  work_.sum_anew();
+  if (update_->lags()) {
+    solution_.renew();
+    residual = growing.residual();
+  }
+  if (residual.size <= std::min(2.0 * reachable_.unrefined, most_to_refine * tolerance_)) {
+    // K^-1 is as accurate as a new one, whose solutions need a step of refinement here.
+    growing.refine(residual);
+    residual = growing.residual();
+    if (residual.size <= tolerance_) return {residual.size, residual.energy};
+  }
+  return refine();
+}
+
+/// Refines the displacements, with a new K^-1 if the present one is not accurate enough.
+Balance Equilibrium::refine() {
+  const double tolerance = std::max(tolerance_, reachable_.refined);
+  SeparationCheck::Refinement refined = separation_.refine();
+  // Refined displacements do not help the next event, which depends on K^-1.
+  const double usable = std::max(tolerance_, reachable_.inverse);
+  if (!(refined.balance.residual <= tolerance) || !(refined.inverse_error <= usable)) {
+    solution_.renew();
+    reachable_.unrefined = solution_.growing().residual().size;
+    refined = separation_.refine();
+    // A nearly separated body moves so far that even a new K^-1 leaves more than the tolerance.
+    // Making it again for less than twice that would be useless.
+    reachable_.refined = 2.0 * refined.balance.residual;
+    reachable_.inverse = 2.0 * refined.inverse_error;
+    if (!(refined.balance.residual <= hopeless_residual)) {
+      throw SolverError(fmt::format(
+          "a fresh factor leaves {:.1e} of the load out of balance: the body is on the verge of "
+          "separation and its stiffness matrix is singular to working precision",
+          refined.balance.residual));
+    }
+  }
+  if (refined.balance.residual <= tolerance_) reachable_.refined = 0.0;
+  return refined.balance;
+}
+
+/// Adds the contribution of permanent loads; refines their displacements if necessary.
+void Equilibrium::check_permanent(Balance& balance) {
+  const PermanentLoad& permanent = *solution_.permanent();
+  if (permanent.rests()) return;
+  InternalForce internal;
+  Residual residual = permanent.residual(internal);
+  const auto drift = update_->drift();
+  if (!(residual.size <= (drift ? drift->removed : tolerance_))) {
+    separation_.refine_permanent();
+    residual = permanent.residual(internal);
+  }
+  balance.residual = std::max(balance.residual, residual.size);
+  balance.stored_by_permanent.constant = residual.energy;
+  const std::vector<double>& displacement = solution_.growing().field().displacement;
+  for (std::size_t slot = 0; slot < displacement.size(); ++slot) {
+    balance.stored_by_permanent.linear += internal.forces[slot] * displacement[slot];
+  }
 }
 
 }  // namespace perilink

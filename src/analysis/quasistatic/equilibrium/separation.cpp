@@ -1,17 +1,23 @@
-// Detects whether a break separates the body. Finds equilibrium if motions are so large that double
-// precision leaves few digits of the strains (docs/theory/events_and_energy.md, section 5).
+#include "analysis/quasistatic/equilibrium/separation.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
-#include "analysis/quasistatic/equilibrium/equilibrium.hpp"
 #include "base/error.hpp"
+#include "base/rare_branch.hpp"
+#include "solver/conjugate_gradients.hpp"
 #include "solver/not_positive_definite.hpp"
 
 namespace perilink {
 namespace {
+
+/// Relative differences between pivots from K^-1 and from energies. Above the first a new K^-1 is
+/// worth its cost. Above the second it must be made without the element.
+constexpr double same_pivot = 1e-8, usable_pivot = 1e-6;
+
+/// Error of the pivots of K^-1 above which every event is examined: its energy has the same error.
+constexpr double noisy_pivot = 1e-8;
 
 constexpr double machine_precision = std::numeric_limits<double>::epsilon();
 
@@ -39,23 +45,38 @@ constexpr const char* out_of_digits =
 
 }  // namespace
 
+SeparationCheck::SeparationCheck(DamagedBody& body, Solution& solution, const ReactionWork& work)
+    : body_(body), solution_(solution), work_(work) {
+  for (const double stiffness : body.network().stiffness) stiffness_sum_ += stiffness;
+  for (const double stiffness : body.network().support_stiffness) stiffness_sum_ += stiffness;
+}
+
+/// Returns x'u.
+long double SeparationCheck::FineMotion::along(const SparseVector& x) const {
+  long double sum = 0.0;
+  for (int k = 0; k < x.size(); ++k) sum += x.values[k] * unknowns[x.rows[k]];
+  return sum;
+}
+
 /// Refines `motion` towards K motion = load, and leaves its forces and energy in `fine_`. K times
 /// the motion is summed over the elements in extended precision.
 /// \param load  per unknown
-Equilibrium::Refined Equilibrium::refine_finely(std::span<const double> load, FineMotion& motion) {
-  std::vector<double> residual(solution_.size());
+auto SeparationCheck::refine_finely(std::span<const double> load, FineMotion& motion) -> Refined {
+  const Unknowns& unknowns = body_.unknowns();
+  const std::vector<double>& ground_stiffness = body_.ground_stiffness();
+  std::vector<double> residual(load.size());
   Refined result;
   auto measure = [&] {
-    internal_force(network_, secants(), motion.particles, fine_);
+    internal_force(body_.network(), body_.secants(), motion.particles, fine_);
     long double square = 0.0, ground = 0.0;
     std::vector<long double> internal(residual.size(), 0.0L);
     for (std::size_t slot = 0; slot < fine_.forces.size(); ++slot) {
-      unknowns_->for_each(
+      unknowns.for_each(
           slot, [&](Index k, double weight) { internal[k] += weight * fine_.forces[slot]; });
     }
     for (std::size_t k = 0; k < residual.size(); ++k) {
       const long double u = motion.unknowns[k];
-      const double stiffness = ground_stiffness_.empty() ? 0.0 : ground_stiffness_[k];
+      const double stiffness = ground_stiffness.empty() ? 0.0 : ground_stiffness[k];
       const long double missing = load[k] - internal[k] - stiffness * u;
       residual[k] = static_cast<double>(missing);
       square += missing * missing;
@@ -64,19 +85,18 @@ Equilibrium::Refined Equilibrium::refine_finely(std::span<const double> load, Fi
     result.residual = static_cast<double>(std::sqrt(square));
     result.energy = static_cast<double>(2.0L * fine_.energy + ground);
   };
-  std::vector<double> correction(solution_.size());
+  std::vector<double> correction(load.size());
   measure();
   for (int pass = 0; pass < most_passes; ++pass) {
-    factor_->solve(residual, correction);
-    const double energy =
-        std::inner_product(correction.begin(), correction.end(), residual.begin(), 0.0);
+    solution_.update().inverse().solve(residual, correction);
+    const double energy = scalar_product(correction, residual);
     const bool gains = pass == 0 || energy < 0.1 * result.error;
-    if (pass == 1) result.factor_error = std::sqrt(std::max(energy, 0.0) / result.error);
+    if (pass == 1) result.inverse_error = std::sqrt(std::max(energy, 0.0) / result.error);
     result.error = energy >= 0.0 ? energy : std::numeric_limits<double>::infinity();
     if (!gains || !std::isfinite(result.error)) break;
     for (std::size_t k = 0; k < correction.size(); ++k) motion.unknowns[k] += correction[k];
     for (std::size_t slot = 0; slot < motion.particles.size(); ++slot) {
-      unknowns_->for_each(slot, [&](Index k, double weight) {
+      unknowns.for_each(slot, [&](Index k, double weight) {
         motion.particles[slot] += static_cast<long double>(weight) * correction[k];
       });
     }
@@ -93,112 +113,175 @@ Equilibrium::Refined Equilibrium::refine_finely(std::span<const double> load, Fi
 }
 
 /// Returns v with K v = x, and the uncertainty of its energy v'K v = x'v <= 1.
-auto Equilibrium::motion_of(const SparseVector& x) -> std::pair<FineMotion, double> {
-  std::vector<double> load(solution_.size(), 0.0);
+auto SeparationCheck::motion_of(const SparseVector& x) -> std::pair<FineMotion, double> {
+  std::vector<double> load(body_.num_unknowns(), 0.0);
   for (int k = 0; k < x.size(); ++k) load[x.rows[k]] = x.values[k];
-  FineMotion motion{std::vector<long double>(solution_.size(), 0.0L),
-                    std::vector<long double>(displacement_.size(), 0.0L)};
+  FineMotion motion(load.size(), body_.unknowns().number.size());
   double error = refine_finely(load, motion).error;
   if (!(error < most_error)) {
-    factorize();
+    solution_.renew();
     error = refine_finely(load, motion).error;
     if (!(error < most_error)) throw SolverError(out_of_digits);
   }
   return {std::move(motion), error};
 }
 
-/// Returns the resistance to a motion of an element's ends without the element. It is the pivot
+/// The pivot is
 ///
 ///   min over v of  E(v) / (E(v) + (x'v)^2),
 ///
 /// where E is twice the energy of all other elements. The minimum is at K v = x. An inexact v makes
 /// the pivot too large, at most by the energy of its error.
-/// \param kept  secant that stays
-/// \return 0 if the pivot cannot be distinguished from zero
-double Equilibrium::pivot_by_energy(const SparseVector& x, Index element, double kept) {
+std::pair<double, bool> SeparationCheck::resistance(const SparseVector& x, Index element,
+                                                    double kept) {
   const auto [motion, error] = motion_of(x);
-  const double before = secant_of(element);
-  set_secant(element, kept);
-  internal_force(network_, secants(), motion.particles, fine_);
-  set_secant(element, before);
+  const double before = body_.secant_of(element);
+  body_.set_secant(element, kept);
+  internal_force(body_.network(), body_.secants(), motion.particles, fine_);
+  body_.set_secant(element, before);
   double energy = static_cast<double>(2.0L * fine_.energy);
-  for (std::size_t k = 0; k < ground_stiffness_.size(); ++k) {
+  for (std::size_t k = 0; k < body_.ground_stiffness().size(); ++k) {
     const long double u = motion.unknowns[k];
-    energy += static_cast<double>(ground_stiffness_[k] * u * u);
+    energy += static_cast<double>(body_.ground_stiffness()[k] * u * u);
   }
-  supports_alone_ = static_cast<double>(fine_.support_energy) > 0.25 * energy;
-  if (!(energy > clearly_there * error)) return 0.0;
-  long double extension = 0.0;
-  for (int k = 0; k < x.size(); ++k) extension += x.values[k] * motion.unknowns[x.rows[k]];
-  return energy / (energy + static_cast<double>(extension * extension));
+  const bool on_supports = static_cast<double>(fine_.support_energy) > 0.25 * energy;
+  if (!(energy > clearly_there * error)) return {0.0, on_supports};
+  const long double extension = motion.along(x);
+  return {energy / (energy + static_cast<double>(extension * extension)), on_supports};
 }
 
-/// Returns whether a loose part is held only by elastic supports that are negligible compared with
-/// its former support.
-bool Equilibrium::hangs_on_weak_supports(double compliance_growth) const {
-  if (!supports_alone_ || !driven_elements_.empty()) return false;
-  const double before = partial_ ? force_work_ : work_of_forces();
-  return before < least_support * (before + compliance_growth);
+/// Decouples the vectors and sets their pivots by K^-1.
+/// \return the smallest pivot
+double SeparationCheck::decouple_by_inverse(Removal& removal) {
+  Factor& inverse = solution_.update().inverse();
+  if (removal.rank == 1) return removal.pivot[0] = inverse.pivot(removal.x[0]);
+  std::vector<double> compliance(static_cast<std::size_t>(removal.rank * removal.rank));
+  inverse.compliance(removal.vectors(), compliance);
+  decouple(removal, compliance);
+  return removal.pivot[0];
 }
 
-/// Finds equilibrium from a new factor without the element, or with a smaller secant.
-/// \return false if the matrix is not positive definite; then all is unchanged
-bool Equilibrium::rebuild_without(Index element, double kept) {
-  const double before = secant_of(element);
-  set_secant(element, kept);
+/// Returns x_a' K^-1 x_b, where K^-1 x_b is refined against the elements.
+std::vector<double> SeparationCheck::refined_compliance(const Removal& removal) {
+  const std::size_t rank = static_cast<std::size_t>(removal.rank);
+  std::vector<double> compliance(rank * rank);
+  for (std::size_t b = 0; b < rank; ++b) {
+    const FineMotion motion = motion_of(removal.x[b]).first;
+    for (std::size_t a = 0; a < rank; ++a) {
+      compliance[a * rank + b] = static_cast<double>(motion.along(removal.x[a]));
+    }
+  }
+  for (std::size_t a = 0; a < rank; ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      compliance[a * rank + b] = compliance[b * rank + a] =
+          0.5 * (compliance[a * rank + b] + compliance[b * rank + a]);
+    }
+  }
+  return compliance;
+}
+
+/// Decouples the vectors and computes small pivots from energies.
+void SeparationCheck::look_closely(Removal& removal, Index element, double kept) {
+  if (removal.rank > 1) decouple(removal, refined_compliance(removal));
+  removal.on_supports = false;
+  for (int m = removal.rank - 1; m >= 0; --m) {
+    if (removal.rank > 1 && removal.pivot[m] > uncertain_pivot) continue;
+    std::tie(removal.pivot[m], removal.on_supports) = resistance(removal.x[m], element, kept);
+  }
+  // Energies may swap two pivots by their last digits.
+  for (int m = removal.rank - 1; m > 0; --m) {
+    removal.pivot[m - 1] = std::min(removal.pivot[m - 1], removal.pivot[m]);
+  }
+}
+
+void SeparationCheck::measure_pivots(Removal& removal, Index element, double kept) {
+  removal.needs_new_inverse = removal.on_supports = false;
+  if (removal.acts_on_nothing()) {  // both ends prescribed
+    removal.pivot[0] = 1.0;
+    return;
+  }
+  const Removal modes = removal;
+  double prepared = decouple_by_inverse(removal);
+  if (prepared > uncertain_pivot && !doubts_pivots_ && !take_rare_branch("pivot by energy")) return;
+  removal = modes;
+  look_closely(removal, element, kept);
+  doubts_pivots_ = std::abs(prepared - removal.pivot[0]) > noisy_pivot;
+  if (removal.pivot[0] > uncertain_pivot) return;
+  const auto agree = [&](double tolerance) {
+    return std::abs(prepared - removal.pivot[0]) < tolerance * removal.pivot[0];
+  };
+  if (removal.pivot[0] == 0.0 || agree(same_pivot)) return;
+  solution_.renew();
+  removal = modes;
+  prepared = decouple_by_inverse(removal);
+  removal = modes;
+  look_closely(removal, element, kept);
+  removal.needs_new_inverse = removal.pivot[0] > 0.0 && !agree(usable_pivot);
+}
+
+bool SeparationCheck::hangs_on_weak_supports(const Removal& removal, double growth) const {
+  if (!removal.on_supports || work_.is_driven()) return false;
+  const double before = solution_.growing().work();
+  return before < least_support * (before + growth);
+}
+
+bool SeparationCheck::rebuild_without(Index element, double kept) {
+  const double before = body_.secant_of(element);
+  body_.set_secant(element, kept);
   try {
-    factorize();
-    refine_in_extended_precision();
+    solution_.renew();
+    refine();
     return true;
   } catch (const NotPositiveDefinite&) {
-    set_secant(element, before);
-    factorize();
+    body_.set_secant(element, before);
+    solution_.renew();
     return false;
   }
 }
 
-/// Refines the displacements in extended precision and stores them rounded. The factor's pivots may
-/// then be noise too.
-Balance Equilibrium::refine_in_extended_precision() {
-  look_closer_ = true;
-  if (stale_) refresh();
-  std::vector<double> load = unknowns_->restrict(loads_->forces);
-  for (std::size_t k = 0; k < ground_load_.size(); ++k) load[k] += ground_load_[k];
-  FineMotion motion{{solution_.begin(), solution_.end()},
-                    {displacement_.begin(), displacement_.end()}};
+auto SeparationCheck::refine() -> Refinement {
+  doubts_pivots_ = true;
+  solution_.make_current();
+  GrowingLoad& growing = solution_.growing();
+  const std::vector<double> load = growing.field().forces(body_.unknowns(), growing.loads());
+  FineMotion motion(growing.field());
   Refined refined = refine_finely(load, motion);
-  const auto uncertain = [&] {
+  const auto is_uncertain = [&] {
     const double least = clearly_there * refined.least_error;  // a body without resistance
-    return !(refined.error < std::max(least, most_error * std::max(refined.energy, last_work_)));
+    return !(refined.error < std::max(least, most_error * std::max(refined.energy, work_.last())));
   };
-  if (uncertain()) {
-    factorize();
+  if (is_uncertain()) {
+    solution_.renew();
     refined = refine_finely(load, motion);
-    if (uncertain()) throw SolverError(out_of_digits);
+    if (is_uncertain()) throw SolverError(out_of_digits);
   }
-  for (std::size_t k = 0; k < solution_.size(); ++k) {
-    solution_[k] = static_cast<double>(motion.unknowns[k]);
-  }
-  scatter_solution();
-  force_work_ = work_of_forces();
-  factor_error_ = refined.factor_error;
-  Balance result;
-  result.residual = std::max(refined.residual / load_norm_, machine_precision);
-  result.stored_energy = static_cast<double>(fine_.energy);
-  resists_ = 2.0 * result.stored_energy > clearly_there * refined.error;
-  supports_alone_ = fine_.support_energy > 0.5L * fine_.energy;
-  if (constant_) refine_permanent();
+  growing.set_values(motion.rounded());
+  Refinement result;
+  result.balance.residual =
+      std::max(refined.residual / growing.field().load_norm, machine_precision);
+  result.balance.stored_energy = static_cast<double>(fine_.energy);
+  result.inverse_error = refined.inverse_error;
+  result.resists = 2.0 * result.balance.stored_energy > clearly_there * refined.error;
+  result.on_supports = fine_.support_energy > 0.5L * fine_.energy;
+  if (solution_.permanent() != nullptr) refine_permanent();
   return result;
 }
 
-/// Computes the work of a body whose reactions nearly cancel from the energy of its elements, a sum
-/// of squares.
-LoadWork Equilibrium::work_by_energy() {
-  const double before = last_work_;
-  const double work = 2.0 * refine_in_extended_precision().stored_energy;
-  if (!resists_) return {0.0, 0.0, true};
-  const bool loose = supports_alone_ && before > 0.0 && work < least_support * before;
-  const double forces = work_of_forces();
+void SeparationCheck::refine_permanent() {
+  PermanentLoad& permanent = *solution_.permanent();
+  if (permanent.field().load_norm == 0.0) return;
+  FineMotion motion(permanent.field());
+  refine_finely(permanent.forces(), motion);
+  permanent.set_values(motion.rounded());
+}
+
+LoadWork SeparationCheck::work_by_energy() {
+  const double before = work_.last();
+  const Refinement refined = refine();
+  const double work = 2.0 * refined.balance.stored_energy;
+  if (!refined.resists) return {0.0, 0.0, true};
+  const bool loose = refined.on_supports && before > 0.0 && work < least_support * before;
+  const double forces = solution_.growing().work();
   return {forces, work - forces, loose};
 }
 

@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-#include "analysis/quasistatic/equilibrium/element_state.hpp"
+#include "analysis/quasistatic/equilibrium/body/element_state.hpp"
 
 /// \file
 /// State of a damaged body and its loads, as plain data: what an event engine cannot rebuild.

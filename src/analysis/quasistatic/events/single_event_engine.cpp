@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 
+#include "analysis/quasistatic/equilibrium/displacement/element_deformations.hpp"
 #include "base/block.hpp"
 #include "base/error.hpp"
 
@@ -37,8 +38,7 @@ SingleEventEngine::SingleEventEngine(const LoadedNetwork& problem,
     : network_(problem.network),
       threads_(options.threads),
       tolerance_(options.event_tolerance),
-      equilibrium_(problem, options, unknowns != nullptr ? *unknowns : problem.unknowns,
-                   saved != nullptr ? &saved->elements : nullptr),
+      equilibrium_(problem, options, unknowns, saved != nullptr ? &saved->elements : nullptr),
       search_(make_break_search(network_, !problem.sets.empty())),
       closes_(network_.has_closing()) {
   if (network_.has_crushing()) crushing_.emplace(network_);
@@ -58,7 +58,8 @@ Event SingleEventEngine::next_event_below(double most) {
     return hit;
   };
   BreakSearch::Hit hit = find();
-  const double noise = equilibrium_.noise(), noise_of_events = equilibrium_.noise_of_events();
+  const Solution& solution = equilibrium_.solution();
+  const double noise = solution.noise(), noise_of_events = solution.noise_of_events();
   if (hit.element != no_index && noise_of_events > noise && is_within(noise_of_events, hit)) {
     equilibrium_.check();
     hit = find();
@@ -119,8 +120,8 @@ void SingleEventEngine::limit_batch(const Event& event, double energy,
   for (; count < hits.size() && static_cast<double>(count) < progress_.most_at_once; ++count) {
     const Index element = hits[count].element;
     if (!fails_with_others(element)) continue;
-    left -=
-        equilibrium_.energy_lost({element, law_of(element).segment(next_segment(element)).secant});
+    left -= energy_lost(equilibrium_.solution(),
+                        {element, law_of(element).segment(next_segment(element)).secant});
     if (left < 0.0) break;
   }
   // Round-off may have left `hits` empty.
@@ -160,20 +161,20 @@ void SingleEventEngine::refuse_hidden_strains(double noise, const BreakSearch::H
 /// Solves for missing columns of K^-1 of an event, with columns of the elements closest to their
 /// events.
 void SingleEventEngine::prepare(const Event& event) {
-  if (equilibrium_.is_prepared(event.element)) return;
+  if (equilibrium_.update().is_prepared(event.element)) return;
   constexpr double near = 0.5;
   std::vector<BreakSearch::Hit> hits = near_hits(event, near);
   std::ranges::stable_sort(hits, std::greater(), &BreakSearch::Hit::ratio);
   std::vector<Index> expected;
   for (const BreakSearch::Hit& hit : hits) {
     if (expected.size() == block_width - 1) break;
-    if (!equilibrium_.is_prepared(hit.element)) expected.push_back(hit.element);
+    if (!equilibrium_.update().is_prepared(hit.element)) expected.push_back(hit.element);
   }
   equilibrium_.prepare(event.element, expected);
 }
 
 EventOutcome SingleEventEngine::apply(const Event& event) {
-  const bool alone = event.others.empty() && equilibrium_.follows_single_events();
+  const bool alone = event.others.empty() && !equilibrium_.update().searches();
   if (alone || !fails_with_others(event.element)) return apply_one(event);
   std::vector<Index> elements = {event.element};
   elements.insert(elements.end(), event.others.begin(), event.others.end());
@@ -209,7 +210,7 @@ EventOutcome SingleEventEngine::apply_all(std::span<const Index> elements, doubl
     return *outcome;
   }
   if (elements.size() == 1) return apply_one({elements[0], load_factor});
-  const std::size_t part = equilibrium_.follows_single_events() ? 1 : elements.size() / 2;
+  const std::size_t part = equilibrium_.update().searches() ? elements.size() / 2 : 1;
   EventOutcome outcome;
   for (std::size_t begin = 0; begin < elements.size() && !outcome.mechanism; begin += part) {
     const auto some = elements.subspan(begin, std::min(part, elements.size() - begin));

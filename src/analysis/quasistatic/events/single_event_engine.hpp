@@ -37,8 +37,8 @@ class SingleEventEngine : public EventEngine {
   }
   void set_release_threshold(std::span<const Index> elements, double fraction) override;
   std::vector<Index> near_events(const Event& event, double fraction) override;
-  int factorizations() const override { return equilibrium_.factor().factorizations(); }
-  FactorStatistics factor_statistics() const override { return equilibrium_.factor_statistics(); }
+  int factorizations() const override { return factor_statistics().factorizations; }
+  FactorStatistics factor_statistics() const override { return equilibrium_.update().statistics(); }
   BodyState state() const override { return {equilibrium_.state(), progress_, {}}; }
 
   /// Removes elements, see Equilibrium::cut(); they have no more events.

@@ -111,7 +111,7 @@ void StagedEngine::begin_stage(std::size_t set, const Unknowns& held) {
 
 /// Finds the equilibrium under the growing and the constant loads.
 void StagedEngine::apply_loads() {
-  ConstantField constant;
+  ConstantLoads constant;
   constant.unknowns = *unknowns_;
   constant.unknowns.prescribed = loads_.clamped_at;
   for (std::size_t slot = 0; slot < loads_.flowed.size(); ++slot) {
@@ -143,7 +143,8 @@ std::span<const double> StagedEngine::displacement() { return displacement_at(lo
 
 std::span<const double> StagedEngine::displacement_at(double load_factor) {
   const std::span<const double> growing = equilibrium_.where_elements_fail();
-  const std::span<const double> constant = equilibrium_.constant_displacement();
+  const std::span<const double> constant =
+      equilibrium_.solution().permanent()->field().displacement;
   now_.resize(growing.size());
   for (std::size_t slot = 0; slot < now_.size(); ++slot) {
     now_[slot] = constant[slot] + load_factor * growing[slot];
@@ -226,7 +227,7 @@ Event StagedEngine::next_event_towards(double target) {
 /// Returns the next contact state change of a damaged bond within a distance of the load factor.
 Event StagedEngine::side_change_within(double distance) {
   if (!closes_ || distance == 0.0) return {};
-  const Equilibrium::SideChange change = equilibrium_.next_side_change(distance);
+  const Contact::Change change = equilibrium_.contact().next_change(distance);
   if (change.element == no_index) return {};
   loads_.direction = std::copysign(1.0, distance);
   return {change.element, loads_.load_factor + change.distance, false, true};
@@ -265,18 +266,6 @@ EventOutcome StagedEngine::apply(const Event& event) {
   crossings_.set_limit(event.element, limit_of_crossings(event.element));
   for (const Index other : event.others) crossings_.set_limit(other, limit_of_crossings(other));
   return outcome;
-}
-
-LoadWork StagedEngine::load_work() {
-  LoadWork work = equilibrium_.work();
-  work.constant = equilibrium_.constant_work();
-  return work;
-}
-
-Balance StagedEngine::check_equilibrium() {
-  Balance balance = equilibrium_.check();
-  equilibrium_.check_constant(balance);
-  return balance;
 }
 
 Freedom StagedEngine::change_motion(const Unknowns& unknowns) {

@@ -52,9 +52,6 @@ class StagedEngine final : public SingleEventEngine {
 
   EventOutcome apply(const Event& event) override;
   std::span<const double> displacement() override;
-  LoadWork load_work() override;
-  Balance check_equilibrium() override;
-  Balance check_cheaply() override { return check_equilibrium(); }
   Freedom change_motion(const Unknowns& unknowns) override;
   void set_release_threshold(std::span<const Index> elements, double fraction) override;
   BodyState state() const override { return {equilibrium_.state(), progress_, loads_}; }

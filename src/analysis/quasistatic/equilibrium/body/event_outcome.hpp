@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "analysis/quasistatic/equilibrium/constant_field.hpp"
+#include "analysis/quasistatic/equilibrium/body/constant_work.hpp"
 #include "base/types.hpp"
 
 /// \file
@@ -22,8 +22,7 @@ struct EventOutcome {
   /// Growth of f'u - R'd at load factor 1: k e^2 / pivot [force length]. The event dissipates
   /// lambda_k lambda_(k+1) / 2 times this along the path through the events.
   double compliance_growth = 0.0;
-  double released = 0.0;      ///< energy that left the element, at load factor 1 [force length]
-  bool changed_side = false;  ///< a damaged bond closed or opened
+  double released = 0.0;  ///< energy that left the element, at load factor 1 [force length]
   /// Set by the engine: number of elements that broke, and that took a smaller secant.
   Index broken = 0, yielded = 0;
   Index exhausted = no_index;   ///< set by the engine: an element without further limits

@@ -1,4 +1,4 @@
-#include "analysis/quasistatic/equilibrium/removal.hpp"
+#include "analysis/quasistatic/equilibrium/body/removal.hpp"
 
 #include <gtest/gtest.h>
 

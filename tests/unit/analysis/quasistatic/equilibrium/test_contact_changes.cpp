@@ -110,8 +110,8 @@ TEST(Closing, ManyCutBondsOpenWithOneFactor) {
     }
     EXPECT_GT(opened, 50);
     // One at first, and one for each of the few rounds in which sides are settled.
-    EXPECT_GE(equilibrium.factor().factorizations(), 2);
-    EXPECT_LE(equilibrium.factor().factorizations(), 4);
+    EXPECT_GE(equilibrium.update().statistics().factorizations, 2);
+    EXPECT_LE(equilibrium.update().statistics().factorizations, 4);
     // Round-off of a body of a few hundred unknowns.
     EXPECT_LT(
         difference(equilibrium.displacement(), dense_displacement(body, equilibrium.secants())),

@@ -1,4 +1,4 @@
-#include "analysis/quasistatic/equilibrium/mechanism.hpp"
+#include "analysis/quasistatic/equilibrium/update/mechanism.hpp"
 
 #include <gtest/gtest.h>
 

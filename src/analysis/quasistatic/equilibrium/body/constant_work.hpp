@@ -1,9 +1,5 @@
 #pragma once
 
-#include <vector>
-
-#include "network/loaded_network.hpp"
-
 namespace perilink {
 
 /// Contribution of permanent loads to a product that would grow with the square of the load factor.
@@ -47,24 +43,5 @@ inline Beside permanent_growth(const ConstantWork& before, const ConstantWork& a
   return {mixed(after) - mixed(before),
           (after.forces - after.supports) - (before.forces - before.supports)};
 }
-
-/// Constant loads and prescribed motions, and the displacements that they cause in the present
-/// body. Total displacements are these plus the load factor times those of the growing loads.
-struct ConstantField {
-  Unknowns unknowns;  ///< unknowns of the body, with the constant prescribed motions
-  Loads loads;
-  double load_factor = 0.0;  ///< present load factor of the growing loads
-
-  // Updated by Equilibrium.
-  std::vector<double> solution;           ///< per unknown
-  std::vector<double> displacement;       ///< shape (particles, width)
-  std::vector<double> ground_load;        ///< load of ground springs per unknown; empty: none
-  std::vector<std::size_t> driven_slots;  ///< slots with constant or growing prescribed motions
-  std::vector<Index> driven_elements;     ///< elements with an end at such a slot
-  double load_norm = 0.0;
-  /// Largest |displacement|, set for conjugate gradients only [length].
-  double largest_motion = 0.0;
-  bool rests = true;  ///< there are no constant loads and no constant motions
-};
 
 }  // namespace perilink

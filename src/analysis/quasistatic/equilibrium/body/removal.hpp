@@ -9,6 +9,12 @@
 
 namespace perilink {
 
+/// An element that takes a smaller secant.
+struct Weakening {
+  Index element;
+  double secant;  ///< 0: it breaks
+};
+
 /// Low-rank downdate of an element that breaks or weakens: K falls by the sum of x x' over its
 /// vectors. A bar has one vector, a micropolar bond three or six.
 struct Removal {
@@ -20,6 +26,8 @@ struct Removal {
   std::array<double, capacity> prescribed{};  ///< contribution of prescribed motions to x'u
   std::array<double, capacity> constant{};    ///< x'u of the displacements by constant loads
   std::array<double, capacity> pivot{};       ///< 1 - x' K^-1 x, ascending; set by decouple()
+  bool needs_new_inverse = false;             ///< the pivots are more accurate than K^-1 can follow
+  bool on_supports = false;  ///< elastic supports hold most of what the removal frees
 
   std::span<const SparseVector> vectors() const {
     return {x.data(), static_cast<std::size_t>(rank)};
@@ -28,6 +36,9 @@ struct Removal {
     return {prescribed.data(), static_cast<std::size_t>(rank)};
   }
   std::span<const double> pivots() const { return {pivot.data(), static_cast<std::size_t>(rank)}; }
+
+  /// Returns whether the removal acts on no unknown.
+  bool acts_on_nothing() const { return rank == 1 && x[0].size() == 0; }
 
   /// Returns x'u at load factor 1, prescribed motions included. Its square is twice the energy of
   /// the vector.
@@ -44,6 +55,16 @@ class ForceOfElements {
 
  private:
   std::vector<Index> place_;  ///< per unknown: its position in both vectors, or no_index
+};
+
+/// Forces of different sizes along vectors of elements. They move the ends of elements apart in
+/// every motion in which some ends move apart.
+struct VariedForces {
+  explicit VariedForces(std::size_t unknowns) : load(unknowns, 0.0) {}
+  void add(const SparseVector& x);
+  std::vector<double> load;  ///< per unknown
+  double size = 0.5;         ///< of the force along the next vector
+  double count = 0.0;        ///< number of vectors
 };
 
 /// Makes the removal of a part of an element's stiffness.

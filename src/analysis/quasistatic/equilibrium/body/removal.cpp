@@ -1,4 +1,4 @@
-#include "analysis/quasistatic/equilibrium/removal.hpp"
+#include "analysis/quasistatic/equilibrium/body/removal.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -65,6 +65,12 @@ void ForceOfElements::add(const SparseVector& x, double by_growing, double by_co
     growing.values[place] += by_growing * x.values[k];
     constant.values[place] += by_constant * x.values[k];
   }
+}
+
+void VariedForces::add(const SparseVector& x) {
+  for (int k = 0; k < x.size(); ++k) load[x.rows[k]] += size * x.values[k];
+  size = size < 1.0 ? size + 0.381966 : size - 0.618034;  // sizes do not repeat
+  ++count;
 }
 
 void decouple(Removal& removal, std::span<const double> compliance) {
