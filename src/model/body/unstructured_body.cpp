@@ -22,6 +22,7 @@
 #include "io/case/sections/case_kinds.hpp"
 #include "io/mesh/gmsh_mesher.hpp"
 #include "io/text/toml_tree.hpp"
+#include "model/body/solid_boxes.hpp"
 
 namespace perilink {
 namespace {
@@ -41,11 +42,6 @@ constexpr double on_face = 1e-5;
 
 /// Shortest edge that particles of a body without narrow parts may have [spacings].
 constexpr double shortest_edge = 0.1;
-
-const Region& region_named(const CaseFile& input, const std::string& name) {
-  return *std::find_if(input.regions.begin(), input.regions.end(),
-                       [&](const Region& region) { return region.name == name; });
-}
 
 /// Draws the regions of a case in gmsh's script language. Lengths are spacings from a corner of the
 /// body, because gmsh's kernel has absolute tolerances. Plane bodies are the bottoms of bodies of
