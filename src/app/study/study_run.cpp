@@ -65,7 +65,7 @@ void check_refinement(const VarySection& vary, const BodySection& body) {
   }
   if (of_lattice) return;
   if (!body.mesh) {
-    throw InputError(vary.where, "is given, but the body of the case is a lattice",
+    throw InputError(vary.where, "is given, but the body of the case has no mesh",
                      "refine with `spacing` or `columns`, or give `mesh` in [body] of the case");
   }
   if (vary.refinement == Refinement::mesh_size && !is_geometry(*body.mesh)) {

@@ -36,6 +36,7 @@ struct BodySection {
   /// Radius of the cylinder of a shell's mid-surface, x around it; absent: flat [length].
   std::optional<double> radius;
   Pattern pattern = Pattern::rectangular;  ///< cubic in three dimensions
+  int seed = 1;                            ///< of an unstructured pattern without a mesh
   Surface surface = Surface::calibrated;
   std::optional<int> columns;  ///< particles across the body in x; one of columns, spacing and mesh
   std::optional<double> spacing;

@@ -104,7 +104,7 @@ constexpr std::array<std::string_view, sizeof...(Word)> words(Word... word) {
 }
 
 /// Returns the words of an enumeration in the order of its enumerators. The last enumerators may
-/// have no word (Pattern::irregular is for meshes).
+/// have no word.
 constexpr auto words_of(Problem) {
   return words("plane_stress", "plane_strain", "three_dimensional", "shell", "beam");
 }
@@ -113,7 +113,7 @@ constexpr auto words_of(BodyModel) {
   return words("bond_based", "micropolar", "lattice", "particles");
 }
 constexpr auto words_of(Pattern) {
-  return words("rectangular", "hexagonal", "cubic", "face_centred");
+  return words("rectangular", "hexagonal", "cubic", "face_centred", "unstructured");
 }
 constexpr auto words_of(Surface) { return words("none", "ghost", "energy", "calibrated"); }
 constexpr auto words_of(Constants) { return words("lattice", "continuum"); }

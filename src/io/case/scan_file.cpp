@@ -119,6 +119,8 @@ void read_seeds(ScanFile& scan, const CaseTable& top, const TomlValue& root) {
   }
 }
 
+constexpr const char* body_seed = "body.seed";
+
 std::string seed_key(std::size_t table) { return fmt::format("random[{}].seed", table + 1); }
 
 /// Refuses cases, studies and unknown tables. Keys of [values] and [[runs]] are those of the case,
@@ -181,13 +183,35 @@ ScanFile parse_scan(const std::string& text, const std::string& path) {
   return scan;
 }
 
+namespace {
+
+/// Keys of a case that are seeds, with their values there.
+std::vector<std::pair<std::string, std::int64_t>> seeds_of(const TomlValue& document) {
+  std::vector<std::pair<std::string, std::int64_t>> seeds;
+  const auto add = [&](const std::string& key, const TomlValue& table) {
+    const TomlValue* seed = table.find("seed");
+    seeds.emplace_back(key, seed == nullptr ? 1 : seed->integer);
+  };
+  if (const TomlValue* random = document.find("random")) {
+    for (std::size_t k = 0; k < random->items.size(); ++k) add(seed_key(k), random->items[k]);
+  }
+  const TomlValue* body = document.find("body");
+  const TomlValue* pattern = body == nullptr ? nullptr : body->find("pattern");
+  if (pattern != nullptr && pattern->text == word_of(Pattern::irregular)) add(body_seed, *body);
+  return seeds;
+}
+
+}  // namespace
+
 void give_seeds(ScanFile& scan, const TomlValue& document) {
   if (scan.seeds.empty()) return;
-  const TomlValue* random = document.find("random");
-  if (random == nullptr || random->items.empty()) {
+  const auto own = seeds_of(document);
+  if (own.empty()) {
     throw InputError({scan.path, scan.seeds_line, "seeds"},
-                     fmt::format("is given, but {} has no [[random]]", scan.case_path),
-                     "add [[random]] to the case, or delete the line");
+                     fmt::format("is given, but {} has no [[random]] and no unstructured particles",
+                                 scan.case_path),
+                     "add [[random]] to the case, set pattern = \"unstructured\" in its [body], or "
+                     "delete the line");
   }
   const auto given =
       std::ranges::find_if(scan.keys, [&](const std::string& key) { return is_seed(scan, key); });
@@ -196,14 +220,12 @@ void give_seeds(ScanFile& scan, const TomlValue& document) {
                      fmt::format("is given together with {}", quoted(*given)),
                      "delete one of the two");
   }
-  std::vector<std::int64_t> different;  // seeds of the case, and for each table its number in them
+  std::vector<std::int64_t> different;  // seeds of the case, and for each key its number in them
   std::vector<int> number;
-  for (const TomlValue& table : random->items) {
-    const TomlValue* seed = table.find("seed");
-    const std::int64_t own = seed == nullptr ? 1 : seed->integer;
-    const auto found = std::find(different.begin(), different.end(), own);
+  for (const auto& [key, seed] : own) {
+    const auto found = std::find(different.begin(), different.end(), seed);
     number.push_back(static_cast<int>(found - different.begin()));
-    if (found == different.end()) different.push_back(own);
+    if (found == different.end()) different.push_back(seed);
   }
   refuse_many(scan, scan.members.size() * scan.seeds.size(), {scan.path, scan.seeds_line, "seeds"});
   std::vector<ScanMember> product;
@@ -216,16 +238,17 @@ void give_seeds(ScanFile& scan, const TomlValue& document) {
         value.line = scan.seeds_line;
         value.integer = seed + number[k] * (most_seed + 1);
         value.number = static_cast<double>(value.integer);
-        product.back().settings.push_back({seed_key(k), value});
+        product.back().settings.push_back({own[k].first, value});
       }
     }
   }
   scan.members = std::move(product);
-  scan.keys.push_back(seed_key(0));
+  scan.keys.push_back(own.front().first);
 }
 
 bool is_seed(const ScanFile& scan, const std::string& key) {
-  return !scan.seeds.empty() && key.starts_with("random[") && key.ends_with("].seed");
+  if (scan.seeds.empty()) return false;
+  return key == body_seed || (key.starts_with("random[") && key.ends_with("].seed"));
 }
 
 ScanFile read_scan_file(const std::string& path) { return parse_scan(read_input_text(path), path); }

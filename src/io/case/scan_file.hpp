@@ -28,14 +28,14 @@ struct ScanFile {
   std::string case_path;          ///< relative to the working directory
   std::vector<std::string> keys;  ///< as written, in the order of the file
   std::vector<ScanMember> members;
-  std::vector<int> seeds;  ///< of the case's [[random]]; empty: those of the case
+  std::vector<int> seeds;  ///< of the case's [[random]] and [body]; empty: of the case
   int seeds_line = 0;      ///< in the scan file
 };
 
 /// Runs each member once for every seed, which varies fastest. Every `seed` of the case's
-/// [[random]] gets it; tables whose seeds differ in the case get seeds that differ.
+/// [[random]] and of unstructured particles gets it; seeds that differ in the case stay different.
 /// \param document  of the case
-/// \throws InputError  where the case has no [[random]]
+/// \throws InputError  where the case has neither
 void give_seeds(ScanFile& scan, const TomlValue& document);
 
 /// Returns whether a key of a member is a seed given by give_seeds().

@@ -10,6 +10,7 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <regex>
 #include <utility>
 #include <vector>
@@ -36,6 +37,10 @@ Mesh mesh_geometry(const std::string& path, int dim, std::optional<double> /*siz
       "{}: is a geometry, and this program was built without gmsh to mesh it\n"
       "  mesh it by hand: gmsh -{} -format msh41 {}; or install libgmsh-dev and build again",
       path, dim, path));
+}
+
+Mesh mesh_drawing(const std::string& /*script*/, int /*dim*/) {
+  throw FileError("this program was built without gmsh, which places unstructured particles");
 }
 
 #else
@@ -217,10 +222,12 @@ Outcome mesh_in_child(const std::string& path, int dim, std::optional<double> si
 }
 
 /// A temporary file that is removed with the object.
-class TemporaryMesh {
+class TemporaryFile {
  public:
-  TemporaryMesh() {
-    std::string name = (std::filesystem::temp_directory_path() / "perilink_XXXXXX.msh").string();
+  /// \param termination  of four characters
+  explicit TemporaryFile(const std::string& termination) {
+    std::string name =
+        (std::filesystem::temp_directory_path() / ("perilink_XXXXXX" + termination)).string();
     const int descriptor = mkstemps(name.data(), 4);
     if (descriptor < 0) {
       throw FileError(fmt::format("{}: cannot be made: {}", name, std::strerror(errno)));
@@ -228,12 +235,12 @@ class TemporaryMesh {
     close(descriptor);
     path_ = name;
   }
-  ~TemporaryMesh() {
+  ~TemporaryFile() {
     std::error_code ignored;
     std::filesystem::remove(path_, ignored);
   }
-  TemporaryMesh(const TemporaryMesh&) = delete;
-  TemporaryMesh& operator=(const TemporaryMesh&) = delete;
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
 
   const std::string& path() const { return path_; }
 
@@ -251,6 +258,25 @@ void check_script(const std::string& path) {
       "mesh_size");
 }
 
+/// gmsh cannot mesh a geometry.
+class MeshingError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// \param name  of the geometry, for messages
+/// \throws MeshingError
+Mesh mesh_checked(const std::string& path, int dim, std::optional<double> size,
+                  const std::string& name) {
+  const TemporaryFile target(".msh");
+  const Outcome outcome = mesh_in_child(path, dim, size, target.path());
+  if (!WIFEXITED(outcome.status)) throw MeshingError("gmsh crashed on it");
+  if (WEXITSTATUS(outcome.status) != 0) {
+    throw MeshingError("gmsh cannot mesh it: " + outcome.message);
+  }
+  return parse_gmsh(read_regular_file(target.path()), name, dim);
+}
+
 }  // namespace
 
 bool has_gmsh() { return true; }
@@ -259,15 +285,18 @@ Mesh mesh_geometry(const std::string& path, int dim, std::optional<double> size,
   read_regular_file(path, 0);  // refuses pipes, on which gmsh would block
   if (!trusted) refuse_unsafe_geometry(path);
   if (is_gmsh_script(path) && size) check_script(path);
-  const TemporaryMesh target;
-  const Outcome outcome = mesh_in_child(path, dim, size, target.path());
-  if (!WIFEXITED(outcome.status) || WEXITSTATUS(outcome.status) != 0) {
-    throw InputError({path, 0, ""},
-                     WIFEXITED(outcome.status) ? "gmsh cannot mesh it: " + outcome.message
-                                               : "gmsh crashed on it",
+  try {
+    return mesh_checked(path, dim, size, path);
+  } catch (const MeshingError& error) {
+    throw InputError({path, 0, ""}, error.what(),
                      "open the geometry with gmsh to see what is wrong");
   }
-  return parse_gmsh(read_regular_file(target.path()), path, dim);  // messages name the geometry
+}
+
+Mesh mesh_drawing(const std::string& script, int dim) {
+  const TemporaryFile drawing(".geo");
+  std::ofstream(drawing.path()) << script;
+  return mesh_checked(drawing.path(), dim, {}, "the drawing of the body");
 }
 
 #endif

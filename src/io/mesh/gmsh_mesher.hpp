@@ -20,4 +20,8 @@ bool has_gmsh();
 Mesh mesh_geometry(const std::string& path, int dim, std::optional<double> size,
                    bool trusted = false);
 
+/// Meshes the geometry that a text of gmsh's script language draws.
+/// \throws Error  where gmsh is missing or cannot mesh it, with gmsh's reason
+Mesh mesh_drawing(const std::string& script, int dim);
+
 }  // namespace perilink

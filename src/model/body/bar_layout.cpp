@@ -14,6 +14,7 @@
 #include "discretization/meshes/cell_search.hpp"
 #include "discretization/meshes/mesh_curves.hpp"
 #include "io/case/case_schema.hpp"
+#include "io/case/sections/case_kinds.hpp"
 #include "io/text/toml_tree.hpp"
 #include "model/body/solid_boxes.hpp"
 
@@ -234,7 +235,7 @@ BarMaterial material_of(const RebarSection& section, bool damage, bool staged) {
 /// Returns a test whether a point lies in the body.
 std::function<bool(const Vector3&)> inside_of(const CaseFile& input, const Body& body) {
   const double tolerance = inside_tolerance * body.lattice.spacing;
-  if (input.body.mesh) {
+  if (has_cells(input.body)) {
     Mesh mesh;
     mesh.dim = body.particles.dim;
     mesh.positions = body.particles.positions;

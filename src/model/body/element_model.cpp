@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "discretization/lattices/triangulate.hpp"
+#include "io/case/sections/case_kinds.hpp"
 
 namespace perilink {
 namespace {
@@ -27,7 +28,7 @@ void build_elements(const CaseFile& input, Body& body, Model& model) {
                          material.poissons_ratio.value_or(bond_poissons_ratio(model.problem))});
   }
   const std::span<const double> positions = body.particles.positions;
-  if (!input.body.mesh) {
+  if (!has_cells(input.body)) {
     body.facets = facets_of(body.cells, positions, thickness);
     body.particles.volumes = shape_integrals(body.cells, positions, thickness);
   }

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "base/error.hpp"
+#include "io/case/sections/case_kinds.hpp"
 
 namespace perilink {
 namespace {
@@ -47,7 +48,7 @@ double neighbours_of(const HorizonReach& reach) {
 void refuse_too_many_bonds(const CaseFile& input, const HorizonReach& reach) {
   const double neighbours = neighbours_of(reach);
   const double bonds = 0.5 * neighbours * reach.particles;
-  const bool bars = input.analysis.type == AnalysisType::elastic && !input.body.mesh &&
+  const bool bars = input.analysis.type == AnalysisType::elastic && !has_cells(input.body) &&
                     input.body.model == BodyModel::bond_based &&
                     input.analysis.solver != LinearSolver::direct;
   const double bytes = (bars ? bytes_per_bar : bytes_per_bond) * bonds;

@@ -8,11 +8,6 @@
 namespace perilink {
 namespace {
 
-const Region& region_named(const CaseFile& input, const std::string& name) {
-  return *std::find_if(input.regions.begin(), input.regions.end(),
-                       [&](const Region& region) { return region.name == name; });
-}
-
 /// Splits a box around a hole into boxes that share faces with it.
 void cut_hole(const Box& box, const Box& hole, int dim, std::vector<Box>& remaining) {
   for (int a = 0; a < dim; ++a) {
@@ -35,6 +30,11 @@ void cut_hole(const Box& box, const Box& hole, int dim, std::vector<Box>& remain
 }
 
 }  // namespace
+
+const Region& region_named(const CaseFile& input, const std::string& name) {
+  return *std::find_if(input.regions.begin(), input.regions.end(),
+                       [&](const Region& region) { return region.name == name; });
+}
 
 std::vector<Box> boxes_of(const CaseFile& input, std::size_t material) {
   std::vector<Box> boxes;

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "discretization/region.hpp"
 #include "io/case/case_file.hpp"
 
 namespace perilink {
+
+/// Returns the region of a checked case that has a name.
+const Region& region_named(const CaseFile& input, const std::string& name);
 
 /// Returns boxes that fill the regions of a material without its holes, in a body without a mesh.
 /// Hole boundaries belong to the body.

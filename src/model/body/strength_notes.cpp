@@ -115,8 +115,7 @@ std::optional<std::string> lattice_note(const CaseFile& input, const Model& mode
   if (!breaks || !input.interfaces.empty()) return std::nullopt;
   return "cracks on a lattice tend to follow its rows, and loads change with their paths: where "
          "the "
-         "path is not known, compare with a run on an unstructured mesh ([body] mesh), with "
-         "another "
+         "path is not known, compare with a run with pattern = \"unstructured\", with another "
          "pattern or with the body turned, and give brittle materials a tensile_strength";
 }
 

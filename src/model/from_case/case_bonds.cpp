@@ -83,10 +83,10 @@ NetworkInput network_input(const CaseFile& input, Problem problem, double horizo
   network.micromodulus = input.body.micromodulus;
   const CriticalStretch rule = input.body.critical_stretch;
   const bool on_lattice =
-      rule == CriticalStretch::lattice || (rule == CriticalStretch::dissipated && !input.body.mesh);
+      rule == CriticalStretch::lattice || (rule == CriticalStretch::dissipated && !has_cells(input.body));
   network.critical_stretch = on_lattice ? Constants::lattice : Constants::continuum;
   network.elastic = input.analysis.type == AnalysisType::elastic;
-  for (std::size_t m = 0; m < input.materials.size() && !input.body.mesh; ++m) {
+  for (std::size_t m = 0; m < input.materials.size() && !has_cells(input.body); ++m) {
     const std::vector<Box> boxes = boxes_of(input, m);
     network.solid.insert(network.solid.end(), boxes.begin(), boxes.end());
   }

@@ -18,6 +18,7 @@
 #include "model/body/mesh_input.hpp"
 #include "model/body/particle_model.hpp"
 #include "model/body/solid_boxes.hpp"
+#include "model/body/unstructured_body.hpp"
 #include "model/conditions/boundary_conditions.hpp"
 #include "model/from_case/case_bonds.hpp"
 #include "model/gauges.hpp"
@@ -132,9 +133,17 @@ Body build_lattice_body(const CaseFile& input, int dim, double& horizon) {
   }
 }
 
+Body build_unstructured_body(const CaseFile& input, int dim) {
+  const Box box = box_of_materials(input);
+  const double spacing = wanted_spacing(input.body, box.upper[0] - box.lower[0]);
+  refuse_impossible_spacing(input, box, spacing, dim);
+  return make_unstructured_body(input, dim, spacing);
+}
+
 Body build_body(const CaseFile& input, int dim, double& horizon, std::vector<std::string>& notes) {
-  if (!input.body.mesh) return build_lattice_body(input, dim, horizon);
-  Body body = read_mesh_body(input, dim, notes);
+  if (!has_cells(input.body)) return build_lattice_body(input, dim, horizon);
+  Body body =
+      input.body.mesh ? read_mesh_body(input, dim, notes) : build_unstructured_body(input, dim);
   if (!has_horizon(input.body)) return body;
   body.lattice.surface = input.body.surface;
   horizon = horizon_of(input.body, body.lattice.spacing);

@@ -142,6 +142,7 @@ std::string temporary_folder() {
 std::string name_of(const Arrangement& arrangement) {
   if (arrangement.kind == Arrangement::Kind::particle_set)
     return fmt::format("cloud {}", arrangement.algorithm);
+  if (arrangement.kind == Arrangement::Kind::unstructured) return "unstructured";
   const std::string pattern = arrangement.hexagonal ? "hexagonal" : "rectangular";
   if (arrangement.kind == Arrangement::Kind::lattice) return pattern;
   return fmt::format("{} turned {}", pattern, arrangement.degrees);
@@ -163,6 +164,10 @@ std::string body_keys(const Arrangement& arrangement, double spacing, double hor
       std::ofstream(name) << TurnedLattice(arrangement, spacing, width, height).text();
       return fmt::format("mesh = \"{}\"\n{}", name, horizon);
     }
+    case Arrangement::Kind::unstructured:
+      return fmt::format(
+          "pattern = \"unstructured\"\nseed = {}\nspacing = {}\nhorizon_ratio = {}\n",
+          arrangement.sample, spacing, horizon_ratio);
     case Arrangement::Kind::particle_set: break;
   }
   return fmt::format("mesh = \"{}\"\nmesh_size = {}\nhorizon_ratio = {}\n",

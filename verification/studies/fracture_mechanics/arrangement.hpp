@@ -13,12 +13,13 @@ struct Arrangement {
     lattice,       ///< a pattern of the case file, along the axes
     turned,        ///< a mesh whose vertices are those of a turned lattice
     particle_set,  ///< a mesh of gmsh
+    unstructured,  ///< the pattern of the case file
   };
   Kind kind = Kind::lattice;
   bool hexagonal = false;
   double degrees = 0.0;  ///< by which a lattice is turned
   int algorithm = 5;     ///< meshes a cloud: gmsh's 1 MeshAdapt, 5 Delaunay, 6 Frontal
-  int sample = 0;        ///< plates are larger by so many fifths of two spacings: other meshes
+  int sample = 0;  ///< plates are larger by so many fifths of two spacings: other meshes; a seed
 };
 
 /// "hexagonal turned 15", for tables.

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/error.hpp"
+#include "base/timer.hpp"
 #include "model/from_case/configure.hpp"
 #include "studies/toughness/bodies.hpp"
 
@@ -33,7 +34,9 @@ class Recorder final : public StepObserver {
 
 Crack run_specimen(const Specimen& specimen) {
   const CaseFile input = parse_case(specimen.text, "specimen.toml");
+  const Timer timer;
   const Model model = build_model(input);
+  const double set_up = timer.seconds();
   Recorder recorder;
   const DamageResult result = run_damage_analysis(model, damage_options(input, 1), recorder);
   if (result.termination == Termination::failed) throw SolverError(result.reason);
@@ -43,7 +46,9 @@ Crack run_specimen(const Specimen& specimen) {
           static_cast<int>(model.unknowns.count),
           recorder.events,
           model.horizon,
-          std::move(recorder.broken)};
+          std::move(recorder.broken),
+          set_up,
+          timer.seconds() - set_up};
 }
 
 Direction direction_of(const Crack& crack, const Place& tip, double horizons) {

@@ -18,6 +18,8 @@ struct Crack {
   int events = 0;
   double horizon = 0.0;       ///< [length]
   std::vector<Place> broken;  ///< middles of the bonds that broke [length]
+  double set_up = 0.0;        ///< time of the particles and bonds [s]
+  double breaking = 0.0;      ///< time of the analysis [s]
 };
 
 /// \throws Error where the run fails

@@ -93,13 +93,19 @@ std::array<std::string, 2> field_of(const Make& make, double mixity, std::array<
   const double scale = std::sqrt(youngs_modulus * fracture_energy / (2.0 * std::numbers::pi)) *
                        (1.0 + nu) / youngs_modulus;
   const double one = scale * std::cos(mixity), two = scale * std::sin(mixity);
-  const std::string half = fmt::format("0.5*atan2(y - {}, x - {})", tip[1], tip[0]);
+  const double along = std::cos(make.turned), across = std::sin(make.turned);
+  const std::string half =
+      fmt::format("0.5*atan2((y - {1})*{2} - (x - {0})*{3}, (x - {0})*{2} + (y - {1})*{3})", tip[0],
+                  tip[1], along, across);
   const std::string root = fmt::format("((x - {0})^2 + (y - {1})^2)^0.25", tip[0], tip[1]);
   const std::string s = fmt::format("sin({})", half), c = fmt::format("cos({})", half);
-  return {fmt::format("{4}*({0}*{3}*({5} + 2*{2}^2) + {1}*{2}*({6} + 2*{3}^2))", one, two, s, c,
-                      root, kappa - 1.0, kappa + 1.0),
-          fmt::format("{4}*({0}*{2}*({6} - 2*{3}^2) - {1}*{3}*({5} - 2*{2}^2))", one, two, s, c,
-                      root, kappa - 1.0, kappa + 1.0)};
+  const std::string u = fmt::format("{4}*({0}*{3}*({5} + 2*{2}^2) + {1}*{2}*({6} + 2*{3}^2))", one,
+                                    two, s, c, root, kappa - 1.0, kappa + 1.0);
+  const std::string v = fmt::format("{4}*({0}*{2}*({6} - 2*{3}^2) - {1}*{3}*({5} - 2*{2}^2))", one,
+                                    two, s, c, root, kappa - 1.0, kappa + 1.0);
+  if (make.turned == 0.0) return {u, v};
+  return {fmt::format("{}*{} - {}*{}", along, u, across, v),
+          fmt::format("{}*{} + {}*{}", across, u, along, v)};
 }
 
 /// A crack through crack_tip_field() ends three horizons before its side; with three spacings and
@@ -184,21 +190,30 @@ Specimen double_cantilever(const Make& make) {
 
 Specimen crack_tip_field(const Make& make, double mixity) {
   const double h = make.spacing, radius = make.radius * make.horizon();
-  const double side = h * (2.0 * std::round(radius / h) + 1.0 + 0.4 * make.arrangement.sample);
+  const bool seeded = make.arrangement.kind == Arrangement::Kind::unstructured;
+  const double wider = seeded ? 0.0 : 0.4 * make.arrangement.sample;
+  const double side = h * (2.0 * std::round(radius / h) + 1.0 + wider);
   const double height = rounded(make, side);
   const double rim = 1.1 * make.horizon();
   const std::array<double, 2> tip = {between_columns(make, 0.5 * side), between_rows(make, height)};
   const auto [u, v] = field_of(make, mixity, tip);
   const std::string field = fmt::format("x = \"{}\"\ny = \"{}\"\n", u, v);
   const double edge = 1.01 * rim;
+  const double behind = make.turned == 0.0 ? tip[0] - rim : 2.0 * rim;
+  const double outside_x = tip[0] - 2.0 * side * std::cos(make.turned);
+  const double outside_y = tip[1] - 2.0 * side * std::sin(make.turned);
+  const std::string slit = make.turned == 0.0
+                               ? crack(-9.0, tip[0], tip[1])
+                               : fmt::format("[[cracks]]\npoints = [[{}, {}], [{}, {}]]\n",
+                                             outside_x, outside_y, tip[0], tip[1]);
   return {body(make, side, height) +
-              region("zone", {tip[0] - rim, side - 2.0 * rim}, {2.0 * rim, height - 2.0 * rim}) +
+              region("zone", {behind, side - 2.0 * rim}, {2.0 * rim, height - 2.0 * rim}) +
               region("lower", {0.0, side}, {0.0, rim}) +
               region("upper", {0.0, side}, {height - rim, height}) +
               region("left", {0.0, rim}, {edge, height - edge}) +
-              region("right", {side - rim, side}, {edge, height - edge}) + materials(make) +
-              crack(-9.0, tip[0], tip[1]) + driven("lower", field) + driven("upper", field) +
-              driven("left", field) + driven("right", field) +
+              region("right", {side - rim, side}, {edge, height - edge}) + materials(make) + slit +
+              driven("lower", field) + driven("upper", field) + driven("left", field) +
+              driven("right", field) +
               fmt::format("[stop]\nbroken_bonds = {}\n", bonds_to_break(make)),
           tip};
 }

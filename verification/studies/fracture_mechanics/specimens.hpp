@@ -22,6 +22,7 @@ struct Make {
   double horizon_ratio = 3.0;
   double zone = 1.0;    ///< E G_F / f_t^2 over the horizon, where bonds soften
   double radius = 8.0;  ///< half of the width of crack_tip_field() in horizons
+  double turned = 0.0;  ///< angle of the crack of crack_tip_field() against x [radians]
 
   double horizon() const { return horizon_ratio * spacing; }
   double poissons_ratio() const { return micropolar ? 0.2 : 1.0 / 3.0; }

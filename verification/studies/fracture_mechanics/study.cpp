@@ -1,6 +1,6 @@
 // Cracks against linear elastic fracture mechanics, see README.md:
 //
-//   fracture_mechanics strips|beams|directions|kinks|more|more_kinks|rows
+//   fracture_mechanics strips|beams|directions|kinks|more|more_kinks|rows|patterns
 //   fracture_mechanics directions|kinks|more|more_kinks 4      another horizon over spacing than 3
 //
 // Each part writes its own table, a row as soon as a run has ended, and directions and kinks a
@@ -310,6 +310,32 @@ void run_more(double ratio) {
   }
 }
 
+/// Cracks at six angles to the axes of lattices and of three sets of unstructured particles.
+void run_patterns(double ratio) {
+  Table table(file_of("patterns", ratio) + ".csv",
+              "lattice,model,law,seed,turned,off,peak,unknowns,set_up,breaking,seconds");
+  const std::vector<Arrangement> all = {{Kind::lattice, false},
+                                        {Kind::lattice, true},
+                                        {Kind::unstructured, false, 0.0, 5, 1},
+                                        {Kind::unstructured, false, 0.0, 5, 2},
+                                        {Kind::unstructured, false, 0.0, 5, 3}};
+  for (const Arrangement& arrangement : all) {
+    for (const double degrees : {0.0, 7.5, 15.0, 22.5, 30.0, 45.0}) {
+      Make make_all{arrangement};
+      make_all.horizon_ratio = ratio;
+      make_all.turned = degrees * degree;
+      for_bonds(all_bonds, table, make_all, [&](const Make& make) {
+        const Specimen specimen = crack_tip_field(make, 0.0);
+        const Crack crack = run_specimen(specimen);
+        const double off = direction_of(crack, specimen.tip).angle - degrees;
+        return fmt::format("{},{},{:.2f},{:.4f},{},{:.2f},{:.2f}", arrangement.sample, degrees,
+                           std::remainder(off, 360.0), crack.peak, crack.unknowns, crack.set_up,
+                           crack.breaking);
+      });
+    }
+  }
+}
+
 }  // namespace
 }  // namespace perilink::verification
 
@@ -322,6 +348,7 @@ bool perilink::verification::run_program(const std::vector<std::string>& argumen
       {"directions", [&] { run_directions(ratio); }},
       {"kinks", [&] { run_kinks(ratio); }},
       {"rows", run_rows},
+      {"patterns", [&] { run_patterns(ratio); }},
       {"more_kinks", [&] { run_more_kinks(ratio); }},
       {"more", [&] { run_more(ratio); }}};
   for (const auto& [name, run] : parts) {
@@ -330,5 +357,6 @@ bool perilink::verification::run_program(const std::vector<std::string>& argumen
     std::filesystem::remove_all(temporary_folder());
     return true;
   }
-  throw std::invalid_argument("name strips, beams, directions, kinks, more, more_kinks or rows");
+  throw std::invalid_argument(
+      "name strips, beams, directions, kinks, more, more_kinks, rows or patterns");
 }

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "io/mesh/gmsh_mesher.hpp"
 #include "patch.hpp"
 
 namespace perilink::verification {
@@ -28,6 +29,10 @@ std::vector<PatchBody> patch_bodies() {
   mesh("cylinder", "body", 3);
   mesh("l_block", "body", 3);
   mesh("l_block_coarse", "body", 3);
+  if (has_gmsh()) {
+    lattice("unstructured", "unstructured", 0.05, 3, 2);
+    lattice("unstructured_space", "unstructured", 0.15, 3, 3);
+  }
   const std::size_t count = bodies.size();
   for (std::size_t k = 0; k < count; ++k) {
     PatchBody body = bodies[k];

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "io/case/case_words.hpp"
@@ -20,11 +21,32 @@ constexpr int most_columns = 100000;
 
 void check_pattern(const CaseTable& table, const BodySection& body) {
   const bool flat = is_flat(body.pattern);
-  if (flat == (dimension_of(body) == 2)) return;
+  if (has_cells(body) || flat == (dimension_of(body) == 2)) return;
   table.refuse("pattern",
                fmt::format("is \"{}\", a {}-dimensional pattern, but problem is \"{}\"",
                            word_of(body.pattern), flat ? "two" : "three", word_of(body.problem)),
-               flat ? "Allowed here: cubic, face_centred" : "Allowed here: rectangular, hexagonal");
+               flat ? "Allowed here: cubic, face_centred, unstructured"
+                    : "Allowed here: rectangular, hexagonal, unstructured");
+}
+
+/// Reads keys of bodies whose particles are the vertices of cells.
+void read_cells(const CaseTable& table, BodySection& body) {
+  body.pattern = Pattern::irregular;
+  body.micromodulus = Constants::continuum;
+  const auto name = [&](const char* mesh, const char* set) {
+    return table.has("mesh") ? mesh : set;
+  };
+  if (body.surface == Surface::ghost) {
+    table.refuse(
+        "surface", "is \"ghost\", but the ghost layer belongs to a lattice",
+        name("delete it, or fill the body with a lattice", "delete it, or choose another pattern"));
+  }
+  if (table.has("horizon_level")) {
+    table.refuse("horizon_level",
+                 name("is given, but a mesh has no levels",
+                      "is given, but the pattern \"unstructured\" has no levels"),
+                 "give `horizon` or `horizon_ratio`");
+  }
 }
 
 void read_lattice(const CaseTable& table, BodySection& body) {
@@ -32,6 +54,14 @@ void read_lattice(const CaseTable& table, BodySection& body) {
   assign(body.pattern, table.choice<Pattern>("pattern"));
   check_pattern(table, body);
   assign(body.surface, table.choice<Surface>("surface"));
+  if (has_cells(body)) {
+    read_cells(table, body);
+    assign(body.seed, table.integer("seed", 0, std::numeric_limits<int>::max()));
+  } else if (table.has("seed")) {
+    table.refuse(
+        "seed", fmt::format("is given, but the pattern \"{}\" is a lattice", word_of(body.pattern)),
+        "delete it, or set pattern = \"unstructured\"");
+  }
   if (body.surface == Surface::ghost && dimension_of(body) == 3) {
     table.refuse("surface", "is \"ghost\", but the ghost layer is for two-dimensional bodies",
                  "Allowed in three dimensions: calibrated, energy, none");
@@ -43,31 +73,24 @@ void read_lattice(const CaseTable& table, BodySection& body) {
 /// Reads the mesh, which determines the particles and excludes keys of lattices.
 void read_mesh(const CaseTable& table, BodySection& body) {
   read_mesh_file(table, body.mesh, body.mesh_size);
-  body.pattern = Pattern::irregular;
-  body.micromodulus = Constants::continuum;
-  if (table.has("pattern")) {
-    table.refuse("pattern", "is given together with `mesh`",
-                 "delete it: the mesh places the particles");
+  for (const char* key : {"pattern", "seed"}) {
+    if (!table.has(key)) continue;
+    table.refuse(key, "is given together with `mesh`", "delete it: the mesh places the particles");
   }
   assign(body.surface, table.choice<Surface>("surface"));
-  if (body.surface == Surface::ghost) {
-    table.refuse("surface", "is \"ghost\", but the ghost layer belongs to a lattice",
-                 "delete it, or fill the body with a lattice");
-  }
-  if (table.has("horizon_level")) {
-    table.refuse("horizon_level", "is given, but a mesh has no levels",
-                 "give `horizon` or `horizon_ratio`");
-  }
+  read_cells(table, body);
 }
 
 /// Reads the source of the bonds' constants.
 void read_constants(const CaseTable& table, BodySection& body) {
   assign(body.micromodulus, table.choice<Constants>("micromodulus"));
   assign(body.critical_stretch, table.choice<CriticalStretch>("critical_stretch"));
-  if (body.pattern != Pattern::irregular) return;
+  if (!has_cells(body)) return;
   const auto refuse_lattice = [&](const char* key, bool counts) {
     if (!counts) return;
-    table.refuse(key, "is \"lattice\", but a mesh has no lattice to count bonds on",
+    table.refuse(key,
+                 fmt::format("is \"lattice\", but {} no lattice to count bonds on",
+                             body.mesh ? "a mesh has" : "unstructured particles have"),
                  "delete it, or write \"continuum\"");
   };
   refuse_lattice("micromodulus", body.micromodulus == Constants::lattice);
@@ -102,7 +125,8 @@ void read_horizon(const CaseTable& table, BodySection& body) {
 /// On a lattice, calibration replaces the micromodulus. On a mesh, calibration starts from the
 /// continuum's formula.
 void refuse_unused_micromodulus(const CaseTable& table, const BodySection& body) {
-  if (body.surface != Surface::calibrated || body.mesh || body.micromodulus != Constants::continuum)
+  if (body.surface != Surface::calibrated || has_cells(body) ||
+      body.micromodulus != Constants::continuum)
     return;
   table.refuse("micromodulus", "is \"continuum\", but calibrated bonds have other stiffnesses",
                "delete it, or set surface = \"none\"");

@@ -22,6 +22,9 @@ int axes_of(const BodySection& body);
 bool is_shell(const BodySection& body);
 bool is_beam(const BodySection& body);
 
+/// Whether particles are the vertices of cells: of a mesh, or of the pattern "unstructured".
+inline bool has_cells(const BodySection& body) { return body.pattern == Pattern::irregular; }
+
 /// Whether an analysis of the type finds a sequence of static equilibria.
 inline bool is_quasistatic(AnalysisType type) {
   return type == AnalysisType::damage || type == AnalysisType::elastic;

@@ -185,12 +185,12 @@ void check_between(const CaseFile& input, const std::set<std::string>& names) {
 void check_shape(const CaseFile& input, const std::string& key, const std::string& name) {
   for (const Region& region : input.regions) {
     if (region.name != name || !region.group.empty()) continue;
-    if (region.round && !is_lattice(input.body) && !input.body.mesh) {
+    if (region.round && !is_lattice(input.body) && !has_cells(input.body)) {
       throw InputError(
           input.where(key),
           fmt::format("is {}, which is round, but a lattice of bonds fills boxes", quoted(name)),
-          "give the shape as a `mesh` in [body], or set model = \"lattice\" there; round regions "
-          "of this body are for supports, displacements and loads");
+          "set pattern = \"unstructured\" in [body], or give the shape as a `mesh` there; round "
+          "regions of this body are for supports, displacements and loads");
     }
     for (int axis = 0; axis < dimension_of(input.body); ++axis) {
       if (region.box.lower[axis] < region.box.upper[axis]) continue;

@@ -38,6 +38,7 @@ void write_body(TomlWriter& out, const BodySection& body) {
   out.write("mesh", body.mesh);
   out.write("mesh_size", body.mesh_size);
   if (!body.mesh && !is_beam(body)) out.write("pattern", word_of(body.pattern));
+  if (!body.mesh && has_cells(body)) out.write("seed", body.seed);
   const bool has_horizon = bonds && !is_particles(body);
   const bool has_neighbourhoods = has_horizon && !is_beam(body);
   if (has_neighbourhoods) out.write("surface", word_of(body.surface));

@@ -116,6 +116,13 @@ TEST(ScanFile, SeedsThatAreEqualInTheCaseStayEqual) {
                           "random[1].seed = 2, random[2].seed = 1000002, random[3].seed = 2"));
 }
 
+TEST(ScanFile, SeedsPlaceUnstructuredParticles) {
+  const ScanFile scan = seeded("seeds = [5, 2]\n", "[body]\npattern = \"unstructured\"\n");
+  EXPECT_THAT(texts_of(scan), ElementsAre("body.seed = 5", "body.seed = 2"));
+  EXPECT_TRUE(is_seed(scan, "body.seed"));
+  EXPECT_THROW(seeded("seeds = 2\n", "[body]\npattern = \"hexagonal\"\n"), InputError);
+}
+
 TEST(ScanFile, RefusesSeedsWithoutUseOrGivenTwice) {
   EXPECT_THROW(seeded("seeds = 2\n", "title = \"a\"\n"), InputError);
   EXPECT_THROW(seeded("seeds = 2\n[values]\n\"random[1].seed\" = [1, 2]\n", "[[random]]\n"),

@@ -86,7 +86,7 @@ TEST(LatticeNote, IsAboutBondsOfLatticesThatCanBreakAnywhere) {
   CaseFile input = strip_case();
   Model model = build_model(input);
   EXPECT_THAT(lattice_note(input, model).value(),
-              HasSubstr("compare with a run on an unstructured mesh"));
+              HasSubstr("compare with a run with pattern = \"unstructured\""));
   EXPECT_THAT(model.notes, testing::Contains(HasSubstr("cracks on a lattice")));
   input.interfaces.emplace_back();
   EXPECT_FALSE(lattice_note(input, model)) << "it prescribes the path";

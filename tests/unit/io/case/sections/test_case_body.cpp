@@ -43,6 +43,25 @@ TEST(CaseBody, TakesAMeshInPlaceOfALattice) {
   EXPECT_EQ(with_size(long_path), "accepted");
 }
 
+TEST(CaseBody, PlacesUnstructuredParticlesWithoutAMesh) {
+  const std::string text = replaced(small_case, "columns", "pattern = \"unstructured\"\ncolumns");
+  const CaseFile input = parse_case(text, "case.toml");
+  EXPECT_EQ(input.body.pattern, Pattern::irregular);
+  EXPECT_FALSE(input.body.mesh.has_value());
+  EXPECT_EQ(input.body.seed, 1);
+  EXPECT_EQ(input.body.micromodulus, Constants::continuum);
+  const std::string seeded = replaced(text, "columns", "seed = 2147483647\ncolumns");
+  const CaseFile again = parse_case(write_case(parse_case(seeded, "case.toml")), "written.toml");
+  EXPECT_EQ(again.body.seed, 2147483647);
+  EXPECT_EQ(again.body.pattern, Pattern::irregular);
+  EXPECT_THAT(message_of(replaced(text, "columns", "seed = 2147483648\ncolumns")),
+              HasSubstr("body.seed"));
+  const std::string round = replaced(text, "x = [0, 1]\ny = [0, 2]", "center = [0, 0]\nradius = 1");
+  EXPECT_EQ(message_of(round), "accepted");
+  EXPECT_THAT(message_of(replaced(round, "pattern = \"unstructured\"\n", "")),
+              HasSubstr("pattern = \"unstructured\""));
+}
+
 TEST(CaseBody, AcceptsThePoissonsRatioOfItsBonds) {
   for (const auto& [problem, word] : {std::pair(Problem::plane_stress, "plane_stress"),
                                       std::pair(Problem::plane_strain, "plane_strain")}) {
