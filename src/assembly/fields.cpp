@@ -14,7 +14,8 @@ namespace {
 /// Computes the weights of the least-squares fit G xi = u_j - u_i: G = (sum du xi')
 /// (sum xi xi')^-1.
 template <int Dim>
-bool fit_linear(std::span<const double> offsets, std::span<double> weights) {
+bool fit_linear(std::span<const double> offsets, std::span<const double> /*marks*/,
+                std::span<double> weights) {
   using Matrix = Eigen::Matrix<double, Dim, Dim>;
   const Eigen::Map<const Eigen::Matrix<double, Dim, Eigen::Dynamic>> xi(
       offsets.data(), Dim, static_cast<Eigen::Index>(offsets.size() / Dim));

@@ -235,8 +235,13 @@ std::vector<Gauge> build_gauges(const CaseFile& input, const Model& model,
 }
 
 StressInput stress_input(const Model& model, const Csr& neighbourhoods, Secants secants) {
-  return {model.network, neighbourhoods, model.problem, model.hooke, model.elements.has_value(),
-          secants};
+  return {model.network,
+          neighbourhoods,
+          model.problem,
+          model.hooke,
+          model.elements.has_value(),
+          secants,
+          model.surface_conditions.empty() ? nullptr : &model.surface_conditions};
 }
 
 std::vector<double> gauge_values(const Model& model, const ModelState& state, Csr& neighbourhoods) {

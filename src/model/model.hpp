@@ -8,6 +8,7 @@
 
 #include "analysis/quasistatic/damage_analysis.hpp"
 #include "assembly/linear_elements.hpp"
+#include "assembly/results/surface_conditions.hpp"
 #include "discretization/facets.hpp"
 #include "discretization/lattices/lattice.hpp"
 #include "io/case/case_file.hpp"
@@ -52,7 +53,8 @@ struct Model : LoadedNetwork {
   /// Per particle, whether a support or prescribed displacement acts on it. Planes of symmetry do
   /// not count, since cracks may reach them.
   std::vector<std::uint8_t> gripped;
-  std::vector<HookeConstants> hooke;  ///< elastic constants per material
+  std::vector<HookeConstants> hooke;     ///< elastic constants per material
+  SurfaceConditions surface_conditions;  ///< for stresses; empty: unknown
   LoadResultant resultant;
   std::vector<std::size_t> entry_of_bar;  ///< in [[rebar]], by Bars::bar
   std::vector<std::string> notes;         ///< for the user: pinned modes, unbalanced moments

@@ -8,6 +8,7 @@
 
 #include "assembly/results/bond_strain.hpp"
 #include "assembly/results/neighbor_gradients.hpp"
+#include "assembly/results/surface_fit.hpp"
 
 namespace perilink {
 namespace {
@@ -84,7 +85,8 @@ bool fit_polynomial(std::span<const double> offsets, double size, std::span<doub
 
 /// Fits a quadratic polynomial where the neighbours determine it, else a linear one.
 template <int Dim>
-bool fit_gradient(std::span<const double> offsets, std::span<double> weights) {
+bool fit_gradient(std::span<const double> offsets, std::span<const double> /*marks*/,
+                  std::span<double> weights) {
   double square = 0.0;
   for (std::size_t k = 0; k < offsets.size(); k += Dim) {
     square = std::max(
@@ -109,7 +111,9 @@ class StressFinder {
   StressFinder(const StressInput& input, std::span<const double> motion)
       : input_(input),
         motion_(motion),
-        gradients_(input.network.particles, motion, input.network.width(), fit_gradient<Dim>) {}
+        gradients_(input.network.particles, motion, input.network.width(), fit_gradient<Dim>),
+        surface_gradients_(input.network.particles, motion, input.network.width(),
+                           fit_surface_gradient<Dim>, true) {}
 
   Stress at(Index particle);
 
@@ -118,8 +122,9 @@ class StressFinder {
 
   const StressInput& input_;
   std::span<const double> motion_;
-  NeighborGradients<Dim> gradients_;
+  NeighborGradients<Dim> gradients_, surface_gradients_;
   std::vector<Index> neighbors_;
+  std::vector<double> marks_;
 };
 
 template <int Dim>
@@ -133,7 +138,9 @@ Eigen::Matrix3d StressFinder<Dim>::strain_at(Index particle) {
   }
   find_neighbors(input_, particle, neighbors_);
   Eigen::Matrix<double, Dim, Dim> gradient;
-  if (gradients_.find(particle, neighbors_, gradient)) {
+  if ((collect_surface_marks(input_, particle, neighbors_, marks_) &&
+       surface_gradients_.find(particle, neighbors_, gradient, marks_)) ||
+      gradients_.find(particle, neighbors_, gradient)) {
     strain.topLeftCorner<Dim, Dim>() = 0.5 * (gradient + gradient.transpose());
   }
   return strain;

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "assembly/results/surface_conditions.hpp"
 #include "base/csr.hpp"
 #include "material/elasticity.hpp"
 #include "material/j2_plasticity.hpp"
@@ -24,7 +25,8 @@ struct StressInput {
   std::span<const HookeConstants> materials;  ///< by Particles::material
   /// Include neighbours of neighbours: the edges of linear elements are too few.
   bool second_neighbors = false;
-  Secants secants = {};  ///< one per element; empty: undamaged
+  Secants secants = {};                        ///< one per element; empty: undamaged
+  const SurfaceConditions* surface = nullptr;  ///< nothing: unknown
 };
 
 /// Returns the stress at a particle by Hooke's law for its strain [force/length^2]
@@ -35,7 +37,8 @@ struct StressInput {
 /// 1/distance^2 fit the polynomial to the displacements of the neighbours of the same material. The
 /// strain is exact for quadratic fields, also at the surface. Where the neighbours do not determine
 /// a quadratic polynomial, a linear one is fitted. Where they do not determine a linear one, the
-/// stress is zero.
+/// stress is zero. At surfaces with known conditions the polynomial is cubic and in equilibrium, see
+/// fit_surface_gradient().
 ///
 /// Where a bond of the particle is damaged, the strain is bond_strain(), from the forces that its
 /// bonds still carry. In plane strain zz = lambda (e_xx + e_yy).

@@ -22,6 +22,7 @@
 #include "model/conditions/boundary_conditions.hpp"
 #include "model/from_case/case_bonds.hpp"
 #include "model/gauges.hpp"
+#include "model/surface_of_case.hpp"
 
 namespace perilink {
 namespace {
@@ -199,6 +200,7 @@ Model build_model_with(const CaseFile& input, const BondOptions& options) {
         hooke_constants(model.problem, material.youngs_modulus,
                         material.poissons_ratio.value_or(bond_poissons_ratio(model.problem))));
   }
+  model.surface_conditions = surface_of_case(input, model);
   if (is_quasistatic(input.analysis.type)) carry_particles(input, model);
   return model;
 }
