@@ -88,7 +88,7 @@ DamageState EventRun::save() const {
 }
 
 const StepRecord* EventRun::next() {
-  if (path_.over || has_failed()) return nullptr;
+  if (path_.over || path_.result.termination == Termination::failed) return nullptr;
   try {
     if (!is_checked_ && staged_ == nullptr) check();
     is_checked_ = true;
@@ -127,6 +127,19 @@ FactorStatistics EventRun::factor_statistics() const {
 StepState EventRun::state() {
   return {network_, engine_->secants(), engine_->displacement(),
           host_release_ ? host_release_->whole() : std::span<const std::uint8_t>()};
+}
+
+/// Stages keep all displacements current. Unknowns that a host release replaces later could not
+/// complete displacements.
+StepState EventRun::unsolved_state() {
+  if (staged_ != nullptr || host_release_) return state();
+  return {network_, engine_->secants(), engine_->where_elements_fail()};
+}
+
+std::vector<double> EventRun::completed(const StepState& earlier) {
+  const bool is_current = staged_ != nullptr || host_release_;
+  const auto motion = is_current ? earlier.displacement : engine_->displacement(&earlier);
+  return {motion.begin(), motion.end()};
 }
 
 void EventRun::adopt(const Unknowns& unknowns) {

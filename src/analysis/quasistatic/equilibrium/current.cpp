@@ -88,12 +88,30 @@ double Equilibrium::work_of_forces() const {
   return work;
 }
 
-/// Observers must not change the run, so missing displacements are solved for separately.
-std::span<const double> Equilibrium::displacement() {
-  if (!stale_) return where_elements_fail();
-  std::vector<double> all = present_load();
-  factor_->solve(all, all);
-  observed_ = unknowns_->expand(all);
+/// Observers must not change the run, so missing displacements are solved for separately. Those of
+/// an earlier state are wrong only away from elements that can fail, where the stiffness never
+/// changes. The residual of that state therefore gives the correction with any later factor.
+std::span<const double> Equilibrium::displacement(const StepState* earlier) {
+  if (earlier == nullptr && !stale_) return where_elements_fail();
+  std::vector<double> load;
+  if (earlier == nullptr) {
+    load = present_load();
+  } else {
+    const bool may_lack = driven_elements_.empty() && !constant_ && subdomains_ == nullptr;
+    if (!may_lack) return earlier->displacement;
+    std::vector<double> forces =
+        internal_force(network_, earlier->secants, earlier->displacement).forces;
+    for (std::size_t slot = 0; slot < forces.size(); ++slot) {
+      forces[slot] = loads_->forces[slot] - forces[slot];
+    }
+    load = unknowns_->restrict(forces);
+    if (norm(load) <= options_.residual_tolerance * load_norm_) return earlier->displacement;
+  }
+  factor_->solve(load, load);
+  observed_ = unknowns_->expand(load);
+  for (std::size_t slot = 0; earlier != nullptr && slot < observed_.size(); ++slot) {
+    observed_[slot] += earlier->displacement[slot] - unknowns_->prescribed[slot];
+  }
   return observed_;
 }
 

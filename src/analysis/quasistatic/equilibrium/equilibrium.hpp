@@ -12,6 +12,7 @@
 #include "analysis/quasistatic/equilibrium/event_batch.hpp"
 #include "analysis/quasistatic/equilibrium/event_outcome.hpp"
 #include "analysis/quasistatic/equilibrium/removal.hpp"
+#include "analysis/quasistatic/observer.hpp"
 #include "analysis/quasistatic/subdomains/subdomain_factor.hpp"
 #include "assembly/internal_force.hpp"
 #include "base/error.hpp"
@@ -74,7 +75,9 @@ class Equilibrium {
   std::span<const double> where_elements_fail() const { return displacement_; }
 
   /// Returns displacements at load factor 1, current everywhere. Costs a solve if some are not.
-  std::span<const double> displacement();
+  /// \param earlier  if given, an earlier state with where_elements_fail(): returns its
+  ///                 displacements, current everywhere. The unknowns must be those of then.
+  std::span<const double> displacement(const StepState* earlier = nullptr);
 
   LoadWork work();
 

@@ -45,7 +45,9 @@ class EventEngine {
 
   /// Returns the displacements of all particles in equilibrium at load factor 1, shape (particles,
   /// width). They include rotations and prescribed displacements.
-  virtual std::span<const double> displacement() = 0;
+  /// \param earlier  if given, an earlier state with displacements that are current wherever an
+  ///                 element can fail: returns these, current everywhere; not in runs by stages
+  virtual std::span<const double> displacement(const StepState* earlier = nullptr) = 0;
 
   /// Returns displacements that are current wherever an element can fail, without a solve.
   virtual std::span<const double> where_elements_fail() = 0;

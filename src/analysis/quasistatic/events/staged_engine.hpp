@@ -51,7 +51,7 @@ class StagedEngine final : public SingleEventEngine {
   Event next_event_towards(double target);
 
   EventOutcome apply(const Event& event) override;
-  std::span<const double> displacement() override;
+  std::span<const double> displacement(const StepState* earlier = nullptr) override;
   LoadWork load_work() override;
   Balance check_equilibrium() override;
   Balance check_cheaply() override { return check_equilibrium(); }
