@@ -86,8 +86,8 @@ void print_regions(const CaseFile& input, const Model& model) {
     const std::string& name = input.regions[k].name;
     try {
       const auto members = particles_of_region(input, model, name, item_key("regions", k));
-      fmt::print("#   region             {}: {} particles, {}\n", name, members.size(),
-                 extent_text(particles, members));
+      fmt::print("#   region             {}: {} particle{}, {}\n", name, members.size(),
+                 members.size() == 1 ? "" : "s", extent_text(particles, members));
     } catch (const InputError&) {
       fmt::print("#   region             {}: no particles\n", name);
     }
