@@ -47,6 +47,15 @@ const CLI::Validator is_scale(
     },
     "NUMBER > 0");
 
+const CLI::Validator is_row_choice(
+    [](const std::string& text) -> std::string {
+      int row = 0;
+      const bool number = CLI::detail::lexical_cast(text, row);
+      if (text == "peak" || text == "last" || (number && row >= 0)) return "";
+      return fmt::format("{} is no row: give peak, last or a number of at least 0", text);
+    },
+    "peak|last|ROW");
+
 /// Whether a command-line word holds control characters, which would act on the terminal when
 /// printed.
 bool steers_terminal(std::string_view word) {
@@ -156,6 +165,21 @@ void add_plot_command(CLI::App& app, PlotOptions& options) {
   command->add_option("--out", options.out, "Directory of the pictures [the same]");
   command->add_option("--scale", options.scale, "Factor on the displacements [automatic]")
       ->check(is_scale);
+  command
+      ->add_option("--x", options.x, "Draw a curve over this column of history.csv [displacement]")
+      ->type_name("COLUMN");
+  command->add_option("--y", options.y, "Draw the curve of this column of history.csv [load]")
+      ->type_name("COLUMN");
+  command->add_flag("--whole", options.whole, "Draw rows below 1 % of the peak at the end too");
+  command->add_option("--at", options.at, "Draw the body at this row only: a number, peak or last")
+      ->check(is_row_choice);
+  command->add_option("--field", options.field,
+                      "Colour the body by this field, for example \"crack opening\" "
+                      "[damage; elastic: von Mises stress]");
+  command->add_option("--range", options.range, "Range of the colours [of the field]")
+      ->expected(2)
+      ->type_name("MIN MAX");
+  command->add_flag("--png", options.png, "Also write PNG, by the program rsvg-convert");
 }
 
 const CLI::App* add_report_command(CLI::App& app, ReportOptions& options) {
@@ -165,6 +189,8 @@ const CLI::App* add_report_command(CLI::App& app, ReportOptions& options) {
   command->add_option("directories", options.directories, "Directories of the results")->required();
   command->add_option("--out", options.file,
                       "The page [report.html in the directory; of several runs in this folder]");
+  command->add_option("--at", options.at, "Show the body at this row first: a number, peak or last")
+      ->check(is_row_choice);
   command->add_flag("--watch", options.watch, "Renew the page until all runs have ended");
   return command;
 }

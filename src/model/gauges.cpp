@@ -12,6 +12,7 @@
 #include "base/plain_text.hpp"
 #include "discretization/bonds.hpp"
 #include "model/model_regions.hpp"
+#include "model/reactions.hpp"
 #include "results/history_file.hpp"
 
 namespace perilink {
@@ -196,6 +197,37 @@ void fill_mean(const CaseFile& input, const Model& model, const std::string& key
                     : fmt::format("mean of {} particles", gauge.terms.size());
 }
 
+/// Sets up a gauge of the force on the particles of a region: of its supports, else of its loads.
+void fill_force(const CaseFile& input, const Model& model, const std::string& key,
+                const GaugeSection& section, Gauge& gauge) {
+  const std::vector<std::uint8_t> held = held_slots(model);
+  ModelState loaded;
+  const std::vector<double> factors(model.sets.size(), 1.0);
+  loaded.set_factors = factors;
+  const std::vector<double> loads = present_loads(model, loaded);
+  const auto width = static_cast<std::size_t>(model.network.width());
+  bool is_held = false, is_loaded = false;
+  for (const Index i : particles_of_region(input, model, section.reaction, key)) {
+    gauge.terms.push_back({i, 1.0});
+    for (std::size_t slot = i * width; slot < (i + 1) * width; ++slot) {
+      is_held = is_held || held[slot] != 0;
+      is_loaded = is_loaded || loads[slot] != 0.0;
+    }
+  }
+  if (!is_held && !is_loaded) {
+    throw InputError(
+        input.where(key),
+        fmt::format("is \"{}\", whose particles have neither supports nor loads", section.reaction),
+        "name a region of [[supports]], [[displacements]], [[velocities]], [[springs]] "
+        "or of loads");
+  }
+  gauge.force = is_held ? Gauge::Force::reaction : Gauge::Force::load;
+  gauge.about = section.about;
+  if (section.about && !section.axis) gauge.direction[2] = 1.0;  // in the plane
+  gauge.place =
+      fmt::format("{} on {} particles", is_held ? "reaction" : "load", gauge.terms.size());
+}
+
 /// Returns the index of a component among the six of a Stress.
 std::size_t number_of(const std::array<int, 2>& axes) {
   if (axes[0] == axes[1]) return axes[0];
@@ -224,6 +256,8 @@ std::vector<Gauge> build_gauges(const CaseFile& input, const Model& model,
       gauge.terms = terms_at(input, model, key, *section.at, gauge, notes);
       const Particles& particles = model.network.particles;
       gauge.place = "at " + point_text(place_of(particles, gauge.terms), particles.dim);
+    } else if (!section.reaction.empty()) {
+      fill_force(input, model, item_key("gauges", k, "reaction"), section, gauge);
     } else if (!section.region.empty()) {
       fill_mean(input, model, item_key("gauges", k, "region"), section, gauge);
     } else {
@@ -244,10 +278,33 @@ StressInput stress_input(const Model& model, const Csr& neighbourhoods, Secants 
           model.surface_conditions.empty() ? nullptr : &model.surface_conditions};
 }
 
-std::vector<double> gauge_values(const Model& model, const ModelState& state, Csr& neighbourhoods) {
+bool measures_reactions(std::span<const Gauge> gauges) {
+  return std::ranges::any_of(
+      gauges, [](const Gauge& gauge) { return gauge.force == Gauge::Force::reaction; });
+}
+
+double gauge_force(const Model& model, const Gauge& gauge, const ModelState& state,
+                   std::span<const double> holding) {
+  std::vector<Index> particles;
+  for (const Gauge::Term& term : gauge.terms) particles.push_back(term.particle);
+  const bool is_load = gauge.force == Gauge::Force::load;
+  const std::vector<double> loads = is_load ? present_loads(model, state) : std::vector<double>{};
+  const Reaction sum = reaction_on(model, particles, is_load ? loads : holding);
+  const Vector3 value = gauge.about ? about(*gauge.about, sum).moment : sum.force;
+  return value[0] * gauge.direction[0] + value[1] * gauge.direction[1] +
+         value[2] * gauge.direction[2];
+}
+
+std::vector<double> gauge_values(const Model& model, const ModelState& state, Csr& neighbourhoods,
+                                 std::vector<double> holding) {
   const std::size_t width = model.network.width();
   std::vector<double> values;
+  if (holding.empty() && measures_reactions(model.gauges)) holding = holding_forces(model, state);
   for (const Gauge& gauge : model.gauges) {
+    if (gauge.force != Gauge::Force::none) {
+      values.push_back(gauge_force(model, gauge, state, holding));
+      continue;
+    }
     if (!gauge.stress) {
       values.push_back(state.scale * gauge_value(gauge, model.network.dim(), [&](Index i, int a) {
                          return state.motion[i * width + a];
@@ -266,6 +323,17 @@ std::vector<double> gauge_values(const Model& model, const ModelState& state, Cs
     values.push_back(state.scale * value);
   }
   return values;
+}
+
+std::optional<std::string> met_rule(const CaseFile& input, const StopSection& stop,
+                                    std::span<const double> values) {
+  if (stop.gauge.empty() || values.empty()) return std::nullopt;
+  const auto gauge = std::ranges::find(input.gauges, stop.gauge, &GaugeSection::name);
+  const double value = values[static_cast<std::size_t>(gauge - input.gauges.begin())];
+  const bool is_above = stop.above && value >= *stop.above;
+  if (!is_above && !(stop.below && value <= *stop.below)) return std::nullopt;
+  return fmt::format("the gauge \"{}\" is {:.6g}, {} {}", stop.gauge, value,
+                     is_above ? "above" : "below", is_above ? *stop.above : *stop.below);
 }
 
 }  // namespace perilink

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,9 +33,25 @@ double gauge_value(const Gauge& gauge, int dim, Displacement displacement) {
   return value;
 }
 
-/// Returns the values of all gauges [length] or [force/length^2].
+/// Whether a gauge needs the reactions on the body.
+bool measures_reactions(std::span<const Gauge> gauges);
+
+/// Returns the values of all gauges [length], [force/length^2], [force] or [force length].
 /// \param neighbourhoods  bonds of each particle; filled once a gauge needs them
-std::vector<double> gauge_values(const Model& model, const ModelState& state, Csr& neighbourhoods);
+/// \param holding         holding_forces() where they are known, as for bodies in motion
+std::vector<double> gauge_values(const Model& model, const ModelState& state, Csr& neighbourhoods,
+                                 std::vector<double> holding = {});
+
+/// Returns the force or moment that a gauge measures.
+/// \param holding  holding_forces()
+double gauge_force(const Model& model, const Gauge& gauge, const ModelState& state,
+                   std::span<const double> holding);
+
+/// Returns the first rule by a gauge that a row has met, "the gauge \"opening\" is 0.51, above 0.5";
+/// empty if it has met none.
+/// \param values  of all gauges of the case in this row
+std::optional<std::string> met_rule(const CaseFile& input, const StopSection& stop,
+                                    std::span<const double> values);
 
 /// Returns the input for stresses at the particles of a model.
 /// \param neighbourhoods  bonds of each particle; must outlive the result

@@ -21,7 +21,8 @@
 
 namespace perilink {
 
-/// A displacement or stress in the history: weighted sum of particle values.
+/// A displacement or stress in the history, a weighted sum of particle values; or a force or moment
+/// on particles.
 struct Gauge {
   struct Term {
     Index particle = no_index;
@@ -32,6 +33,11 @@ struct Gauge {
   std::vector<Term> terms;
   Vector3 direction{};                       ///< direction of the measured displacement
   std::optional<std::array<int, 2>> stress;  ///< axes of the stress component
+
+  /// Measured force: of supports, or of loads.
+  enum class Force { none, reaction, load };
+  Force force = Force::none;     ///< along `direction`, on the particles of the terms
+  std::optional<Vector3> about;  ///< measures the moment about this point, around `direction`
 };
 
 /// Particles, bonds, unknowns and loads of a case. With method = "linear_elements" the network

@@ -15,17 +15,6 @@
 namespace perilink {
 namespace {
 
-/// Returns all loads at the current load factors.
-std::vector<double> present_loads(const Model& model, const ModelState& state) {
-  std::vector<double> loads = model.loads.forces;
-  for (double& load : loads) load *= state.set_factors.empty() ? state.load_factor : 0.0;
-  for (std::size_t s = 0; s < state.set_factors.size(); ++s) {
-    const std::vector<double>& forces = model.sets[s].loads.forces;
-    for (std::size_t k = 0; k < loads.size(); ++k) loads[k] += state.set_factors[s] * forces[k];
-  }
-  return loads;
-}
-
 /// Returns the particles in a plane of symmetry, with the tolerance of the supports.
 std::vector<Index> particles_in(const CaseFile& input, const Model& model, std::size_t k) {
   const SymmetrySection& plane = input.symmetry[k];
@@ -68,14 +57,6 @@ Vector3 position_of(const Particles& particles, Index i) {
   return x;
 }
 
-/// Returns a resultant with its moment about another point.
-Reaction about(const Vector3& point, Reaction reaction) {
-  const Vector3 more = moment_of(minus(reaction.middle, point), reaction.force);
-  for (int a = 0; a < 3; ++a) reaction.moment[a] += more[a];
-  reaction.middle = point;
-  return reaction;
-}
-
 std::string row_of(const std::string& name, const Reaction& reaction, int dim) {
   CsvRow row;
   row.text(name);
@@ -86,6 +67,23 @@ std::string row_of(const std::string& name, const Reaction& reaction, int dim) {
 }
 
 }  // namespace
+
+Reaction about(const Vector3& point, Reaction reaction) {
+  const Vector3 more = moment_of(minus(reaction.middle, point), reaction.force);
+  for (int a = 0; a < 3; ++a) reaction.moment[a] += more[a];
+  reaction.middle = point;
+  return reaction;
+}
+
+std::vector<double> present_loads(const Model& model, const ModelState& state) {
+  std::vector<double> loads = model.loads.forces;
+  for (double& load : loads) load *= state.set_factors.empty() ? state.load_factor : 0.0;
+  for (std::size_t s = 0; s < state.set_factors.size(); ++s) {
+    const std::vector<double>& forces = model.sets[s].loads.forces;
+    for (std::size_t k = 0; k < loads.size(); ++k) loads[k] += state.set_factors[s] * forces[k];
+  }
+  return loads;
+}
 
 std::vector<std::uint8_t> held_slots(const Model& model) {
   std::vector<std::uint8_t> held(model.unknowns.number.size(), 0);
@@ -257,6 +255,38 @@ ReactionTable reaction_table(const std::vector<SupportRegion>& places, const Mod
   sum = about(all.middle, sum);
   sum.force_size += on_bars;
   return {std::move(text), sum};
+}
+
+std::vector<VtuArray> condition_fields(const Model& model) {
+  const std::vector<std::uint8_t> held = held_slots(model);
+  const auto dim = static_cast<std::size_t>(model.network.dim());
+  const auto width = static_cast<std::size_t>(model.network.width());
+  const std::size_t count = held.size() / width;
+  std::vector<VtuArray> fields = {{"held", 1, std::vector<double>(count)},
+                                  {"applied_force", 3, std::vector<double>(3 * count)},
+                                  {"prescribed_displacement", 3, std::vector<double>(3 * count)}};
+  const auto add = [&](const Loads& loads, const Unknowns& unknowns) {
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t a = 0; a < dim; ++a) {
+        const std::size_t slot = i * width + a;
+        fields[1].values[3 * i + a] += loads.forces[slot];
+        if (unknowns.number[slot] == no_index) {
+          fields[2].values[3 * i + a] += unknowns.prescribed[slot];
+        }
+      }
+    }
+  };
+  if (model.sets.empty()) add(model.loads, model.unknowns);
+  for (const LoadCase& set : model.sets) add(set.loads, set.unknowns);
+  for (std::size_t slot = 0; slot < held.size(); ++slot) {
+    if (held[slot] != 0 && slot % width < dim) {
+      fields[0].values[slot / width] += static_cast<double>(1U << (slot % width));
+    }
+  }
+  std::erase_if(fields, [](const VtuArray& field) {
+    return std::ranges::all_of(field.values, [](double value) { return value == 0.0; });
+  });
+  return fields;
 }
 
 void ReactionBalance::add(Index row, const Reaction& sum, double length, double tolerance) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "io/fields/vtu.hpp"
 #include "model/model.hpp"
 #include "model/model_state.hpp"
 
@@ -39,6 +40,12 @@ struct Reaction {
 Reaction reaction_on(const Model& model, std::span<const Index> particles,
                      std::span<const double> forces);
 
+/// Returns a resultant with its moment about another point.
+Reaction about(const Vector3& point, Reaction reaction);
+
+/// Returns all loads at the current load factors, shape (particles, width) [force].
+std::vector<double> present_loads(const Model& model, const ModelState& state);
+
 /// Particles supported by an entry of the case.
 struct SupportRegion {
   std::string name;  ///< "supports: left", "symmetry: x = 0"
@@ -61,6 +68,14 @@ struct ReactionTable {
 /// \param forces  holding_forces() where they are known, as for bodies in motion
 ReactionTable reaction_table(const std::vector<SupportRegion>& places, const Model& model,
                              const ModelState& state, std::vector<double> forces = {});
+
+/// Returns point fields of supports and loads, which stay the same over a run; without those that
+/// are zero everywhere:
+///   held                    sum of 1, 2 and 4 for components along x, y and z that are prescribed
+///                           or have a spring
+///   applied_force           at load factor 1 [force]
+///   prescribed_displacement at load factor 1 [length]
+std::vector<VtuArray> condition_fields(const Model& model);
 
 /// Checks the balance of reactions and loads over the rows of a quasistatic run.
 class ReactionBalance {

@@ -55,8 +55,11 @@ class Stepper {
       }
     }
     caller_.raise();
-    if (run_->has_failed()) throw SolverError(run_->result().reason);
-    if (row == nullptr) return std::nullopt;
+    if (row == nullptr) {
+      const DamageResult end = run_->result();
+      if (end.termination == Termination::failed) throw SolverError(end.reason);
+      return std::nullopt;
+    }
     last_ = *row;
     return last_;
   }

@@ -36,11 +36,12 @@ struct FieldMoment {
 
 /// Returns the state of a body as a grid. Points are the particles at their reference positions (z
 /// = 0 in two dimensions). Cells: a vertex for each particle, then a line for each broken bond in
-/// the order of breaking, then a line for each bar element. Fields:
+/// the order of breaking, for each bond that a pre-crack cuts, and for each bar element. Fields:
 ///   points  displacement, damage, region (number of the material, -1 none), kind (0 solid, 1
 ///           ghost, 2 rebar), volume, strain_energy_density, principal_strain (largest first); with
 ///           micropolar bonds rotation (one number in two dimensions, three in three)
-///   cells   element (FieldElement), broken_at (number of the break in the run, from 1; 0: none)
+///   cells   element (FieldElement), broken_at (number of the break in the run, from 1; 0: none, as
+///           for bonds that a pre-crack cuts)
 ///   file    dimension and the values of FieldMoment
 /// \param secants                   one per element, shape (elements) [-]
 /// \param motion                    motion of that state, shape (particles, width) [length]

@@ -58,8 +58,10 @@ TEST_F(Program, HelpNamesEveryCommandAndOption) {
       {"scan", {"scan", "--out", "--jobs", "--threads", "--quiet", "--force", "docs/studies.md"}},
       {"compare", {"dir_a", "dir_b", "--out", "--quiet", "--force", "docs/compare.md"}},
       {"check", {"case", "--set", "Exit status"}},
-      {"plot", {"directory", "--out", "--scale", "Exit status"}},
-      {"report", {"directories", "--out", "--watch", "docs/report.md"}}};
+      {"plot",
+       {"directory", "--out", "--scale", "--x", "--y", "--at", "--field", "--range", "--whole",
+        "--png", "Exit status"}},
+      {"report", {"directories", "--out", "--at", "--watch", "docs/report.md"}}};
   for (const auto& [command, words] : expected) {
     std::vector<std::string> arguments = {"--help"};
     if (!command.empty()) arguments.insert(arguments.begin(), command);
@@ -96,6 +98,9 @@ TEST_F(Program, BadCommandLinesAreRefused) {
                                                      {"check", "a.toml", "--out", "x"},
                                                      {"plot"},
                                                      {"plot", ".", "--scale", "-1"},
+                                                     {"plot", ".", "--at", "soon"},
+                                                     {"plot", ".", "--range", "1"},
+                                                     {"report", ".", "--at", "-1"},
                                                      {"report"},
                                                      {"report", ".", "--scale", "1"}};
   for (const auto& arguments : bad) {
@@ -213,7 +218,8 @@ TEST_F(Program, CheckTellsSizesAndMakesNothing) {
        {"[body]", "particles          336", "bonds              2345", "unknowns           669",
         "memory", "time               at least ", "per broken bond",
         " for 30 of them; it reads the factor twice\n", "spacing            ", " spacings\n",
-        "load               upper cap: (0, 100)"}) {
+        "load               upper cap: (0, 100)",
+        "region             upper cap: 40 particles, x 6.25 to 93.75, y 200 to 250\n"}) {
     EXPECT_THAT(end.out, HasSubstr(part));
   }
   EXPECT_EQ(names(), std::set<std::string>{"small.toml"});

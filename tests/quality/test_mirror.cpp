@@ -14,6 +14,7 @@ namespace {
 const std::map<std::string, std::string>& tested_elsewhere() {
   static const std::map<std::string, std::string> table = {
       {"app/commands/check_command.cpp", "a command: tests/cli runs the program"},
+      {"app/commands/check_conditions.cpp", "a part of check: tests/cli runs the program"},
       {"app/commands/check_sizes.cpp", "a part of check: tests/cli runs the program"},
       {"app/commands/compare_command.cpp", "a command: tests/cli runs the program"},
       {"app/commands/converge_command.cpp", "a command: tests/cli runs the program"},

@@ -17,12 +17,13 @@ struct CrackedPlate {
   double spacing = 2.0;
 };
 
-inline void append_line(VtuGrid& grid, int i, int j, double element) {
+/// \param broken_at  number of the break of a bond
+inline void append_line(VtuGrid& grid, int i, int j, double element, double broken_at = 0.0) {
   grid.types.push_back(VtuCell::line);
   grid.connectivity.insert(grid.connectivity.end(), {i, j});
   grid.offsets.push_back(static_cast<int>(grid.connectivity.size()));
   grid.cell_data[0].values.push_back(element);
-  grid.cell_data[1].values.push_back(0.0);
+  grid.cell_data[1].values.push_back(broken_at);
 }
 
 inline void append_particles(VtuGrid& grid, const CrackedPlate& plate) {
@@ -78,7 +79,7 @@ inline VtuGrid make_cracked_field(const CrackedPlate& plate, bool ghosts_and_bar
   for (int k = 0; k < plate.nz; ++k) {
     for (int j = 0; j < plate.ny / 2; ++j, ++broken) {
       const int left = (k * plate.ny + j) * plate.nx + (plate.nx - 1) / 2;
-      append_line(grid, left, left + 1, 1.0);
+      append_line(grid, left, left + 1, 1.0, broken + 1.0);
     }
   }
   for (int i = 0; ghosts_and_bar && i + 1 < plate.nx; ++i) {

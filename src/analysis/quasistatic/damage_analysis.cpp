@@ -222,6 +222,8 @@ bool EventRun::stop_rule_met() {
   } else if (stop.displacement && std::abs(path_.row.displacement) >= *stop.displacement) {
     path_.end(Termination::completed,
               fmt::format("the displacement reached {}", *stop.displacement));
+  } else if (const auto reason = options_.rule_met ? options_.rule_met() : std::nullopt) {
+    path_.end(Termination::completed, *reason);
   } else {
     return false;
   }
@@ -328,7 +330,8 @@ DamageResult run_damage_analysis(const LoadedNetwork& problem, const DamageOptio
   EventRun run(problem, own);
   try {
     while (const StepRecord* row = run.next()) observer.on_step(*row, run);
-    if (!run.has_failed()) observer.on_end(run.last(), run);
+    const DamageResult result = run.result();
+    if (result.termination != Termination::failed) observer.on_end(result.last, run);
   } catch (const std::exception& error) {
     run.fail(error);
   }

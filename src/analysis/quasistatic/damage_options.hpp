@@ -61,6 +61,8 @@ struct DamageOptions {
   bool begins_again = false;
   /// Returns whether to stop now, for example after a signal; asked between events.
   std::function<bool()> stop_requested = {};
+  /// Returns why the run or its stage is complete after the last row, by a rule of its own.
+  std::function<std::optional<std::string>()> rule_met = {};
 };
 
 struct DamageResult {

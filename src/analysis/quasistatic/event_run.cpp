@@ -89,7 +89,7 @@ DamageState EventRun::save() const {
 }
 
 const StepRecord* EventRun::next() {
-  if (path_.over || has_failed()) return nullptr;
+  if (path_.over || path_.result.termination == Termination::failed) return nullptr;
   try {
     if (!is_checked_ && staged_ == nullptr) check();
     is_checked_ = true;
@@ -129,6 +129,18 @@ FactorStatistics EventRun::factor_statistics() const {
 StepState EventRun::state() {
   return {network_, engine_->secants(), engine_->displacement(),
           host_release_ ? host_release_->whole() : std::span<const std::uint8_t>()};
+}
+
+/// Stages keep all displacements current. Unknowns that a host release replaces later could not
+/// complete displacements.
+StepState EventRun::unsolved_state() {
+  if (staged_ != nullptr || host_release_) return state();
+  return {network_, engine_->secants(), engine_->where_elements_fail()};
+}
+
+std::vector<double> EventRun::completed(const StepState& earlier) {
+  if (staged_ == nullptr && !host_release_) return engine_->completed(earlier);
+  return {earlier.displacement.begin(), earlier.displacement.end()};
 }
 
 void EventRun::adopt(const Unknowns& unknowns) {

@@ -44,14 +44,12 @@ class EventRun final : public StateSource {
 
   /// Returns the state in the equilibrium of the last row. Displacements may cost a solve.
   StepState state() override;
+  StepState unsolved_state() override;
+  std::vector<double> completed(const StepState& earlier) override;
   Secants secants() override { return engine_->secants(); }
 
   /// Ends the run as failed, for a reason outside of the solver, as a full disk.
   void fail(const std::exception& error);
-  /// Returns whether the run has failed.
-  bool has_failed() const { return path_.result.termination == Termination::failed; }
-  /// Returns the last row.
-  const StepRecord& last() const { return path_.row; }
   /// Returns sizes of the factor, and its work so far.
   FactorStatistics factor_statistics() const;
   /// Returns the result so far. Peaks are found anew from all rows.

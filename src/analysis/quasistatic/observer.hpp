@@ -70,6 +70,14 @@ class StateSource {
  public:
   virtual ~StateSource() = default;
   virtual StepState state() = 0;
+  /// Returns the state without a solve. Displacements may belong to an earlier row where no element
+  /// can fail.
+  virtual StepState unsolved_state() { return state(); }
+  /// Returns the displacements of an earlier unsolved_state(), made current everywhere, with a solve
+  /// at most.
+  virtual std::vector<double> completed(const StepState& earlier) {
+    return {earlier.displacement.begin(), earlier.displacement.end()};
+  }
   /// Returns the secant stiffness ratios, which need no solve.
   virtual Secants secants() { return state().secants; }
 };

@@ -6,6 +6,7 @@
 #include "analysis/dynamics/fundamental_period.hpp"
 #include "analysis/dynamics/lattice/body/lattice_statics.hpp"
 #include "analysis/quasistatic/subdomains/subdomain_factor.hpp"
+#include "app/commands/check_conditions.hpp"
 #include "app/commands/check_sizes.hpp"
 #include "app/commands/commands.hpp"
 #include "app/process/progress.hpp"
@@ -122,20 +123,6 @@ void print_period(Index particles, Period period) {
   }
 }
 
-/// Prints the range of particle positions per axis. The outermost cells extend beyond it.
-void print_extents(const LatticeRows& lattice) {
-  std::string text;
-  for (int axis = 0; axis < lattice.dim; ++axis) {
-    double lower = INFINITY, upper = -INFINITY;
-    for (const Index slot : lattice.particle_slot) {
-      lower = std::min(lower, lattice.positions[lattice.at(axis, slot)]);
-      upper = std::max(upper, lattice.positions[lattice.at(axis, slot)]);
-    }
-    text += fmt::format("{}{} {:.6g} to {:.6g}", axis > 0 ? ", " : "", "xyz"[axis], lower, upper);
-  }
-  fmt::print("#   particles lie in   {}\n", text);
-}
-
 /// \param run  advances the analysis by a number of steps
 template <class Run>
 void print_steps(double critical_time_step, ExplicitOptions options, const char* remark, Run run) {
@@ -171,6 +158,13 @@ void print_case(const std::string& path, const CaseFile& input) {
   fmt::print("# {}: the case as resolved\n\n{}\n", path, write_case(input));
 }
 
+void print_body(const CaseFile& input, const Model& model) {
+  print_sizes(model, input.analysis.type == AnalysisType::damage);
+  print_regions(input, model);
+  print_stages(input, model);
+  print_crack_tips(input, model);
+}
+
 int check_explicit(const std::string& case_path, const CaseFile& input) {
   const ExplicitCase built = build_explicit_case(input);
   const ExplicitModel& model = built.model;
@@ -184,7 +178,7 @@ int check_explicit(const std::string& case_path, const CaseFile& input) {
   fmt::print("#   particles          {} in {}\n", model.lattice.particles(),
              counted(model.lattice.rows.size(), "row"));
   fmt::print("#   spacing            {:.6g}\n", model.lattice.spacing);
-  print_extents(model.lattice);
+  print_regions(input, built.places);
   fmt::print("#   bonds              {}\n", built.bonds);
   fmt::print("#   prescribed         {}\n", counted(count(model.prescribed), "displacement"));
   if (model.material.breakable) {
@@ -215,7 +209,7 @@ int check_moving_bonds(const std::string& case_path, const CaseFile& input) {
   if (changes && builds) model = build_model_visibly(input, false);
   const BondRunCase built = build_bond_run(input, model);
   print_case(case_path, input);
-  print_sizes(model);
+  print_body(input, model);
   std::fflush(stdout);
   print_period(model.network.particles.size(), [&] {
     const auto free = free_motions(model.network, model.unknowns);
@@ -233,7 +227,7 @@ int check_moving_bonds(const std::string& case_path, const CaseFile& input) {
 int check_relaxation(const std::string& case_path, const CaseFile& input) {
   const Model model = draft_model(input);
   print_case(case_path, input);
-  print_sizes(model);
+  print_body(input, model);
   fmt::print("#   load steps         {}\n", input.analysis.load_factors.size());
   fmt::print("# expected cost of a run\n#   memory             {:.3g} GB\n",
              peak_memory_bytes() / 1e9);
@@ -255,7 +249,7 @@ int check_case(const RunOptions& options) {
   Model model = draft_model(input);
   if (const auto note = note_of_separated_body(input, model, 1)) model.notes.push_back(*note);
   print_case(case_path, input);
-  print_sizes(model, input.analysis.type == AnalysisType::damage);
+  print_body(input, model);
   std::fflush(stdout);  // ordering the unknowns of a large body takes long
 
   const Network& network = model.network;

@@ -46,6 +46,7 @@ int compare(const CompareOptions& options);
 struct ReportOptions {
   std::vector<std::string> directories;  ///< of the results, at least one
   std::optional<std::string> file;       ///< the page; absent: report.html, in the only directory
+  std::string at = "last";               ///< row that the page shows first (row_of_choice)
   bool watch = false;                    ///< write the page again until all runs have ended
 };
 /// Writes an HTML page that shows the results of runs.

@@ -1,21 +1,34 @@
 #include "app/commands/plot_command.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
 
 #include "app/commands/commands.hpp"
+#include "app/compare/run_result.hpp"
 #include "app/plot/plot_bars.hpp"
 #include "app/plot/plot_curve.hpp"
 #include "app/plot/plot_fields.hpp"
 #include "app/process/console.hpp"
+#include "app/process/process_pool.hpp"
+#include "app/report/report_fields.hpp"
+#include "app/report/report_units.hpp"
 #include "base/error.hpp"
+#include "base/files.hpp"
+#include "base/plain_text.hpp"
+#include "io/case/case_schema.hpp"
 #include "io/fields/vtu.hpp"
 #include "io/text/csv.hpp"
+#include "io/text/toml_tree.hpp"
 #include "results/history_file.hpp"
 #include "results/result_directory.hpp"
 #include "results/summary_file.hpp"
@@ -25,9 +38,56 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void save(const Svg& svg, const fs::path& path) {
-  svg.save(path.string());
-  say(path.string() + "\n");
+/// Writes the pictures, also as PNG where options ask for it.
+class Pictures {
+ public:
+  /// \throws FileError without the program that makes PNG
+  explicit Pictures(const PlotOptions& options)
+      : folder_(options.out.empty() ? options.directory : options.out) {
+    if (options.png) converter_.emplace(program_in_path("rsvg-convert"), 1);
+    std::error_code failure;
+    fs::create_directories(folder_, failure);  // save() reports the error
+  }
+
+  void save(const Svg& svg, const std::string& name) {
+    const std::string path = (folder_ / (name + ".svg")).string();
+    svg.save(path);
+    say(path + "\n");
+    if (!converter_) return;
+    const std::string picture = (folder_ / (name + ".png")).string();
+    converter_->start(0, {"--zoom", "2", "--background-color", "white", "--output", picture, path});
+    std::vector<FinishedProcess> ended;
+    while (ended.empty()) ended = converter_->wait(1000);
+    if (ended.front().exit_status != 0) {
+      throw FileError(fmt::format("{}: rsvg-convert failed: {}", picture, ended.front().errors));
+    }
+    say(picture + "\n");
+  }
+
+ private:
+  static std::string program_in_path(const std::string& name) {
+    const char* path = std::getenv("PATH");
+    std::istringstream folders(path == nullptr ? "" : path);
+    for (std::string folder; std::getline(folders, folder, ':');) {
+      const fs::path program = fs::path(folder) / name;
+      if (!folder.empty() && ::access(program.c_str(), X_OK) == 0) return program.string();
+    }
+    throw FileError(fmt::format(
+        "--png needs the program {}, which was not found\n"
+        "  install it (Debian: librsvg2-bin), or leave --png out: browsers and editors open SVG",
+        name));
+  }
+
+  fs::path folder_;
+  std::optional<ProcessPool> converter_;
+};
+
+/// Part of a file name: letters and digits of a text, others as underscores.
+std::string file_word(std::string text) {
+  const auto stays = [](unsigned char c) { return std::isalnum(c) != 0 || c >= 0x80 || c == '-'; };
+  std::ranges::replace_if(
+      text, [&](char c) { return !stays(static_cast<unsigned char>(c)); }, '_');
+  return text;
 }
 
 /// Reads a nonnegative whole number from the file data of a field file.
@@ -37,26 +97,148 @@ Index count_of(const VtuGrid& grid, const char* name, const std::string& path) {
   throw FileError(fmt::format("{}: {} is {}, not a whole number of at least 0", path, name, value));
 }
 
-void plot_series(const fs::path& directory, const fs::path& out, const PlotLabels& labels,
-                 double scale) {
-  for (const PvdEntry& entry : read_pvd((directory / "fields.pvd").string())) {
-    const std::string path = (directory / entry.file).string();
-    const VtuGrid grid = read_vtu(path);
-    const Index step = count_of(grid, "step", path);
-    FieldsCaption caption{count_of(grid, "broken_bonds", path), grid.field("load_factor", 0.0),
-                          grid.field("load", 0.0)};
-    if (const double time = grid.field("time", -1.0); time >= 0.0) caption.time = time;
-    save(draw_fields(read_body(grid, path), caption, labels, scale),
-         out / fmt::format("fields_{}.svg", step));
-    const fs::path bars = directory / fmt::format("bars_{:06}.csv", step);
-    if (!fs::exists(bars)) continue;
-    const std::string when = caption.time ? fmt::format("time {}", short_number(*caption.time))
-                                          : fmt::format("row {}", step);
-    const std::string text =
-        fmt::format("{}, load {}", when, in_unit(short_number(caption.load), labels.force));
-    save(draw_bars(read_csv(bars.string()), bars.string(), text, labels),
-         out / fmt::format("bars_{}.svg", step));
+/// A result to draw.
+struct PlottedRun {
+  fs::path directory;
+  PlotLabels labels;
+  UnitNames units;
+};
+
+/// Returns the colours of a field by its name. \throws FileError where there is none
+ParticleColors colors_of(const VtuGrid& grid, const PlotBody& body, const PlottedRun& run,
+                         const PlotOptions& options) {
+  ParticleColors colors = usual_colors(body, run.labels);
+  if (!options.field.empty()) {
+    const std::vector<ReportField> fields = fields_of(grid, body.dim);
+    const std::string wanted = in_words(options.field);
+    auto found = std::ranges::find(fields, wanted, &ReportField::name);
+    if (found == fields.end() && options.field != "displacement") {  // whose components are named
+      found = std::ranges::find(fields, options.field, &ReportField::array);
+    }
+    if (found == fields.end()) {
+      std::vector<std::string_view> names;
+      for (const ReportField& field : fields) names.push_back(field.name);
+      throw FileError(fmt::format("--field {}: the file of fields has no such field\n  {}",
+                                  options.field, suggest(wanted, names)));
+    }
+    const std::vector<float> values = values_of_field(grid, *found);
+    std::vector<float> meaningful;
+    for (Index i = 0; i < body.size(); ++i) {
+      if (body.kind[i] == 0 && !body.is_loose(i)) meaningful.push_back(values[i]);
+    }
+    const NumberRange range = range_of(meaningful);
+    colors.values.assign(values.begin(), values.end());
+    colors.grey_zero = found->array == "damage" || found->array == "crack_opening";
+    colors.bar.label = with_unit(found->name, unit_of_quantity(found->array, run.units));
+    if (found->array == "damage") {
+      colors.bar.low = 0.0;
+      colors.bar.high = 1.0;
+    } else if (range.low < range.high) {
+      colors.bar.low = colors.grey_zero ? std::min(0.0F, range.low) : range.low;
+      colors.bar.high = range.high;
+    } else if (!meaningful.empty()) {  // one value
+      colors.bar.low = std::min(0.0F, range.low);
+      colors.bar.high = range.low > 0.0F ? range.low : colors.bar.low + 1.0;
+    }
   }
+  if (!options.range.empty()) {
+    colors.bar.low = options.range[0];
+    colors.bar.high = options.range[1];
+  }
+  return colors;
+}
+
+void plot_fields(const PvdEntry& entry, const PlottedRun& run, const PlotOptions& options,
+                 Pictures& pictures) {
+  const std::string path = (run.directory / entry.file).string();
+  const VtuGrid grid = read_vtu(path);
+  const Index step = count_of(grid, "step", path);
+  FieldsCaption caption{count_of(grid, "broken_bonds", path), grid.field("load_factor", 0.0),
+                        grid.field("load", 0.0)};
+  if (const double time = grid.field("time", -1.0); time >= 0.0) caption.time = time;
+  const PlotBody body = read_body(grid, path);
+  const std::string field = options.field.empty() ? "" : "_" + file_word(options.field);
+  pictures.save(
+      draw_fields(body, caption, run.labels, options.scale, colors_of(grid, body, run, options)),
+      fmt::format("fields_{}{}", step, field));
+  const fs::path bars = run.directory / fmt::format("bars_{:06}.csv", step);
+  if (!field.empty() || !fs::exists(bars)) return;
+  const std::string when = caption.time ? fmt::format("time {}", short_number(*caption.time))
+                                        : fmt::format("row {}", step);
+  const std::string text =
+      fmt::format("{}, load {}", when, in_unit(short_number(caption.load), run.labels.force));
+  pictures.save(draw_bars(read_csv(bars.string()), bars.string(), text, run.labels),
+                fmt::format("bars_{}", step));
+}
+
+/// Returns the row of the number in a name of a field file.
+Index row_of(const PvdEntry& entry) {
+  const std::size_t begin = entry.file.find_first_of("0123456789");
+  return begin == std::string::npos ? 0 : std::atoi(entry.file.c_str() + begin);
+}
+
+/// Returns the file of fields of a row. \throws FileError where there is none
+PvdEntry entry_at(const std::vector<PvdEntry>& entries, const PlottedRun& run,
+                  const std::string& at) {
+  if (at == "last") return entries.back();
+  const Index row = row_of_choice(run.directory.string(), at);
+  const auto found = std::ranges::find(entries, row, row_of);
+  if (found != entries.end()) return *found;
+  std::vector<std::string> rows;
+  for (const PvdEntry& entry : entries) rows.push_back(std::to_string(row_of(entry)));
+  throw FileError(fmt::format(
+      "--at {}: there is no file of fields of row {}\n  rows with fields: {}; more by [output] of "
+      "the case",
+      at, row, joined(rows)));
+}
+
+void plot_series(const PlottedRun& run, const PlotOptions& options, Pictures& pictures) {
+  const fs::path list = run.directory / "fields.pvd";
+  std::vector<PvdEntry> entries;
+  if (fs::exists(list)) entries = read_pvd(list.string());
+  if (!options.at.empty() && entries.empty()) {
+    throw FileError(fmt::format("{}: has no files of fields", run.directory.string()));
+  }
+  if (!options.at.empty()) entries = {entry_at(entries, run, options.at)};
+  for (const PvdEntry& entry : entries) plot_fields(entry, run, options, pictures);
+}
+
+/// Whether a column is not zero in the undeformed state, or has no value there.
+bool begins_at_first_row(const std::string& column) {
+  constexpr std::array<std::string_view, 9> others = {"residual",    "factorizations", "element",
+                                                      "events",      "stage",          "avalanche",
+                                                      "side_change", "elements",       "step"};
+  return std::ranges::find(others, column) != others.end();
+}
+
+/// Draws a column of the history over another. \throws FileError where one is missing
+void plot_columns(const CsvTable& table, std::span<const CurvePoint> load_curve,
+                  const PlottedRun& run, const PlotOptions& options, Pictures& pictures) {
+  const std::string x = options.x.empty() ? "displacement" : options.x;
+  const std::string y = options.y.empty() ? "load" : options.y;
+  const fs::path case_path = run.directory / "case.toml";
+  const TomlValue root = fs::exists(case_path)
+                             ? parse_toml(read_regular_file(case_path.string()), case_path.string())
+                             : TomlValue{};
+  const auto column = [&](const char* option, const std::string& name) {
+    const int place = table.column(name);
+    if (place >= 0) return static_cast<std::size_t>(place);
+    throw FileError(fmt::format("{} {}: history.csv has no such column\n  {}", option, name,
+                                suggest(name, {table.columns.begin(), table.columns.end()})));
+  };
+  const std::size_t at_x = column("--x", x), at_y = column("--y", y);
+  const std::size_t rows = options.whole ? table.rows.size() : rows_before_tail(load_curve);
+  ColumnCurve curve;
+  curve.x_label = with_unit(in_words(x), unit_of_column(x, root, run.units));
+  curve.y_label = with_unit(in_words(y), unit_of_column(y, root, run.units));
+  for (const std::vector<double>& row : std::span(table.rows).first(rows)) {
+    curve.points.push_back({row[at_x], row[at_y]});
+  }
+  curve.from_origin =
+      run.labels.stages.empty() && !begins_at_first_row(x) && !begins_at_first_row(y);
+  curve.note = note_of_tail(table.rows.size() - rows);
+  pictures.save(draw_columns(curve, run.labels.title),
+                fmt::format("{}_over_{}", file_word(y), file_word(x)));
 }
 
 /// Reads the first peak from the summary. The history does not say when the body failed.
@@ -74,25 +256,35 @@ std::optional<CurvePoint> first_peak_of(const std::optional<nlohmann::ordered_js
 }  // namespace
 
 int plot_results(const PlotOptions& options) {
-  const fs::path directory = options.directory;
-  const fs::path out = options.out.empty() ? directory : fs::path(options.out);
-  require_result(directory);
-  const std::string history = (directory / "history.csv").string();
+  if (!options.range.empty() && !(options.range[0] < options.range[1])) {
+    throw FileError(fmt::format("--range {} {}: the first number must be below the second",
+                                options.range[0], options.range[1]));
+  }
+  require_result(options.directory);
+  PlottedRun run{options.directory, {}, {}};
+  const std::string history = (run.directory / "history.csv").string();
   const CsvTable table = read_csv(history);
   const std::vector<StepRecord> records = history_records(table, history);
-  const PlotLabels labels = read_labels(directory);
+  run.labels = read_labels(run.directory);
   if (table.cut_off) complain(std::string("note: ") + cut_off_note);
-  const auto summary = read_summary_file(directory);
-  if (!summary || summary_text(*summary, "status", directory) == "running") {
+  const auto summary = read_summary_file(run.directory);
+  if (summary) run.units = UnitNames::of(summary_text(*summary, "units", run.directory));
+  if (!summary || summary_text(*summary, "status", run.directory) == "running") {
     complain(
         "note: the run is not finished or was killed; the pictures show the "
         "rows and fields written so far");
   }
-  std::error_code failure;
-  fs::create_directories(out, failure);  // save() reports the error
-  save(draw_load_displacement(records, labels, first_peak_of(summary)),
-       out / "load_displacement.svg");
-  if (fs::exists(directory / "fields.pvd")) plot_series(directory, out, labels, options.scale);
+  Pictures pictures(options);
+  const bool columns = !options.x.empty() || !options.y.empty();
+  const bool body = !options.at.empty() || !options.field.empty() || !options.range.empty();
+  if (columns) {
+    plot_columns(table, points_of(records), run, options, pictures);
+  } else if (!body) {
+    pictures.save(
+        draw_load_displacement(records, run.labels, first_peak_of(summary), options.whole),
+        "load_displacement");
+  }
+  if (body || !columns) plot_series(run, options, pictures);
   return exit_done;
 }
 

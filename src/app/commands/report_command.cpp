@@ -47,7 +47,8 @@ bool write_report(const ReportOptions& options, const fs::path& path) {
   nlohmann::ordered_json runs = nlohmann::ordered_json::array();
   bool is_running = false;
   for (const std::string& directory : options.directories) {
-    runs.push_back(report_run(directory, most_characters / options.directories.size(), streams));
+    runs.push_back(
+        report_run(directory, most_characters / options.directories.size(), streams, options.at));
     is_running = is_running || runs.back()["is_running"].get<bool>();
   }
   const std::string page = report_page(runs, streams, is_running);

@@ -39,7 +39,9 @@ std::string pale(const Look& look) {
 
 /// Returns the envelope of a long path of events, else no point.
 std::vector<CurvePoint> envelope_of(const RunResult& result) {
-  const std::vector<CurvePoint> path = event_path_of(result.records, result.labels);
+  const std::size_t rows = rows_before_tail(points_of(result.records));
+  const std::vector<CurvePoint> path =
+      event_path_of(std::span(result.records).first(rows), result.labels);
   if (path.size() <= events_for_envelope) return {};
   return smooth_envelope(path, envelope_window(path.size()));
 }
@@ -76,8 +78,8 @@ void draw_legend(Svg& svg, double left, const std::string& text, std::size_t num
 
 Svg draw_comparison(const RunResult& a, const RunResult& b) {
   const std::array<const RunResult*, 2> results = {&a, &b};
-  const std::array<std::vector<CurvePoint>, 2> points = {points_of(a.records),
-                                                         points_of(b.records)};
+  std::array<std::vector<CurvePoint>, 2> points = {points_of(a.records), points_of(b.records)};
+  for (std::vector<CurvePoint>& curve : points) curve.resize(rows_before_tail(curve));
   std::vector<CurvePoint> all = points[0];
   all.insert(all.end(), points[1].begin(), points[1].end());
   const CurveFrame frame = make_curve_frame(all, frame_top);

@@ -134,6 +134,12 @@ std::size_t RunResult::peak_number() const {
   return row == records.end() ? peak_row(records) : static_cast<std::size_t>(row - records.begin());
 }
 
+Index row_of_choice(const std::string& directory, const std::string& choice) {
+  if (choice != "peak" && choice != "last") return std::atoi(choice.c_str());
+  const RunResult result = read_run_numbers(directory);
+  return choice == "last" ? result.records.back().step : result.peak().step;
+}
+
 RunResult read_run_numbers(const std::string& directory) {
   require_result(directory);
   RunResult result;

@@ -40,6 +40,10 @@ struct RunResult {
   std::size_t peak_number() const;
 };
 
+/// Returns the number of a row that a user chose: "peak" (RunResult::peak), "last", or a number. Of
+/// runs over time it is the step. \throws FileError as read_run_numbers()
+Index row_of_choice(const std::string& directory, const std::string& choice);
+
 /// Reads a result without its body. \throws FileError as read_run_result()
 RunResult read_run_numbers(const std::string& directory);
 

@@ -81,6 +81,18 @@ std::vector<double> particle_sizes(const VtuGrid& grid, const PlotBody& body) {
   return sizes;
 }
 
+/// Reads supports and loads, where the file has them.
+void read_conditions(const VtuGrid& grid, PlotBody& body) {
+  if (const VtuArray* held = grid.find_point_data("held"); held && held->components == 1) {
+    for (const double code : held->values) body.held.push_back(static_cast<int>(code) & 7);
+  }
+  for (const auto& [name, vectors] : {std::pair{"applied_force", &body.forces},
+                                      std::pair{"prescribed_displacement", &body.moves}}) {
+    const VtuArray* found = grid.find_point_data(name);
+    if (found && found->components == 3) *vectors = as_vectors(found->values);
+  }
+}
+
 double length(const Vector3& v) { return std::hypot(v[0], v[1], v[2]); }
 
 }  // namespace
@@ -108,6 +120,7 @@ PlotBody read_body(const VtuGrid& grid, const std::string& path) {
     body.kind.push_back(static_cast<int>(kind));
   }
   read_lines(grid, values_of(grid.find_cell_data("element"), "element", 1, path), body);
+  read_conditions(grid, body);
   body.is_mid_surface = body.dim == 3 && grid.field("thickness", 0.0) > 0.0;
   body.sizes = particle_sizes(grid, body);
   // Breakable bodies are coloured by damage.

@@ -111,6 +111,12 @@ Area legend_area(const CurveFrame& frame, std::span<const PeakLabel> labels,
   return best;
 }
 
+/// Draws a note at the right end of the line of the axis label.
+void draw_note(Svg& svg, const CurveFrame& frame, const std::string& note) {
+  if (note.empty()) return;
+  svg.text({frame.x.pixel_high, curve_figure_height - 12.0}, note, "end", note_style);
+}
+
 void draw_legend(Svg& svg, const Area& area) {
   const double x = area.corner.x + 10.0;
   const double y = area.corner.y + 14.0;
@@ -150,14 +156,48 @@ std::vector<CurvePoint> event_path_of(std::span<const StepRecord> records,
   return breaks_bonds ? event_path(records) : std::vector<CurvePoint>{};
 }
 
+std::size_t rows_before_tail(std::span<const CurvePoint> curve) {
+  constexpr double tail = 0.01;
+  double peak = 0.0, reached = 0.0;
+  for (const CurvePoint& row : curve) peak = std::max(peak, std::abs(row.load));
+  std::size_t rows = curve.size();
+  while (rows > 0 && std::abs(curve[rows - 1].load) < tail * peak) --rows;
+  for (const CurvePoint& row : curve.first(rows)) {
+    reached = std::max(reached, std::abs(row.displacement));
+  }
+  while (rows < curve.size() && std::abs(curve[rows].displacement) <= reached) ++rows;
+  return rows;
+}
+
+std::string note_of_tail(std::size_t rows) {
+  if (rows == 0) return "";
+  return fmt::format("{} last row{} below 1 % of the peak not drawn", rows, rows == 1 ? "" : "s");
+}
+
+Svg draw_columns(const ColumnCurve& curve, const std::string& title) {
+  const CurveFrame frame = make_curve_frame(curve.points, 62.0);
+  Svg svg(curve_figure_width, curve_figure_height);
+  svg.text({frame.x.pixel_low, 32}, title, "start", title_style);
+  draw_axes(svg, frame.x, frame.y, curve.x_label, curve.y_label, Grid::lines);
+  draw_note(svg, frame, curve.note);
+  if (curve.points.empty()) return svg;
+  svg.path(curve_path(frame, curve.points, curve.from_origin ? CurvePoint{} : curve.points.front()),
+           few_events_style);
+  return svg;
+}
+
 Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels& labels,
-                           const std::optional<CurvePoint>& first_peak) {
-  const std::vector<CurvePoint> events = points_of(records);
+                           const std::optional<CurvePoint>& first_peak, bool whole) {
+  std::vector<CurvePoint> events = points_of(records);
+  const std::size_t tail = whole ? 0 : events.size() - rows_before_tail(events);
+  records = records.first(records.size() - tail);
+  events.resize(records.size());
   const CurveFrame frame = make_curve_frame(events, 62.0);
   Svg svg(curve_figure_width, curve_figure_height);
   svg.text({frame.x.pixel_low, 32}, labels.title, "start", title_style);
   draw_axes(svg, frame.x, frame.y, with_unit("displacement", labels.length),
             with_unit("load", labels.force), Grid::lines);
+  draw_note(svg, frame, note_of_tail(tail));
   if (records.empty()) return svg;
 
   const std::vector<CurvePoint> path = event_path_of(records, labels);

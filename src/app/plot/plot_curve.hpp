@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "analysis/quasistatic/load_curve.hpp"
@@ -26,10 +27,29 @@ std::vector<CurvePoint> points_of(std::span<const StepRecord> records);
 std::vector<CurvePoint> event_path_of(std::span<const StepRecord> records,
                                       const PlotLabels& labels);
 
+/// Returns the number of rows before the tail of a curve, which a body leaves that has failed: loads
+/// below a hundredth of the peak up to the end, at displacements beyond those before.
+std::size_t rows_before_tail(std::span<const CurvePoint> curve);
+
+/// Returns the note that a picture leaves out rows of a tail; empty for none.
+std::string note_of_tail(std::size_t rows);
+
 /// Draws load over displacement with the peak marked; a path of more than 200 events has its
 /// envelope.
 /// \param first_peak  from the run's summary; marked where it is not the peak
+/// \param whole       draws the tail too
 Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels& labels,
-                           const std::optional<CurvePoint>& first_peak = {});
+                           const std::optional<CurvePoint>& first_peak = {}, bool whole = false);
+
+/// Two columns of a history.
+struct ColumnCurve {
+  std::string x_label, y_label;
+  std::vector<CurvePoint> points;  ///< `displacement` is along x, `load` along y
+  bool from_origin = false;        ///< both columns are zero in the undeformed state
+  std::string note;                ///< below the axis
+};
+
+/// Draws a column of a history over another.
+Svg draw_columns(const ColumnCurve& curve, const std::string& title);
 
 }  // namespace perilink

@@ -30,7 +30,7 @@ struct Scene {
   const PlotBody& body;
   const std::vector<Vector3>& seen;  ///< deformed, projected
   const BodyPage& page;
-  const ColorBar& colors;
+  const ParticleColors& colors;
   bool square = false;  ///< square lattice in the plane
 
   double spacing_px() const { return body.spacing * page.pixels; }
@@ -38,25 +38,13 @@ struct Scene {
   SvgPoint at(Index i) const { return page.at(seen[i]); }
   /// Returns the shade of a particle; 0 is undamaged.
   int shade(Index i) const {
-    if (body.stress.empty() && !(body.damage[i] > 0.0)) return 0;
-    const double value = body.stress.empty() ? body.damage[i] : body.stress[i] / colors.high;
-    return 1 + std::clamp(static_cast<int>(value * shades), 0, shades - 1);
+    const double value = colors.values[i];
+    if (colors.grey_zero && !(value > 0.0)) return 0;
+    const double part =
+        std::clamp((value - colors.bar.low) / (colors.bar.high - colors.bar.low), 0.0, 1.0);
+    return 1 + std::clamp(static_cast<int>(part * shades), 0, shades - 1);
   }
 };
-
-/// Returns the colour bar, of damage or of stresses from zero to the largest.
-ColorBar color_bar(const PlotBody& body, const PlotLabels& labels) {
-  ColorBar bar;
-  if (body.stress.empty()) return bar;
-  const bool known = !labels.force.empty() && !labels.length.empty();
-  bar.label =
-      body.is_mid_surface
-          ? with_unit("displacement", labels.length)
-          : with_unit("von Mises stress", known ? labels.force + "/" + labels.length + "²" : "");
-  const double largest = *std::max_element(body.stress.begin(), body.stress.end());
-  if (largest > 0.0) bar.high = largest;
-  return bar;
-}
 
 std::string shade_color(int shade) {
   return shade == 0 ? undamaged_color : damage_color((shade - 0.5) / shades);
@@ -96,27 +84,51 @@ void draw_dots(Svg& svg, const Scene& scene) {
   svg.close_group();
 }
 
-/// Draws particles in space as balls, from back to front, without hidden ones.
-void draw_balls(Svg& svg, const Scene& scene) {
-  std::vector<Index> order;
-  for (Index i = 0; i < scene.body.size(); ++i) {
-    if (scene.body.kind[i] == 0) order.push_back(i);
-  }
-  std::stable_sort(order.begin(), order.end(),
-                   [&](Index a, Index b) { return scene.seen[a][2] < scene.seen[b][2]; });
+/// Returns per particle whether it is solid and, in space, not hidden by others.
+/// \param reach  others hide it up to this number of half spacings beside it
+std::vector<std::uint8_t> visible_particles(const Scene& scene, long reach) {
+  constexpr long next_row = 1000003;
+  std::vector<std::uint8_t> visible(scene.seen.size(), 0);
   const double pixel = 0.5 * scene.spacing_px();
   const auto place = [&](Index i) {
     const SvgPoint at = scene.at(i);
-    return static_cast<long>(at.x / pixel) * 1000003L + static_cast<long>(at.y / pixel);
+    return static_cast<long>(at.x / pixel) * next_row + static_cast<long>(at.y / pixel);
   };
+  for (Index i = 0; i < scene.body.size(); ++i) visible[i] = scene.body.kind[i] == 0 ? 1 : 0;
+  if (scene.body.dim == 2) return visible;
   std::unordered_map<long, double> front;
-  for (const Index i : order) front[place(i)] = scene.seen[i][2];
+  for (Index i = 0; i < scene.body.size(); ++i) {
+    if (visible[i] == 0) continue;
+    double& depth = front.try_emplace(place(i), scene.seen[i][2]).first->second;
+    depth = std::max(depth, scene.seen[i][2]);
+  }
+  for (Index i = 0; i < scene.body.size(); ++i) {
+    for (long k = -reach; k <= reach && visible[i] != 0; ++k) {
+      for (long j = -reach; j <= reach; ++j) {
+        const auto other = front.find(place(i) + k * next_row + j);
+        const bool hides =
+            other != front.end() && scene.seen[i][2] < other->second - 1.5 * scene.body.spacing;
+        if (hides) visible[i] = 0;
+      }
+    }
+  }
+  return visible;
+}
+
+/// Draws particles in space as balls, from back to front, without hidden ones.
+void draw_balls(Svg& svg, const Scene& scene) {
+  const std::vector<std::uint8_t> visible = visible_particles(scene, 0);
+  std::vector<Index> order;
+  for (Index i = 0; i < scene.body.size(); ++i) {
+    if (visible[i] != 0) order.push_back(i);
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Index a, Index b) { return scene.seen[a][2] < scene.seen[b][2]; });
   // Surface particles of meshes have half a cell or less.
   const double wide = on_square_lattice(scene.body) ? 1.1 : 1.4;
   svg.open_group("fill=\"none\" stroke-linecap=\"round\"");
   for (const Index i : order) {
     const double size = wide * scene.size_px(i);
-    if (scene.seen[i][2] < front[place(i)] - 1.5 * scene.body.spacing) continue;
     SvgPath dot;
     dot.dot(scene.at(i));
     svg.path(dot, fmt::format("stroke=\"#6b7076\" {}", stroke_width(size)));
@@ -199,7 +211,9 @@ void draw_bond_hairlines(Svg& svg, const Scene& scene) {
   const std::size_t count = scene.body.broken_bonds.size();
   if (count > too_many) return;
   SvgPath path;
-  for (const Ends& ends : scene.body.broken_bonds) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const Ends& ends = scene.body.broken_bonds[k];
+    if (scene.body.broken_at[k] == 0) continue;  // cut by a pre-crack
     if (scene.body.is_loose(ends.first) || scene.body.is_loose(ends.second)) continue;
     if (drawn_opening(scene, ends) > visible_gap) continue;
     path.move_to(scene.at(ends.first));
@@ -210,7 +224,7 @@ void draw_bond_hairlines(Svg& svg, const Scene& scene) {
                              opacity, stroke_width(0.8)));
 }
 
-/// Draws finite elements over the particles that they constrain, unless particles show stresses.
+/// Draws finite elements over the particles that they constrain, unless particles show values in intact parts.
 void draw_elements(Svg& svg, const Scene& scene) {
   SvgPath path;
   for (Index e = 0; e < scene.body.elements.rows(); ++e) {
@@ -218,7 +232,7 @@ void draw_elements(Svg& svg, const Scene& scene) {
     path.move_to(scene.at(corners.back()));
     for (const Index i : corners) path.line_to(scene.at(i));
   }
-  const char* fill = scene.body.stress.empty() ? undamaged_color : "none";
+  const char* fill = scene.colors.grey_zero ? undamaged_color : "none";
   svg.path(path, fmt::format("fill=\"{}\" {}", fill, element_style));
 }
 
@@ -314,21 +328,38 @@ std::string caption_text(const FieldsCaption& caption, const PlotBody& body,
 
 }  // namespace
 
+ParticleColors usual_colors(const PlotBody& body, const PlotLabels& labels) {
+  if (body.stress.empty()) return {body.damage, {}, true};
+  ParticleColors colors{body.stress, {}, false};
+  const bool known = !labels.force.empty() && !labels.length.empty();
+  colors.bar.label =
+      body.is_mid_surface
+          ? with_unit("displacement", labels.length)
+          : with_unit("von Mises stress", known ? labels.force + "/" + labels.length + "²" : "");
+  const double largest = *std::max_element(body.stress.begin(), body.stress.end());
+  if (largest > 0.0) colors.bar.high = largest;
+  return colors;
+}
+
 Svg draw_fields(const PlotBody& body, const FieldsCaption& caption, const PlotLabels& labels,
-                double scale) {
+                double scale, const std::optional<ParticleColors>& chosen) {
   if (!(scale > 0.0)) scale = automatic_scale(body);
   std::vector<Vector3> seen = deformed_positions(body, scale);
   for (Vector3& point : seen) point = view(point, body.dim);
   const BodyPage page = make_page(body, seen);
-  const ColorBar colors = color_bar(body, labels);
+  const ParticleColors colors = chosen ? *chosen : usual_colors(body, labels);
   const Scene scene{body, seen, page, colors, body.dim == 2 && on_square_lattice(body)};
 
   Svg svg(page.width, page.height);
   svg.clip_rect("body", {page.left, page.top}, page.right - page.left, page.bottom - page.top);
   svg.open_group("clip-path=\"url(#body)\"");
-  const std::vector<KeyEntry> key = draw_body(svg, scene, labels.length);
+  std::vector<KeyEntry> key = draw_body(svg, scene, labels.length);
+  const std::vector<KeyEntry> conditions =
+      draw_conditions(svg, page, body, seen, visible_particles(scene, 1));
   svg.close_group();
-  draw_page(svg, page, body.dim, labels, caption_text(caption, body, labels, scale), colors, key);
+  key.insert(key.end(), conditions.begin(), conditions.end());
+  draw_page(svg, page, body.dim, labels, caption_text(caption, body, labels, scale), colors.bar,
+            key);
   return svg;
 }
 

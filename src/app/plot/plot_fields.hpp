@@ -2,9 +2,11 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/plot/plot_body.hpp"
 #include "app/plot/plot_labels.hpp"
+#include "app/plot/plot_page.hpp"
 #include "app/plot/svg.hpp"
 
 namespace perilink {
@@ -17,10 +19,20 @@ struct FieldsCaption {
   std::optional<double> time = std::nullopt;  ///< explicit analyses only
 };
 
-/// Draws the deformed body: particles coloured by damage, or by von Mises stress in elastic
-/// analyses, crack faces, bars and ghosts.
-/// \param scale  factor on the displacements; 0: automatic
+/// Colours of the particles.
+struct ParticleColors {
+  std::vector<double> values;  ///< per particle
+  ColorBar bar;
+  bool grey_zero = false;  ///< values of zero and below have the colour of undamaged particles
+};
+
+/// Returns colours of damage; of elastic analyses of the von Mises stress.
+ParticleColors usual_colors(const PlotBody& body, const PlotLabels& labels);
+
+/// Draws the deformed body: particles with their colours, crack faces, bars and ghosts.
+/// \param scale   factor on the displacements; 0: automatic
+/// \param colors  absent: usual_colors()
 Svg draw_fields(const PlotBody& body, const FieldsCaption& caption, const PlotLabels& labels,
-                double scale);
+                double scale, const std::optional<ParticleColors>& colors = {});
 
 }  // namespace perilink

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,8 @@ struct BodyPage {
   }
 };
 
-/// Returns a page that fits the drawn points, without particles that lost all bonds.
+/// Returns a page that fits the drawn points, without particles that lost all bonds, and arrows of
+/// loads.
 BodyPage make_page(const PlotBody& body, const std::vector<Vector3>& seen);
 
 /// Entry of the key under the picture: a sample drawn with `style` and its name.
@@ -33,6 +35,15 @@ struct KeyEntry {
   std::string style;
   bool dot = false;  ///< the sample is a dot, not a line
 };
+
+/// Draws supports as short lines along the held axes, and forces and prescribed displacements as
+/// arrows outside of the body, at most 60 of each.
+/// \param seen     deformed and projected particles
+/// \param visible  per particle: it is not hidden by others
+/// \return entries of the key
+std::vector<KeyEntry> draw_conditions(Svg& svg, const BodyPage& page, const PlotBody& body,
+                                      const std::vector<Vector3>& seen,
+                                      const std::vector<std::uint8_t>& visible);
 
 /// Meaning of the particle colours.
 struct ColorBar {

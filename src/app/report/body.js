@@ -53,7 +53,9 @@ class Panel {
     this.positions = [...chosen].sort((a, b) => a - b);
     this.slider.max = String(this.positions.length - 1);
     this.slider.disabled = this.player.disabled = this.positions.length < 2;
-    this.position = this.positions.length - 1;
+    const start = this.run.rows.start ?? rows - 1;
+    this.position = this.positions.reduce((best, row, k) =>
+      Math.abs(row - start) < Math.abs(this.positions[best] - start) ? k : best, 0);
     this.row = this.positions[this.position];
   }
   // Broken bonds between nearest neighbours, of which the faces of cracks are drawn.

@@ -10,10 +10,12 @@ namespace {
 
 constexpr int vector_length = -1, mises = -2;
 
-/// Whether an array describes the mesh or a direction, which no colour shows.
+/// Whether an array describes the mesh, supports and loads, or a direction, which no colour shows.
 bool is_left_out(const VtuArray& array) {
-  return array.name == "kind" || array.name == "volume" || array.name == "displacement" ||
-         array.name.ends_with("_direction");
+  const bool is_condition = array.name == "held" || array.name == "applied_force" ||
+                            array.name == "prescribed_displacement";
+  return is_condition || array.name == "kind" || array.name == "volume" ||
+         array.name == "displacement" || array.name.ends_with("_direction");
 }
 
 }  // namespace

@@ -84,20 +84,18 @@ std::size_t peak_of(const ReportedRun& run, const std::vector<StepRecord>& recor
   return result.peak_number();
 }
 
-/// Returns the unit of a gauge of the case: a stress, or a displacement.
-std::string unit_of_gauge(const ReportedRun& run, const std::string& name) {
-  const TomlValue* gauges = run.root.find("gauges");
-  for (const TomlValue& gauge : gauges == nullptr ? std::vector<TomlValue>{} : gauges->items) {
-    const TomlValue* known = gauge.find("name");
-    if (known == nullptr || known->text != name) continue;
-    return gauge.find("stress") != nullptr ? unit_of_quantity("stress", run.units)
-                                           : run.units.length;
-  }
-  return "";
+/// Returns the place of the first row from a chosen one on (row_of_choice).
+std::size_t place_of(const std::string& choice, const std::vector<StepRecord>& records,
+                     std::size_t peak) {
+  if (choice == "peak") return peak;
+  const Index step = choice == "last" ? records.back().step : std::atoi(choice.c_str());
+  const auto row = std::ranges::lower_bound(records, step, {}, &StepRecord::step);
+  return std::min(static_cast<std::size_t>(row - records.begin()), records.size() - 1);
 }
 
-/// Adds the rows of the history. \return row of the peak, or its time, as in fields.pvd
-double add_rows(ReportedRun& run, ReportStreams& streams) {
+/// Adds the rows of the history. \param first  row that is shown first
+/// \return row of the peak, or its time, as in fields.pvd
+double add_rows(ReportedRun& run, ReportStreams& streams, const std::string& first) {
   const std::string path = (run.directory / "history.csv").string();
   const CsvTable table = read_csv(path);
   const std::vector<StepRecord> records = history_records(table, path);
@@ -112,10 +110,9 @@ double add_rows(ReportedRun& run, ReportStreams& streams) {
   rows["columns"] = Json::array();
   for (const std::string& column : table.columns) {
     const bool is_gauge = !is_history_column(column);
-    rows["columns"].push_back(
-        {{"name", printable(column)},
-         {"unit", is_gauge ? unit_of_gauge(run, column) : unit_of_quantity(column, run.units)},
-         {"is_gauge", is_gauge}});
+    rows["columns"].push_back({{"name", printable(column)},
+                               {"unit", unit_of_column(column, run.root, run.units)},
+                               {"is_gauge", is_gauge}});
   }
   if (records.empty()) {
     note(run, "history.csv has no row yet");
@@ -129,6 +126,8 @@ double add_rows(ReportedRun& run, ReportStreams& streams) {
   }
   const std::size_t peak = peak_of(run, records);
   rows["peak"] = {records[peak].displacement, records[peak].load};
+  // Of the rows in the page.
+  rows["start"] = std::ranges::lower_bound(shown, place_of(first, records, peak)) - shown.begin();
   const int time = std::max(table.column("time"), table.column("step"));
   return time < 0 ? 0.0 : table.rows[peak][static_cast<std::size_t>(time)];
 }
@@ -191,14 +190,15 @@ void add_words(ReportedRun& run) {
 
 }  // namespace
 
-Json report_run(const std::string& directory, std::size_t most, ReportStreams& streams) {
+Json report_run(const std::string& directory, std::size_t most, ReportStreams& streams,
+                const std::string& at) {
   require_result(directory);
   ReportedRun run;
   run.directory = directory;
   run.json = Json::object();
   read_summary(run);
   read_case(run, streams);
-  const double peak_time = add_rows(run, streams);
+  const double peak_time = add_rows(run, streams, at);
   const std::size_t used = streams.texts().back().size();
   run.json["body"] =
       report_body(run.directory, peak_time, std::max(most, used) - used, run.units, streams);

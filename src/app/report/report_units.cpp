@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "io/text/input_text.hpp"
+#include "results/history_file.hpp"
 
 namespace perilink {
 namespace {
@@ -92,6 +93,21 @@ std::string unit_of_quantity(std::string_view name, const UnitNames& units) {
     unit += part != nullptr ? *part : std::string(1, letter);
   }
   return unit;
+}
+
+std::string unit_of_column(const std::string& name, const TomlValue& root, const UnitNames& units) {
+  if (is_history_column(name)) return unit_of_quantity(name, units);
+  const TomlValue* gauges = root.find("gauges");
+  for (const TomlValue& gauge : gauges == nullptr ? std::vector<TomlValue>{} : gauges->items) {
+    const TomlValue* known = gauge.find("name");
+    if (known == nullptr || known->text != name) continue;
+    const char* measured = gauge.find("stress") != nullptr     ? "stress"
+                           : gauge.find("about") != nullptr    ? "moment"
+                           : gauge.find("reaction") != nullptr ? "force"
+                                                               : "displacement";
+    return unit_of_quantity(measured, units);
+  }
+  return "";
 }
 
 std::string in_words(std::string_view name) {

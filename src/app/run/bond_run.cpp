@@ -116,8 +116,10 @@ void MovingBondsRun::on_row(const ExplicitRecord& record, const BondRunState& st
   std::vector<double> gauges;
   if (!model_.gauges.empty()) {
     const std::vector<double> secants = state.bonds.secants();
-    gauges = gauge_values(model_, {secants, state.motion.displacement, 1.0, record.load_factor},
-                          neighbourhoods_);
+    gauges = gauge_values(
+        model_, {secants, state.motion.displacement, 1.0, record.load_factor}, neighbourhoods_,
+        measures_reactions(model_.gauges) ? state.reactions() : std::vector<double>{});
+    note_rule(gauges);
   }
   files_->add_row(record, gauges);
   if (files_->fields_are_due(record.time)) write_state(record, state);
@@ -136,10 +138,10 @@ void MovingBondsRun::on_iteration(Index load_step, Index iteration, double resid
                      static_cast<double>(load_step - 1) / steps_);
 }
 
-bool MovingBondsRun::stop_requested() { return callbacks.asks_to_stop(); }
+bool MovingBondsRun::stop_requested() { return has_met_rule() || callbacks.asks_to_stop(); }
 
 bool MovingBondsRun::wants_checkpoint(const ExplicitRecord& /*last*/) {
-  return checkpoint_rows_ > 0 && files_->rows() % checkpoint_rows_ == 0;
+  return !has_met_rule() && checkpoint_rows_ > 0 && files_->rows() % checkpoint_rows_ == 0;
 }
 
 void MovingBondsRun::on_checkpoint(const TimeState& state) { save(pack(state)); }
@@ -164,6 +166,7 @@ class BondRun final : public MovingBondsRun {
   void analyse() override {
     result_ = run_explicit_bonds(model_, built_.inertia, built_.rules, built_.options, *this,
                                  from_ ? &*from_ : nullptr);
+    complete_by_rule(run_outcome());
   }
 
   RunOutcome run_outcome() override { return {result_.termination, result_.reason}; }

@@ -12,11 +12,9 @@
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/plain_text.hpp"
-#include "discretization/bonds.hpp"
 #include "io/checkpoint/pack.hpp"
 #include "model/from_case/separated_body.hpp"
 #include "model/gauges.hpp"
-#include "results/bar_file.hpp"
 #include "solver/ranks/process_ranks.hpp"
 
 namespace perilink {
@@ -44,6 +42,10 @@ DamageRun::DamageRun(const CaseFile& of_case, int on_threads, const RunCallbacks
     : NetworkRun(of_case, on_threads, calls), options_(damage_options(input, threads)) {
   options_.begins_again = true;
   options_.stop_requested = callbacks.stop_requested;
+  options_.rule_met = [this] {
+    const Index stage = records_.last_stage;
+    return met_rule(input, stage > 0 ? input.stages[stage - 1].stop : input.stop, records_.gauges);
+  };
   mark_broken();
   if (const auto note = note_of_separated_body(input, model_, threads)) notes.push_back(*note);
   plan += ", " + counted(model_.unknowns.count, "unknown");
@@ -82,7 +84,11 @@ void DamageRun::follow() {
       const Index every = records_.checkpoint_rows;
       if (every > 0 && row->step % every == 0) go_on_from_checkpoint();
     }
-    if (!run_->has_failed() && !run_->missed_release()) end(run_->last(), *run_);
+    if (run_->missed_release()) return;
+    const DamageResult result = run_->result();
+    if (result.termination == Termination::failed) return;
+    write_peak(result, *run_);
+    end(result.last, *run_);
   } catch (const std::exception& error) {
     if (!run_) throw;
     failure = std::current_exception();
@@ -162,6 +168,11 @@ void DamageRun::tell(Summary& summary) const {
   summary.add_note(note_of_clamps(model_, records_.broken));
   if (const auto text = text_of_peaks(result_, model_, records_.broken)) {
     (input.rebar.empty() ? found.warnings : summary.notes).push_back(*text);
+  }
+  if (input.output.fields_at_peak && peak.load != 0.0 && records_.peaks.find(peak) == nullptr) {
+    summary.add_note(
+        "the state at the peak was not kept, since several deeper falls of the load "
+        "came before a larger load: it has no field file");
   }
   tell_stresses(summary, found);
   tell_quasistatic(summary, input, model_, found, seconds.analysis);
@@ -246,79 +257,6 @@ std::vector<RegionForce> DamageRun::places_at_peak() const {
   return {};
 }
 
-/// Records the largest compression. Before the first break stresses are in proportion to the load.
-void DamageRun::note_compression(const StepRecord& record, const VtuGrid& grid) {
-  const bool by_stages = !input.stages.empty();
-  const double load = by_stages ? 1.0 : std::abs(record.load);
-  if (!(load > 0.0) || (!by_stages && files_->has_fields())) return;
-  const Compression here =
-      largest_compression(model_.network, grid.find_point_data("principal_stress")->values);
-  if (here.times / load > records_.compression.times) {
-    records_.compression = {here.stress / load, here.times / load};
-  }
-}
-
-/// Whether fields are due: at the first row of the run and of each stage, and at requested rows and
-/// numbers of broken bonds. A load step may skip such a number; the next row counts then.
-bool DamageRun::wants_fields(const StepRecord& record) const {
-  if (!files_->has_fields() || record.stage != records_.last_stage) return true;
-  const std::optional<int>& rows = input.output.fields_every_rows;
-  if (rows && record.step % *rows == 0) return true;
-  const Index last = records_.broken_at_fields, broken_bonds = record.broken_bonds;
-  if (broken_bonds == last) return false;
-  const std::vector<int>& at = input.output.fields_at;
-  if (std::any_of(at.begin(), at.end(), [&](int n) { return n > last && n <= broken_bonds; })) {
-    return true;
-  }
-  const std::optional<int>& every = input.output.fields_every;
-  return every && broken_bonds / *every != last / *every;
-}
-
-ModelState DamageRun::model_state(const StepRecord& record, const StepState& state) const {
-  ModelState now{state.secants, state.displacement, scale_of(record), record.load_factor,
-                 records_.set_factors};
-  now.whole = state.whole;
-  return now;
-}
-
-void DamageRun::write_state(const StepRecord& record, StateSource& source) {
-  const Network& network = model_.network;
-  files_->write_fields(record.step, record.step, [&] {
-    if (neighbourhoods_.rows() == 0) {
-      neighbourhoods_ = bonds_of_particles(network.bonds, network.particles.size());
-    }
-    const StepState state = source.state();
-    std::vector<double> motion(state.displacement.begin(), state.displacement.end());
-    for (double& u : motion) u *= scale_of(record);
-    VtuGrid grid = make_field_grid(network, state.secants, motion, moment_of(record, input, model_),
-                                   records_.broken, neighbourhoods_);
-    if (network.is_beam()) {
-      add_section_forces(grid, section_forces(network, state.secants, motion));
-    }
-    if (!network.has_sections()) {
-      add_stresses(grid,
-                   particle_stresses(stress_input(model_, neighbourhoods_, state.secants), motion),
-                   network.dim());
-      note_compression(record, grid);
-      const CrackOpenings openings =
-          crack_openings(network, neighbourhoods_, state.secants, motion);
-      add_openings(grid, network, openings, records_.broken);
-      records_.cracks = widest_cracks(network, openings);
-    }
-    write_reactions(record, places_held_, model_state(record, state), records_.balance);
-    if (!network.bars.bar.empty()) {
-      const BarState bars = bar_state(network, state.secants, motion);
-      add_bars(grid, bars);
-      files_->write_table("bars", record.step, bar_table(network, bars));
-    }
-    if (model_.embedded) {
-      add_hosts(grid, network.particles, model_.embedded->hosts, state.whole);
-    }
-    return grid;
-  });
-  records_.broken_at_fields = record.broken_bonds;
-}
-
 void DamageRun::show_progress(const StepRecord& record) {
   if (!files_->bar().is_due()) return;
   const StopSection& stop = input.stop;
@@ -347,11 +285,12 @@ void DamageRun::add_row(const StepRecord& record, StateSource& source) {
   if (record.stage > 0) records_.set_factors[set_of_stage_[record.stage - 1]] = record.load_factor;
   note_broken(record, source);
   note_places(record, source);
-  std::vector<double> gauges;
-  if (!model_.gauges.empty())
-    gauges = gauge_values(model_, model_state(record, source.state()), neighbourhoods_);
-  files_->add_row(record, gauges);
+  if (!model_.gauges.empty()) {
+    records_.gauges = gauge_values(model_, model_state(record, source.state()), neighbourhoods_);
+  }
+  files_->add_row(record, records_.gauges);
   show_progress(record);
+  if (input.output.fields_at_peak) note_peak(record, source);
   if (wants_fields(record)) write_state(record, source);
   records_.last_element = record.element;
   records_.last_events = record.events;

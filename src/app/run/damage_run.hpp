@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "analysis/quasistatic/event_run.hpp"
+#include "analysis/quasistatic/peak_states.hpp"
 #include "app/run/quasistatic.hpp"
 #include "app/run/run_kind.hpp"
 #include "app/run/run_warnings.hpp"
@@ -48,17 +49,20 @@ class DamageRun final : public NetworkRun {
     Index broken_at_fields = 0;       ///< number of broken bonds in the last field file
     Index last_stage = 0;             ///< stage of the last row
     double highest = 0.0;             ///< |load| so far
+    std::vector<double> gauges;       ///< of the last row
     std::vector<double> set_factors;  ///< per set of Model::sets, in the last row
     std::vector<ToldCrack> cracks;    ///< in the last field file
     std::vector<HighRow> high_rows;
+    PeakStates peaks;
+    Index written_peak = 0;   ///< row of the fields written as those of the peak so far; 0: none
     Compression compression;  ///< at unit load; with stages the largest of all field files
     ReactionBalance balance;
 
     template <class Archive>
     void serialize(Archive& archive) {
       archive(missed_releases, whole, checkpoint_rows, broken, last_element, last_events,
-              broken_at_fields, last_stage, highest, set_factors, cracks, high_rows, compression,
-              balance);
+              broken_at_fields, last_stage, highest, gauges, set_factors, cracks, high_rows, peaks,
+              written_peak, compression, balance);
     }
   };
 
@@ -76,7 +80,12 @@ class DamageRun final : public NetworkRun {
   void mark_broken();
   void note_broken(const StepRecord& record, StateSource& source);
   bool wants_fields(const StepRecord& record) const;
+  // Field files: damage_fields.cpp.
+  VtuGrid fields_of(const StepRecord& record, const StepState& state, bool is_last);
   void write_state(const StepRecord& record, StateSource& source);
+  void note_peak(const StepRecord& record, StateSource& source);
+  bool write_fields_of(const PeakStates::State& peak, StateSource& source);
+  void write_peak(const DamageResult& result, StateSource& source);
   void show_progress(const StepRecord& record);
 
   DamageOptions options_;

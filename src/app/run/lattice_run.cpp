@@ -33,6 +33,7 @@ class LatticeRun final : public RunKind, private ExplicitObserver {
     ExplicitState state(built_.model);
     result_ = run_explicit_analysis(built_.model, state, built_.options, *this,
                                     from_ ? &*from_ : nullptr);
+    complete_by_rule(run_outcome());
   }
 
   std::string model_fingerprint() const override {
@@ -73,15 +74,24 @@ class LatticeRun final : public RunKind, private ExplicitObserver {
         warnings_about(result_, run_facts(input, length, files().peaks().highest().load)));
   }
 
+  std::vector<VtuArray> constant_fields() const override { return condition_fields(built_.places); }
+
  private:
   void on_row(const ExplicitRecord& record, const ExplicitState& state) override {
     const LatticeRows& lattice = built_.model.lattice;
-    std::vector<double> gauges;
+    std::vector<double> gauges, holding;
+    const ModelState then = state_before(record);
+    if (measures_reactions(built_.gauges)) holding = holding_of(state);
     for (const Gauge& gauge : built_.gauges) {
+      if (gauge.force != Gauge::Force::none) {
+        gauges.push_back(gauge_force(built_.places, gauge, then, holding));
+        continue;
+      }
       gauges.push_back(gauge_value(gauge, lattice.dim, [&](Index particle, int axis) {
         return state.displacement[lattice.at(axis, lattice.particle_slot[particle])];
       }));
     }
+    note_rule(gauges);
     files_->add_row(record, gauges);
     if (files_->fields_are_due(record.time)) write_state(record, state);
     files_->show_steps(record, built_.options.steps());
@@ -91,9 +101,9 @@ class LatticeRun final : public RunKind, private ExplicitObserver {
     write_state(last, state);
   }
 
-  bool stop_requested() override { return callbacks.asks_to_stop(); }
+  bool stop_requested() override { return has_met_rule() || callbacks.asks_to_stop(); }
   bool wants_checkpoint(const ExplicitRecord& /*last*/) override {
-    return checkpoint_rows_ > 0 && files_->rows() % checkpoint_rows_ == 0;
+    return !has_met_rule() && checkpoint_rows_ > 0 && files_->rows() % checkpoint_rows_ == 0;
   }
   void on_checkpoint(const TimeState& state) override { save(pack(state)); }
   void restore(const std::string& state) override { unpack(state, from_.emplace()); }
@@ -105,19 +115,29 @@ class LatticeRun final : public RunKind, private ExplicitObserver {
     });
   }
 
-  /// Writes the forces of the previous step, as in the history.
-  void write_reactions(const ExplicitRecord& record, const ExplicitState& state) {
-    const std::vector<SupportRegion> held = support_regions(input, built_.places);
-    if (held.empty()) return;
+  /// Returns the reactions of the previous step, shape (particles, dim).
+  std::vector<double> holding_of(const ExplicitState& state) const {
     const LatticeRows& lattice = built_.model.lattice;
     std::vector<double> forces;
     for (const Index slot : lattice.particle_slot) {
       for (int a = 0; a < lattice.dim; ++a) forces.push_back(state.holding[lattice.at(a, slot)]);
     }
+    return forces;
+  }
+
+  /// Returns the load factor of the previous step, whose forces are known.
+  ModelState state_before(const ExplicitRecord& record) const {
     const double before = std::max(0.0, record.time - built_.options.time_step);
-    const ModelState then{{}, {}, 1.0, ramped_load_factor(before, built_.options.ramp)};
-    files_->write_table("reactions", record.step,
-                        reaction_table(held, built_.places, then, std::move(forces)).text);
+    return {{}, {}, 1.0, ramped_load_factor(before, built_.options.ramp)};
+  }
+
+  /// Writes the forces of the previous step, as in the history.
+  void write_reactions(const ExplicitRecord& record, const ExplicitState& state) {
+    const std::vector<SupportRegion> held = support_regions(input, built_.places);
+    if (held.empty()) return;
+    files_->write_table(
+        "reactions", record.step,
+        reaction_table(held, built_.places, state_before(record), holding_of(state)).text);
   }
 
   ExplicitCase built_;

@@ -40,6 +40,7 @@ class RelaxationRun final : public MovingBondsRun {
   void analyse() override {
     result_ = run_dynamic_relaxation(model_, relaxation_options(input, threads), *this,
                                      from_ ? &*from_ : nullptr);
+    complete_by_rule(run_outcome());
   }
 
   RunOutcome run_outcome() override { return {result_.termination, result_.reason}; }

@@ -49,6 +49,10 @@ void require_raised(const StopSection& there, const StopSection& here, const std
   if (here.load_fraction && (!there.load_fraction || *here.load_fraction > *there.load_fraction)) {
     refuse("load_fraction");
   }
+  if (here.gauge.empty()) return;
+  const bool other = there.gauge != here.gauge;
+  if (other || is_lower(there.above, here.above)) refuse("gauge");
+  if (here.below && (!there.below || *here.below > *there.below)) refuse("gauge");
 }
 
 /// State of earlier results in their summary; empty where it is damaged, as it is written anew.

@@ -20,6 +20,8 @@ std::string table_name(const char* kind, Index step) {
   return fmt::format("{}_{:06}.csv", kind, step);
 }
 
+std::string field_file_name(Index step) { return fmt::format("fields_{:06}.vtu", step); }
+
 bool is_relaxation(const CaseFile& input) {
   return input.analysis.type == AnalysisType::relaxation;
 }
@@ -49,7 +51,7 @@ RunFiles::RunFiles(const CaseFile& input, std::filesystem::path directory, RunCa
       bar_(callbacks_.quiet),
       history_(std::in_place, directory_.string(), input, saved.sizes),
       state_(saved) {
-  write_pvd((directory_ / "fields.pvd").string(), state_.series);
+  write_series();
   remove_later_files();
 }
 
@@ -122,19 +124,30 @@ bool RunFiles::fields_are_due(double time) {
   return due;
 }
 
-void RunFiles::write_fields(Index step, double at, const std::function<VtuGrid()>& make_grid) {
-  const std::string name = fmt::format("fields_{:06}.vtu", step);
-  add_to_series(at, name, [&] { write_vtu((directory_ / name).string(), make_grid()); });
+bool RunFiles::write_fields(Index step, double at, const std::function<VtuGrid()>& make_grid) {
+  const std::string name = field_file_name(step);
+  if (std::ranges::find(state_.series, name, &PvdEntry::file) != state_.series.end()) return false;
+  const Timer timer;
+  VtuGrid grid = make_grid();
+  grid.point_data.insert(grid.point_data.end(), constant_fields_.begin(), constant_fields_.end());
+  write_vtu((directory_ / name).string(), grid);
+  const auto after = std::ranges::upper_bound(state_.series, at, {}, &PvdEntry::time);
+  state_.series.insert(after, {at, name});
+  write_series();
+  seconds_writing_ += timer.seconds();
+  return true;
 }
 
-void RunFiles::add_to_series(double at, const std::string& name,
-                             const std::function<void()>& write) {
-  if (!state_.series.empty() && state_.series.back().file == name) return;
-  const Timer timer;
-  write();
-  state_.series.push_back({at, name});
+void RunFiles::remove_fields(Index step) {
+  const std::string name = field_file_name(step);
+  std::erase_if(state_.series, [&](const PvdEntry& entry) { return entry.file == name; });
+  write_series();  // before the files that it names
+  std::filesystem::remove(directory_ / name);
+  for (const char* kind : tables) std::filesystem::remove(directory_ / table_name(kind, step));
+}
+
+void RunFiles::write_series() const {
   write_pvd((directory_ / "fields.pvd").string(), state_.series);
-  seconds_writing_ += timer.seconds();
 }
 
 void RunFiles::write_table(const char* kind, Index step, const std::string& text) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/quasistatic/load_curve.hpp"
@@ -56,10 +57,15 @@ class RunFiles {
   /// Whether fields are due at the last time row. They are due at the first row and at the first
   /// one at or after each of output.fields_times; in a relaxation at every row.
   bool fields_are_due(double time);
+  /// Adds point fields to all field files.
+  void add_to_fields(std::vector<VtuArray> constant) { constant_fields_ = std::move(constant); }
   /// Writes fields_STEP.vtu, unless it exists.
   /// \param at         time or load factor of the file in fields.pvd
   /// \param make_grid  returns the contents
-  void write_fields(Index step, double at, const std::function<VtuGrid()>& make_grid);
+  /// \return whether it was written
+  bool write_fields(Index step, double at, const std::function<VtuGrid()>& make_grid);
+  /// Removes fields_STEP.vtu and the tables beside it. \throws FileError
+  void remove_fields(Index step);
   /// Writes KIND_STEP.csv next to the field file; KIND is one of `tables`.
   void write_table(const char* kind, Index step, const std::string& text);
   static constexpr std::array<const char*, 2> tables = {"bars", "reactions"};
@@ -76,7 +82,7 @@ class RunFiles {
   double seconds_writing() const { return seconds_writing_; }
 
  private:
-  void add_to_series(double at, const std::string& name, const std::function<void()>& write);
+  void write_series() const;
   void remove_later_files() const;
 
   const CaseFile& input_;
@@ -85,6 +91,7 @@ class RunFiles {
   ProgressBar bar_;
   std::optional<HistoryFile> history_;
   State state_;
+  std::vector<VtuArray> constant_fields_;
   double seconds_writing_ = 0.0;
 };
 

@@ -9,6 +9,7 @@
 #include "base/build_info.hpp"
 #include "io/checkpoint/checkpoint.hpp"
 #include "io/checkpoint/pack.hpp"
+#include "model/gauges.hpp"
 #include "results/calibration_text.hpp"
 #include "results/state_file.hpp"
 #include "results/summary_file.hpp"
@@ -22,12 +23,14 @@ void RunKind::open(const std::filesystem::path& directory, const RunCallbacks& c
   since_opened_.restart();
   if (saved.empty()) {
     files_ = std::make_unique<RunFiles>(input, directory, calls);
+    files_->add_to_fields(constant_fields());
     return;
   }
   RunFiles::State files;
   std::string state;
   unpack(saved, files, seconds.analysis, state);
   files_ = std::make_unique<RunFiles>(input, directory, calls, files);
+  files_->add_to_fields(constant_fields());
   restore(state);
 }
 
@@ -43,6 +46,16 @@ Index RunKind::rows_of_time(double elements, double particles, double steps) con
   constexpr double per_element = 2e-9, per_particle = 5e-7;  // of a step, of a state [s]
   const double row = std::max(1.0, steps) * per_element * std::max(1.0, elements);
   return rows_between_checkpoints(per_particle * particles, row);
+}
+
+void RunKind::note_rule(std::span<const double> gauges) {
+  if (!met_rule_) met_rule_ = met_rule(input, input.stop, gauges);
+}
+
+void RunKind::complete_by_rule(RunOutcome run_outcome) const {
+  if (!met_rule_ || run_outcome.termination != Termination::interrupted) return;
+  run_outcome.termination = Termination::completed;
+  run_outcome.reason = *met_rule_;
 }
 
 std::string NetworkRun::model_fingerprint() const { return fingerprint_of(model_); }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,6 +56,8 @@ class RunKind {
   virtual RunOutcome run_outcome() = 0;
   /// Returns a text that identifies the model; empty if runs of this type are not saved.
   virtual std::string model_fingerprint() const { return {}; }
+  /// Returns the point fields of supports and loads, condition_fields().
+  virtual std::vector<VtuArray> constant_fields() const { return {}; }
   /// Adds the results of this analysis type to the summary.
   virtual void tell(Summary& summary) const = 0;
 
@@ -79,10 +82,19 @@ class RunKind {
   /// \param particles  number of particles in a saved state
   /// \param steps      between two rows
   Index rows_of_time(double elements, double particles, double steps) const;
+  /// Notes whether a row of a run over time has met the rule of [stop] by a gauge.
+  void note_rule(std::span<const double> gauges);
+  /// Whether a row of a run over time has met this rule, after which there are no checkpoints.
+  bool has_met_rule() const { return met_rule_.has_value(); }
+  /// Makes a run over time complete that was stopped by this rule.
+  void complete_by_rule(RunOutcome run_outcome) const;
 
   std::filesystem::path directory_;
   Timer since_opened_;
   std::unique_ptr<RunFiles> files_;
+
+ private:
+  std::optional<std::string> met_rule_;  ///< why the run is complete
 };
 
 /// A run on a network of bonds, or on linear elements.
@@ -90,6 +102,7 @@ class NetworkRun : public RunKind {
  public:
   NetworkRun(const CaseFile& of_case, int on_threads, const RunCallbacks& calls);
   std::string model_fingerprint() const override;
+  std::vector<VtuArray> constant_fields() const override { return condition_fields(model_); }
 
  protected:
   /// Returns a rate, "3.2 M bond-steps/s".

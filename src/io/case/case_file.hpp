@@ -210,8 +210,11 @@ struct GaugeSection {
   std::string name;
   std::vector<Vector3> between;  ///< two points: displacement of the second relative to the first
   std::optional<Vector3> at;
-  std::string region;  ///< mean over its particles
-  /// Axis of the displacement; absent between two points: the direction from one to the other.
+  std::string region;            ///< mean over its particles
+  std::string reaction;          ///< region with supports or loads: the force on it
+  std::optional<Vector3> about;  ///< with a reaction: point of its moment, instead of the force
+  /// Axis of the displacement, force or moment; absent between two points: the direction from one
+  /// to the other.
   std::optional<int> axis;
   std::optional<std::array<int, 2>> stress;  ///< axes of a component of the stress, ascending
 };
@@ -246,6 +249,8 @@ struct StopSection {
   std::optional<int> broken_bonds;
   std::optional<double> load_fraction;  ///< load factor over its peak
   std::optional<double> displacement;
+  std::string gauge;                   ///< name of a gauge; empty: none
+  std::optional<double> above, below;  ///< one of them: value of the gauge
 };
 
 /// [[stages]]: a part of the loads changes while the other loads stay constant. A stage ends at a
@@ -279,6 +284,7 @@ struct OutputSection {
   std::vector<int> fields_at;            ///< numbers of broken bonds at which fields are written
   std::optional<int> fields_every;       ///< number of broken bonds between fields
   std::optional<int> fields_every_rows;  ///< rows of history.csv between fields
+  bool fields_at_peak = true;            ///< for type = damage: fields are written at the peak load
   std::vector<double> fields_times;      ///< for type = explicit: times of fields [time]
   /// Rows of history.csv between checkpoints; 0: none; absent: chosen by the cost.
   std::optional<int> checkpoint_every;

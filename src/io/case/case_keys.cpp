@@ -291,14 +291,15 @@ const std::vector<KeySchema> analysis_keys = {{"type", types},
                                               {"tolerance", set_aside(damage | explicit_)},
                                               {"iterations", of_relaxation}};
 
-/// Keys without exceptions, separated by spaces.
-std::vector<KeySchema> plain(std::string_view words) {
+/// Keys without exceptions, separated by spaces, and others.
+std::vector<KeySchema> plain(std::string_view words, const std::vector<KeySchema>& others = {}) {
   std::vector<KeySchema> keys;
   while (!words.empty()) {
     const std::size_t length = std::min(words.find(' '), words.size());
     keys.emplace_back("").name = words.substr(0, length);
     words.remove_prefix(std::min(length + 1, words.size()));
   }
+  keys.insert(keys.end(), others.begin(), others.end());
   return keys;
 }
 
@@ -310,7 +311,15 @@ const std::vector<KeySchema> rebar_keys = plain(
     "ties_break perimeter hooks bends prestrain stage");
 
 const std::vector<KeySchema> stage_keys =
-    plain("name loads to to_load broken_bonds load_fraction displacement");
+    plain("name loads to to_load broken_bonds load_fraction displacement gauge above below");
+const std::vector<KeySchema> stop_keys =
+    plain("gauge above below",
+          {{"broken_bonds", of_events}, {"load_fraction", of_events}, {"displacement", of_events}});
+const std::vector<KeySchema> gauge_keys =
+    plain("name between at region reaction about axis",
+          {{"stress",
+            {{shell | beam, "is given, but stresses of shells and beams are not computed",
+              "give `axis`"}}}});
 const std::vector<KeySchema> random_keys =
     plain("property materials distribution variation correlation_length seed");
 
@@ -367,24 +376,16 @@ const std::vector<TableSchema>& case_schema() {
         {"alert_strain", release_strains},
         {"halo", set_aside(elastic)}},
        hosts},
-      {"gauges",
-       true,
-       {"name",
-        "between",
-        "at",
-        "region",
-        "axis",
-        {"stress",
-         {{shell | beam, "is given, but stresses of shells and beams are not computed",
-           "give `axis`"}}}}},
+      {"gauges", true, gauge_keys},
       {"analysis", false, analysis_keys},
-      {"stop", false, {"broken_bonds", "load_fraction", "displacement"}, of_damage},
+      {"stop", false, stop_keys, set_aside(elastic)},
       {"stages", true, stage_keys, stages},
       {"output",
        false,
        {{"fields_at", of_damage},
         {"fields_every", of_damage},
         {"fields_every_rows", of_damage},
+        {"fields_at_peak", of_damage},
         {"fields_times", of_time},
         {"checkpoint_every", set_aside(elastic)}}},
   };

@@ -139,6 +139,53 @@ TEST(Gauges, LookPastTheRotationsOfMicropolarParticles) {
   expect_values_of_linear_displacement(input);
 }
 
+/// The internal forces of a uniform strain balance: what holds the lower end pulls against the rest.
+TEST(Gauges, MeasureForcesAndMoments) {
+  CaseFile input = strip_case();
+  GaugeSection pull = gauge_of("pull", 1);
+  pull.reaction = "upper end";
+  GaugeSection hold = gauge_of("hold", 1);
+  hold.reaction = "lower end";
+  GaugeSection moment = gauge_of("moment", std::nullopt);
+  moment.reaction = "upper end";
+  moment.about = {-30.0, 5.0, 0.0};
+  input.gauges = {pull, hold, moment};
+  const Model model = build_model(input);
+  ModelState state{{}, {}, 1.0, 0.5};
+  const std::vector<double> still(model.loads.forces.size(), 0.0);
+  state.motion = still;
+  Csr neighbourhoods;
+  std::vector<double> values = gauge_values(model, state, neighbourhoods);
+  EXPECT_NEAR(values[0], 6.0, 1e-12) << "half of the load";
+  EXPECT_EQ(values[1], 0.0);
+  EXPECT_NEAR(values[2], 6.0 * (20.0 + 30.0), 1e-10) << "spread evenly about x = 20";
+  std::vector<double> holding(still.size(), 0.0);
+  for (std::size_t slot = 1; slot < 10; slot += 2) holding[slot] = -2.0;  // the lowest row
+  values = gauge_values(model, state, neighbourhoods, holding);
+  EXPECT_NEAR(values[1], -10.0, 1e-12);
+  EXPECT_TRUE(measures_reactions(model.gauges));
+  EXPECT_EQ(model.gauges[1].place.substr(0, 8), "reaction");
+
+  input.gauges[0].reaction = "middle";
+  expect_refused(input, "gauges[1].reaction", "whose particles have neither supports nor loads");
+}
+
+TEST(Gauges, EndARunAtAValue) {
+  CaseFile input = strip_with_gauges();
+  StopSection stop;
+  const std::vector<double> values = {0.0, 0.0, 0.25, 0.0, 0.0, 0.0};
+  EXPECT_EQ(met_rule(input, stop, values), std::nullopt);
+  stop.gauge = "point";
+  stop.above = 0.3;
+  EXPECT_EQ(met_rule(input, stop, values), std::nullopt);
+  stop.above = 0.25;
+  EXPECT_EQ(met_rule(input, stop, values), "the gauge \"point\" is 0.25, above 0.25");
+  stop.above.reset();
+  stop.below = 0.5;
+  EXPECT_EQ(met_rule(input, stop, values), "the gauge \"point\" is 0.25, below 0.5");
+  EXPECT_EQ(met_rule(input, stop, {}), std::nullopt) << "before the first row";
+}
+
 TEST(Gauges, KnowTheirPlaces) {
   CaseFile input = strip_with_gauges();
   EXPECT_EQ(build_model(input).gauges[3].name, "mean");

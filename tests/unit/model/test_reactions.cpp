@@ -117,6 +117,30 @@ TEST(Reactions, KnowWhatIsHeld) {
 }
 
 /// The middle of the facet from x = 10 to 20 lies in the region, its corners do not all.
+TEST(Reactions, SupportsAndLoadsAreFields) {
+  CaseFile input = elastic_strip();
+  input.supports[0].fix = {true, false};
+  DisplacementSection down;
+  down.region = "lower end";
+  down.value[1] = -0.5;
+  input.displacements.push_back(down);
+  const Model model = build_model(input);
+  const std::vector<VtuArray> fields = condition_fields(model);
+  ASSERT_EQ(fields.size(), 3u);
+  EXPECT_EQ(fields[0].name, "held");
+  EXPECT_EQ(fields[0].values[0], 3.0);
+  EXPECT_EQ(fields[0].values.back(), 0.0);
+  EXPECT_EQ(fields[1].name, "applied_force");
+  double sum = 0.0;
+  for (std::size_t k = 1; k < fields[1].values.size(); k += 3) sum += fields[1].values[k];
+  EXPECT_NEAR(sum, 12.0, 1e-12);
+  EXPECT_EQ(fields[2].name, "prescribed_displacement");
+  EXPECT_EQ(fields[2].values[1], -0.5);
+
+  input = elastic_strip();
+  EXPECT_EQ(condition_fields(build_model(input)).size(), 2u) << "nothing is displaced";
+}
+
 TEST(Reactions, OfSpringsCountParticlesAroundTheirFacets) {
   CaseFile input = elastic_strip();
   input.regions.push_back({"part", {{4.0, 80.0, 0.0}, {16.0, 80.0, 0.0}}, {}, ""});

@@ -125,6 +125,31 @@ void Equilibrium::restore(std::span<const Index> elements) {
   restored_ = restored_ || !elements.empty();
 }
 
+/// Displacements of an earlier state are wrong only away from elements that can fail, where the
+/// stiffness never changes. The residual of that state therefore gives the correction with any
+/// later K^-1.
+std::vector<double> Equilibrium::completed(const StepState& earlier) {
+  std::vector<double> motion(earlier.displacement.begin(), earlier.displacement.end());
+  const bool may_lack =
+      update_->can_follow_a_part() && !work_.is_driven() && solution_.permanent() == nullptr;
+  if (!may_lack) return motion;
+  const Unknowns& unknowns = body_.unknowns();
+  std::vector<double> forces = internal_force(body_.network(), earlier.secants, motion).forces;
+  const Loads& loads = solution_.growing().loads();
+  for (std::size_t slot = 0; slot < forces.size(); ++slot) {
+    forces[slot] = loads.forces[slot] - forces[slot];
+  }
+  std::vector<double> residual = unknowns.restrict(forces);
+  const double size = std::sqrt(scalar_product(residual, residual));
+  if (size <= tolerance_ * solution_.growing().field().load_norm) return motion;
+  update_->inverse().solve(residual, residual);
+  const std::vector<double> correction = unknowns.expand(residual);
+  for (std::size_t slot = 0; slot < motion.size(); ++slot) {
+    motion[slot] += correction[slot] - unknowns.prescribed[slot];
+  }
+  return motion;
+}
+
 LoadWork Equilibrium::work() {
   LoadWork work = work_of_growing();
   work.constant = solution_.constant_work();

@@ -47,6 +47,10 @@ class EventEngine {
   /// width). They include rotations and prescribed displacements.
   virtual std::span<const double> displacement() = 0;
 
+  /// Returns the displacements of an earlier state, which were current wherever an element can
+  /// fail, current everywhere; not in runs by stages.
+  virtual std::vector<double> completed(const StepState& earlier) = 0;
+
   /// Returns displacements that are current wherever an element can fail, without a solve.
   virtual std::span<const double> where_elements_fail() = 0;
 

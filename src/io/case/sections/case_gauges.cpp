@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/plain_text.hpp"
+#include "io/case/case_schema.hpp"
 #include "io/case/case_words.hpp"
 #include "io/case/sections/case_gauges.hpp"
 #include "io/case/sections/case_kinds.hpp"
@@ -30,6 +31,21 @@ std::vector<std::string_view> stress_names(int dim) {
   return {"xx", "yy", "zz", "xy", "yz", "xz"};
 }
 
+/// Checks the keys beside `reaction`.
+void read_reaction(const CaseTable& table, int dim, const GaugeSection& gauge) {
+  if (table.has("stress")) {
+    table.refuse("stress", "is given together with `reaction`", "give `axis` for a force");
+  }
+  if (dim == 2 && gauge.about) {
+    if (table.has("axis")) {
+      table.refuse("axis", "is given together with `about`",
+                   "a moment in the plane turns in it; delete one of the two");
+    }
+  } else {
+    table.need("axis", table.text("axis"), gauge.about ? "the axis of the moment" : "x or y");
+  }
+}
+
 }  // namespace
 
 std::string stress_name(const std::array<int, 2>& axes) {
@@ -44,7 +60,7 @@ GaugeSection read_gauge(const CaseTable& table, const BodySection& body) {
     table.refuse("name", fmt::format("is {}", quoted(gauge.name)),
                  "use letters, digits, _ and - (not as the first), since it heads a column");
   }
-  table.need_one_of({"between", "at", "region"});
+  table.need_one_of({"between", "at", "region", "reaction"});
   assign(gauge.between, table.vectors("between", dim));
   if (table.has("between") && gauge.between.size() != 2) {
     table.refuse("between", "holds " + counted(gauge.between.size(), "point"),
@@ -52,7 +68,15 @@ GaugeSection read_gauge(const CaseTable& table, const BodySection& body) {
   }
   gauge.at = table.vector("at", dim);
   assign(gauge.region, table.text("region"));
-  if (table.has("between")) {
+  assign(gauge.reaction, table.text("reaction"));
+  gauge.about = table.vector("about", dim);
+  if (gauge.about && gauge.reaction.empty()) {
+    table.refuse("about", "is given without `reaction`",
+                 "it is the point about which the moment of a reaction counts");
+  }
+  if (table.has("reaction")) {
+    read_reaction(table, dim, gauge);
+  } else if (table.has("between")) {
     if (table.has("stress")) {
       table.refuse("stress", "is given together with `between`",
                    "measure a stress `at` a point or in a `region`");
@@ -80,6 +104,8 @@ void write_gauges(TomlWriter& out, const CaseFile& input) {
     if (!points.empty()) out.write("between", points);
     if (gauge.at) out.write("at", *gauge.at, dim);
     if (!gauge.region.empty()) out.write("region", gauge.region);
+    if (!gauge.reaction.empty()) out.write("reaction", gauge.reaction);
+    if (gauge.about) out.write("about", *gauge.about, dim);
     if (gauge.axis) out.write("axis", axis_names[*gauge.axis]);
     if (gauge.stress) out.write("stress", stress_name(*gauge.stress));
   }
@@ -108,7 +134,26 @@ void refuse_stress(const CaseFile& input, const std::string& key) {
 
 }  // namespace
 
+namespace {
+
+/// \param table  "stop" or "stages[2]"
+void check_rule(const CaseFile& input, const StopSection& stop, const std::string& table) {
+  if (stop.gauge.empty()) return;
+  std::vector<std::string_view> names;
+  for (const GaugeSection& gauge : input.gauges) names.push_back(gauge.name);
+  if (std::ranges::find(names, stop.gauge) != names.end()) return;
+  throw InputError(input.where(table + ".gauge"),
+                   fmt::format("is {}, but no gauge has this name", quoted(stop.gauge)),
+                   names.empty() ? "add [[gauges]] with this name" : suggest(stop.gauge, names));
+}
+
+}  // namespace
+
 void check_gauges(const CaseFile& input) {
+  check_rule(input, input.stop, "stop");
+  for (std::size_t k = 0; k < input.stages.size(); ++k) {
+    check_rule(input, input.stages[k].stop, item_key("stages", k));
+  }
   for (std::size_t k = 0; k < input.gauges.size(); ++k) {
     const GaugeSection& gauge = input.gauges[k];
     const auto named = [&](const GaugeSection& other) { return other.name == gauge.name; };

@@ -183,7 +183,11 @@ CaseFile parse_case(const std::string& text, const std::string& path,
   input.elements = read_elements(document.table("elements"));
   input.analysis = read_analysis(document.table("analysis"), input.analysis.type);
   const StopSection stop = read_stop(document.table("stop"));
-  if (input.analysis.type == AnalysisType::damage) input.stop = stop;
+  if (input.analysis.type == AnalysisType::damage) {
+    input.stop = stop;
+  } else if (input.analysis.type != AnalysisType::elastic) {
+    input.stop = {{}, {}, {}, stop.gauge, stop.above, stop.below};
+  }
   input.stages = document.list(
       "stages", [](const CaseTable& table, std::size_t) { return read_stage(table); });
   input.output = read_output(document.table("output"), input.analysis.type);

@@ -353,9 +353,12 @@ void check_rules(const CaseFile& input) {
                     Reserved::refused);
   }
   for (std::size_t i = 0; i < input.gauges.size(); ++i) {
-    if (input.gauges[i].region.empty()) continue;
-    check_reference(input, names, item_key("gauges", i, "region"), input.gauges[i].region,
-                    Reserved::allowed);
+    const GaugeSection& gauge = input.gauges[i];
+    for (const auto& [key, region] :
+         {std::pair{"region", &gauge.region}, std::pair{"reaction", &gauge.reaction}}) {
+      if (!region->empty())
+        check_reference(input, names, item_key("gauges", i, key), *region, Reserved::allowed);
+    }
   }
   check_gauges(input);
   for (std::size_t k = 0; k < input.rebar.size(); ++k) {

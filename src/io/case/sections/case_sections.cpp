@@ -179,6 +179,14 @@ StopSection read_stop(const CaseTable& table) {
                  "0.1 stops the run when the load has fallen to a tenth of its peak");
   }
   stop.displacement = table.positive("displacement");
+  assign(stop.gauge, table.text("gauge"));
+  stop.above = table.number("above");
+  stop.below = table.number("below");
+  if (!stop.gauge.empty()) table.need_one_of({"above", "below"});
+  for (const char* limit : {"above", "below"}) {
+    if (!table.has(limit) || !stop.gauge.empty()) continue;
+    table.refuse(limit, "is given without `gauge`", "name the gauge whose value it is");
+  }
   return stop;
 }
 
@@ -194,6 +202,7 @@ OutputSection read_output(const CaseTable& table, AnalysisType type) {
   }
   output.fields_every = table.integer("fields_every", 1, largest_count);
   output.fields_every_rows = table.integer("fields_every_rows", 1, largest_count);
+  assign(output.fields_at_peak, table.boolean("fields_at_peak"));
   output.checkpoint_every = table.integer("checkpoint_every", 0, largest_count);
   assign(output.fields_times, table.numbers("fields_times"));
   for (std::size_t i = 0; i < output.fields_times.size(); ++i) {

@@ -22,7 +22,7 @@ StageSection read_stage(const CaseTable& table) {
   stage.stop = read_stop(table);
   stage.to_load = table.number("to_load");
   if (!stage.to && !stage.to_load) return stage;
-  for (const char* rule : {"to_load", "broken_bonds", "load_fraction", "displacement"}) {
+  for (const char* rule : {"to_load", "broken_bonds", "load_fraction", "displacement", "gauge"}) {
     const std::string end = stage.to ? "to" : "to_load";
     if (!table.has(rule) || end == rule) continue;
     table.refuse(rule, fmt::format("is given together with `{}`", end),
@@ -61,7 +61,7 @@ void refuse_stages_of_loads(CaseFile& input) {
 /// Refuses keys that stages exclude.
 void refuse_beside_stages(const CaseFile& input) {
   const StopSection& stop = input.stop;
-  if (stop.broken_bonds || stop.load_fraction || stop.displacement) {
+  if (stop.broken_bonds || stop.load_fraction || stop.displacement || !stop.gauge.empty()) {
     throw InputError(input.where("stop"), "is given, but the case has [[stages]]",
                      "move its rules to the stages that they end");
   }
@@ -107,14 +107,14 @@ std::vector<std::string_view> check_names(const CaseFile& input) {
 void refuse_endless(const CaseFile& input, std::size_t i) {
   const StageSection& stage = input.stages[i];
   const StopSection& stop = stage.stop;
-  const bool ends =
-      stage.to || stage.to_load || stop.broken_bonds || stop.load_fraction || stop.displacement;
+  const bool ends = stage.to || stage.to_load || stop.broken_bonds || stop.load_fraction ||
+                    stop.displacement || !stop.gauge.empty();
   if (ends || i + 1 == input.stages.size()) return;
-  throw InputError(
-      input.where(item_key("stages", i)),
-      fmt::format("goes on until the body collapses, so that stage {} never begins",
-                  quoted(input.stages[i + 1].name)),
-      "give it `to` or `to_load`, or one of `displacement`, `load_fraction`, `broken_bonds`");
+  throw InputError(input.where(item_key("stages", i)),
+                   fmt::format("goes on until the body collapses, so that stage {} never begins",
+                               quoted(input.stages[i + 1].name)),
+                   "give it `to` or `to_load`, or one of `displacement`, `load_fraction`, "
+                   "`broken_bonds`, `gauge`");
 }
 
 }  // namespace
@@ -155,6 +155,16 @@ void write_stop(TomlWriter& out, const StopSection& stop) {
   out.write("broken_bonds", stop.broken_bonds);
   out.write("load_fraction", stop.load_fraction);
   out.write("displacement", stop.displacement);
+  if (stop.gauge.empty()) return;
+  out.write("gauge", stop.gauge);
+  out.write("above", stop.above);
+  out.write("below", stop.below);
+}
+
+void write_gauge_rule(TomlWriter& out, const StopSection& stop) {
+  if (stop.gauge.empty()) return;
+  out.header("[stop]");
+  write_stop(out, stop);
 }
 
 void write_stage(TomlWriter& out, const StageSection& stage) {

@@ -162,6 +162,7 @@ void write_run(TomlWriter& out, const CaseFile& input) {
   out.write("type", word_of(input.analysis.type));
   if (input.analysis.type == AnalysisType::explicit_) {
     write_explicit_analysis(out, input);
+    write_gauge_rule(out, input.stop);
     out.header("[output]");
     out.write("fields_times", input.output.fields_times);
     out.write("checkpoint_every", input.output.checkpoint_every);
@@ -192,6 +193,7 @@ void write_run(TomlWriter& out, const CaseFile& input) {
   out.write("fields_at", input.output.fields_at);
   out.write("fields_every", input.output.fields_every);
   out.write("fields_every_rows", input.output.fields_every_rows);
+  out.write("fields_at_peak", input.output.fields_at_peak);
   out.write("checkpoint_every", input.output.checkpoint_every);
 }
 

@@ -115,6 +115,78 @@ TEST_F(Plot, WithoutASummaryTheDirectoryIsTheTitle) {
             std::string::npos);
 }
 
+TEST_F(Plot, DrawsAColumnOverAnother) {
+  std::ofstream(directory_ / "summary.json") << R"({"status": "completed", "units": "kip, in"})";
+  PlotOptions options{directory_.string(), "", 0.0};
+  options.y = "strain_energy";
+  EXPECT_EQ(plot_results(options), 0);
+  const std::string drawn = text("strain_energy_over_displacement.svg");
+  EXPECT_NE(drawn.find("displacement (in)"), std::string::npos);
+  EXPECT_NE(drawn.find("strain energy (kip in)"), std::string::npos);
+  EXPECT_FALSE(fs::exists(directory_ / "load_displacement.svg")) << "only the curve asked for";
+}
+
+TEST_F(Plot, UnknownNamesAreRefusedWithASuggestion) {
+  write_fields();
+  const auto fault = [&](PlotOptions options) {
+    options.directory = directory_.string();
+    try {
+      plot_results(options);
+    } catch (const FileError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  PlotOptions options;
+  options.x = "displacment";
+  EXPECT_NE(fault(options).find("--x displacment: history.csv has no such column\n"
+                                "  did you mean `displacement`?"),
+            std::string::npos);
+  options.x.clear();
+  options.field = "damages";
+  EXPECT_NE(fault(options).find("did you mean `damage`?"), std::string::npos);
+  options.field.clear();
+  options.range = {2.0, 1.0};
+  EXPECT_NE(fault(options).find("--range 2 1: the first number must be below"), std::string::npos);
+  options.range.clear();
+  options.at = "3";
+  EXPECT_NE(fault(options).find("there is no file of fields of row 3"), std::string::npos);
+}
+
+TEST_F(Plot, DrawsTheFieldOfARow) {
+  const VtuGrid grid = test::make_cracked_field({}, true);
+  write_vtu((directory_ / "fields_000000.vtu").string(), grid);
+  write_vtu((directory_ / "fields_000002.vtu").string(), grid);
+  write_pvd((directory_ / "fields.pvd").string(),
+            {{0.0, "fields_000000.vtu"}, {2.0, "fields_000002.vtu"}});
+  PlotOptions options{directory_.string(), "", 0.0};
+  options.at = "peak";  // the first row has the largest load
+  options.field = "displacement_x";
+  options.range = {0.0, 300.0};
+  EXPECT_EQ(plot_results(options), 0);
+  const std::string drawn = text("fields_5_displacement_x.svg");  // the file says that it is row 5
+  EXPECT_NE(drawn.find(">displacement x<"), std::string::npos);
+  EXPECT_NE(drawn.find(">200<"), std::string::npos) << "a tick of the range";
+  EXPECT_FALSE(fs::exists(directory_ / "load_displacement.svg"));
+}
+
+TEST_F(Plot, PngNeedsItsProgram) {
+  const char* path = std::getenv("PATH");
+  const std::string before = path == nullptr ? "" : path;
+  setenv("PATH", directory_.c_str(), 1);
+  PlotOptions options{directory_.string(), "", 0.0};
+  options.png = true;
+  EXPECT_THROW(plot_results(options), FileError);
+  EXPECT_FALSE(fs::exists(directory_ / "load_displacement.svg"));
+  std::ofstream(directory_ / "rsvg-convert")
+      << "#!/bin/sh\necho \"$@\" > " << directory_.string() << "/words\n";
+  fs::permissions(directory_ / "rsvg-convert", fs::perms::owner_all);
+  setenv("PATH", (directory_.string() + ":" + before).c_str(), 1);
+  EXPECT_EQ(plot_results(options), 0);
+  setenv("PATH", before.c_str(), 1);
+  EXPECT_NE(text("words").find("load_displacement.png"), std::string::npos);
+}
+
 TEST_F(Plot, FaultsAreReported) {
   EXPECT_THROW(plot_results({"/no/such/folder", "", 0.0}), FileError);
   write_fields();

@@ -32,6 +32,38 @@ std::vector<StepRecord> make_path(int events) {
   return records;
 }
 
+TEST(LoadDisplacement, LeavesOutTheTailOfAFailedBody) {
+  const std::vector<CurvePoint> curve = {{1.0, 50.0}, {2.0, 100.0}, {1.5, 0.5}, {2.0, 2.0},
+                                         {1.9, 0.9},  {9000.0, 0.8},  {1.0, 0.0}};
+  EXPECT_EQ(rows_before_tail(curve), 5u) << "a row that does not move on is no tail";
+  EXPECT_EQ(rows_before_tail(std::span(curve).first(2)), 2u);
+  EXPECT_EQ(rows_before_tail({}), 0u);
+  std::vector<StepRecord> records(curve.size());
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    records[k].displacement = curve[k].displacement;
+    records[k].load = curve[k].load;
+  }
+  const PlotLabels labels{"Beam", "kip", "in"};
+  const std::string cut = draw_load_displacement(records, labels).str();
+  EXPECT_NE(cut.find("2 last rows below 1 % of the peak not drawn"), std::string::npos);
+  EXPECT_EQ(cut.find(">8000<"), std::string::npos);
+  const std::string whole = draw_load_displacement(records, labels, {}, true).str();
+  EXPECT_EQ(whole.find("not drawn"), std::string::npos);
+  EXPECT_NE(whole.find(">8000<"), std::string::npos);
+}
+
+TEST(LoadDisplacement, DrawsColumnsFromTheirFirstRow) {
+  ColumnCurve curve{"x", "y", {{1.0, 2.0}, {3.0, 4.0}}, false, "a note"};
+  const auto path = [&] {
+    const std::string svg = draw_columns(curve, "Beam").str();
+    EXPECT_NE(svg.find(">a note<"), std::string::npos);
+    return svg.substr(svg.find("<path", svg.find("#0b3c6f") - 400), 300);
+  };
+  const std::string from_first = path();
+  curve.from_origin = true;
+  EXPECT_NE(path(), from_first);
+}
+
 TEST(LoadDisplacement, MarksThePeak) {
   std::vector<StepRecord> records = make_path(50);
   records[20].load = -99.5;

@@ -124,6 +124,33 @@ TEST_F(BondRunTest, HistoryHasARowForEveryRowAndTheGauge) {
   EXPECT_EQ(std::abs(run.summary.json["peak_load"].get<double>()), peak);
 }
 
+/// The table of reactions has the forces of the row, the history those of the step before.
+TEST_F(BondRunTest, ReactionsAreGauges) {
+  GaugeSection hold;
+  hold.name = "hold";
+  hold.reaction = "bottom";
+  hold.axis = 1;
+  input_.gauges.push_back(hold);
+  const test::WholeRun run(input_);
+  const auto last = static_cast<int>(run.history("step").back());
+  std::istringstream table(test::read_text(run.work / fmt::format("reactions_{:06}.csv", last)));
+  std::string line;
+  while (std::getline(table, line) && !line.starts_with("supports: bottom,")) continue;
+  for (int column = 0; column < 4; ++column) line.erase(0, line.find(',') + 1);  // place, x, y
+  EXPECT_EQ(std::stod(line), run.history("hold").back()) << "force_y";
+}
+
+TEST_F(BondRunTest, EndsAtTheValueOfAGauge) {
+  input_.stop.gauge = "elongation";
+  input_.stop.above = 0.01;
+  const test::WholeRun run(input_);
+  EXPECT_EQ(run.summary.json["status"], "completed");
+  const std::vector<double> values = run.history("elongation");
+  ASSERT_GT(values.size(), 2u);
+  EXPECT_GE(values[values.size() - 2], 0.01) << "the row that meets the rule, and one to end with";
+  EXPECT_LT(values[values.size() - 3], 0.01);
+}
+
 TEST_F(BondRunTest, FieldsShowTheMomentTheyAreOf) {
   const test::WholeRun run(input_);
   const std::vector<PvdEntry> series = run.series();

@@ -201,6 +201,56 @@ TEST_F(DamageRunTest, ARunWithoutRowsLeavesNoFields) {
   EXPECT_FALSE(fs::exists(work_ / "fields.pvd"));
 }
 
+constexpr const char* end_and_hold = R"(
+[[gauges]]
+name = "end"
+region = "upper end"
+axis = "y"
+[[gauges]]
+name = "hold"
+reaction = "lower end"
+axis = "y"
+)";
+
+TEST(GaugedDamageRun, ReactionsBalanceTheLoad) {
+  const test::WholeRun run(std::string(test::strip_text) + end_and_hold);
+  const std::vector<double> hold = run.history("hold"), load = run.history("load");
+  for (std::size_t k = 0; k < load.size(); ++k) EXPECT_NEAR(hold[k], -load[k], 1e-9 * load[k]);
+}
+
+TEST(GaugedDamageRun, EndsAtTheValueOfAGauge) {
+  CaseFile input = parse_case(std::string(test::strip_text) + end_and_hold, "");
+  const std::vector<double> whole = test::WholeRun(input).history("end");
+  input.stop.gauge = "end";
+  const std::size_t row = whole.size() / 2;
+  const double largest = *std::max_element(whole.begin(), whole.begin() + row);
+  input.stop.above = largest + 1e-9;
+  const auto expected = std::find_if(whole.begin(), whole.end(),
+                                     [&](double value) { return value >= *input.stop.above; });
+  ASSERT_NE(expected, whole.end());
+  const test::WholeRun run(input);
+  EXPECT_EQ(run.history("end"), std::vector<double>(whole.begin(), expected + 1));
+  EXPECT_EQ(run.summary.json["status"], "completed");
+  EXPECT_THAT(run.summary.json["reason"].get<std::string>(),
+              testing::StartsWith("the gauge \"end\" is "));
+}
+
+TEST(GaugedDamageRun, AStageEndsAtTheValueOfAGauge) {
+  const test::WholeRun run(std::string(test::strip_text) + end_and_hold + R"(
+[[stages]]
+name = "pull"
+gauge = "hold"
+below = -0.1
+[[stages]]
+name = "unload"
+loads = "pull"
+to = 0
+)");
+  EXPECT_EQ(run.history("stage").back(), 2.0);
+  EXPECT_THAT(run.summary.json["stages"][0]["reason"].get<std::string>(),
+              testing::StartsWith("the gauge \"hold\" is -"));
+}
+
 /// The strip pulled by events, unloaded, and pulled again; a gauge follows its upper end.
 TEST(StagedDamageRun, WritesColumnsGaugesAndStages) {
   const test::WholeRun run(std::string(test::strip_text) + R"(

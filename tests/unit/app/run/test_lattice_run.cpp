@@ -46,6 +46,30 @@ TEST(LatticeRun, WritesFieldsAtTheBeginningAtTheTimesAndAtTheEnd) {
   }
 }
 
+TEST(LatticeRun, ReactionsAreGaugesAndEndIt) {
+  CaseFile input = parse_case(test::lattice_bar_case(), "");
+  GaugeSection pull, hold;
+  pull.name = "pull";
+  pull.reaction = "upper end";
+  hold.name = "hold";
+  hold.reaction = "lower end";
+  pull.axis = hold.axis = 1;
+  input.gauges = {pull, hold};
+  const test::WholeRun whole(input);
+  const std::vector<double> load = whole.history("load"), held = whole.history("hold");
+  const std::vector<double> pulled = whole.history("pull"), reaction = whole.history("reaction");
+  for (std::size_t k = 0; k < load.size(); ++k) {
+    EXPECT_NEAR(held[k], reaction[k], 1e-12);
+    EXPECT_NEAR(pulled[k], load[k], 1e-9);
+  }
+  input.stop.gauge = "hold";
+  input.stop.below = 0.5 * held.back();
+  const test::WholeRun run(input);
+  EXPECT_EQ(run.summary.json["status"], "completed");
+  EXPECT_THAT(run.summary.json["reason"].get<std::string>(), HasSubstr("the gauge \"hold\" is -"));
+  EXPECT_LT(run.history("hold").size(), held.size());
+}
+
 /// The last state is that of the last row, not of a step after it.
 TEST(LatticeRun, TheLastFieldsShowTheDrivenDisplacement) {
   const test::WholeRun run(test::lattice_bar_case());

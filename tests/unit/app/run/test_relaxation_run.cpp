@@ -46,6 +46,20 @@ TEST_F(RelaxationRun, WritesARowAndFieldsForEachLoadStep) {
   EXPECT_NEAR(std::abs(run.summary.json["peak_reaction"].get<double>()), last, 1e-6 * last);
 }
 
+TEST_F(RelaxationRun, EndsAtTheValueOfAGauge) {
+  GaugeSection hold;
+  hold.name = "hold";
+  hold.reaction = "lower end";
+  hold.axis = 1;
+  input_.gauges = {hold};
+  input_.stop.gauge = "hold";
+  input_.stop.below = -0.1;
+  const test::WholeRun run(input_);
+  ASSERT_EQ(run.history("hold").size(), 1U);
+  EXPECT_NEAR(run.history("hold")[0], -6.0, 1e-5);
+  EXPECT_EQ(run.summary.json["status"], "completed");
+}
+
 TEST_F(RelaxationRun, SummaryTellsHowItEnded) {
   const test::WholeRun run(input_);
   EXPECT_THAT(run.summary.warnings, testing::IsEmpty());

@@ -53,18 +53,19 @@ TEST(CaseUnused, OneCaseServesAllAnalyses) {
   EXPECT_FALSE(elastic.output.fields_every);
 
   const CaseFile moving = parse_case(serving_all("explicit"), "a.toml");
-  EXPECT_THAT(moving.unused, ElementsAre("analysis.control", "analysis.factor",
-                                         "analysis.tolerance", "stop", "output.fields_every"));
+  EXPECT_THAT(moving.unused,
+              ElementsAre("analysis.control", "analysis.factor", "analysis.tolerance",
+                          "stop.broken_bonds", "output.fields_every"));
   EXPECT_EQ(moving.analysis.duration, 2.0);
   EXPECT_EQ(moving.analysis.ramp_time, 2.0);
   EXPECT_FALSE(moving.stop.broken_bonds);
   EXPECT_THAT(moving.output.fields_times, ElementsAre(1, 2));
 
   const CaseFile resting = parse_case(serving_all("relaxation"), "a.toml");
-  EXPECT_THAT(
-      resting.unused,
-      ElementsAre("analysis.control", "analysis.factor", "analysis.duration", "analysis.rows",
-                  "analysis.damping_rate", "stop", "output.fields_every", "output.fields_times"));
+  EXPECT_THAT(resting.unused,
+              ElementsAre("analysis.control", "analysis.factor", "analysis.duration",
+                          "analysis.rows", "analysis.damping_rate", "stop.broken_bonds",
+                          "output.fields_every", "output.fields_times"));
   EXPECT_EQ(resting.analysis.tolerance, 1e-3);
   EXPECT_THAT(resting.analysis.load_factors, ElementsAre(1));
 }
