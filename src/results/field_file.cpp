@@ -56,9 +56,6 @@ void append_cells(VtuGrid& grid, const Network& network, std::span<const Index> 
   for (const Index b : broken_elements) {
     append_cell(grid, VtuCell::line, ends(b), FieldElement::broken_bond, broken_at += 1.0);
   }
-  for (const Index b : network.cut_elements) {
-    append_cell(grid, VtuCell::line, ends(b), FieldElement::broken_bond, 0.0);
-  }
   for (Index b = network.first_bar_element; b < network.num_elements(); ++b) {
     append_cell(grid, VtuCell::line, ends(b), FieldElement::rebar_segment, 0.0);
   }
@@ -174,17 +171,13 @@ void add_openings(VtuGrid& grid, const Network& network, const CrackOpenings& op
   grid.point_data.push_back({"crack_opening", 1, openings_at_particles(network, openings)});
   std::vector<double> of_cells(grid.types.size(), 0.0);
   std::size_t cell = network.particles.volumes.size();
-  const auto add = [&](std::span<const Index> elements) {
-    for (const Index e : elements) {
-      const auto place = std::lower_bound(openings.bonds.begin(), openings.bonds.end(), e);
-      if (place != openings.bonds.end() && *place == e) {
-        of_cells[cell] = openings.opening[static_cast<std::size_t>(place - openings.bonds.begin())];
-      }
-      ++cell;
+  for (const Index e : broken_elements_in_order) {
+    const auto place = std::lower_bound(openings.bonds.begin(), openings.bonds.end(), e);
+    if (place != openings.bonds.end() && *place == e) {
+      of_cells[cell] = openings.opening[static_cast<std::size_t>(place - openings.bonds.begin())];
     }
-  };
-  add(broken_elements_in_order);
-  add(network.cut_elements);
+    ++cell;
+  }
   grid.cell_data.push_back({"crack_opening", 1, std::move(of_cells)});
 }
 

@@ -14,14 +14,14 @@ namespace perilink {
 /// Size and cost of a factor.
 struct FactorStatistics {
   Index size = 0;
-  double entries = 0.0;    ///< stored numbers of L
-  double bytes = 0.0;      ///< memory of L
+  double entries = 0.0;     ///< stored numbers of L
+  double bytes = 0.0;       ///< memory of L
   double most_bytes = 0.0;  ///< largest memory so far of what replaces L: cached columns
-  double flops = 0.0;      ///< for one factorisation
-  int factorizations = 0;  ///< number of factorisations
-  int ranks = 1;           ///< processes that share the work
-  int iterations = 0;      ///< conjugate-gradient iterations after batches of events
-  Index subdomains = 0;    ///< number of subdomains if conjugate gradients replace a factor
+  double flops = 0.0;       ///< for one factorisation
+  int factorizations = 0;   ///< number of factorisations
+  int ranks = 1;            ///< processes that share the work
+  int iterations = 0;       ///< conjugate-gradient iterations after batches of events
+  Index subdomains = 0;     ///< number of subdomains if conjugate gradients replace a factor
 };
 
 /// Cholesky factor of a symmetric positive definite matrix K that follows changes of low rank.

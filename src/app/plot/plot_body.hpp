@@ -33,7 +33,7 @@ struct PlotBody {
                                  ///< undamaged mid-surfaces: norm of displacement [length]
   std::vector<int> kind;         ///< 0 solid, 1 ghost, 2 rebar, 3 embedded point
   std::vector<Ends> broken_bonds;
-  std::vector<Index> broken_at;  ///< per broken bond, number of its break, from 1; 0: pre-crack
+  std::vector<Index> broken_at;  ///< per broken bond, number of its break, from 1; 0: unknown
   std::vector<Ends> segments;
   std::vector<double> bar_stress;  ///< per segment [force/length^2]; empty: not in the file
   std::vector<int> held;           ///< sum of 1, 2, 4 for held components; empty: none in the file

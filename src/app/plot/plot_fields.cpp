@@ -213,7 +213,6 @@ void draw_bond_hairlines(Svg& svg, const Scene& scene) {
   SvgPath path;
   for (std::size_t k = 0; k < count; ++k) {
     const Ends& ends = scene.body.broken_bonds[k];
-    if (scene.body.broken_at[k] == 0) continue;  // cut by a pre-crack
     if (scene.body.is_loose(ends.first) || scene.body.is_loose(ends.second)) continue;
     if (drawn_opening(scene, ends) > visible_gap) continue;
     path.move_to(scene.at(ends.first));

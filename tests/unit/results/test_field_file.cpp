@@ -54,24 +54,6 @@ TEST_F(FieldFile, CellsAreParticlesThenBrokenBondsThenBars) {
   EXPECT_EQ(grid_.offsets.back(), 12);
 }
 
-/// Bonds that a pre-crack cuts are faces of a crack without a number.
-TEST_F(FieldFile, PreCracksFollowTheBrokenBonds) {
-  network_.cut_elements = {1};
-  secants_[1] = 0.0;
-  motion_[5] = 0.25;  // the upper left corner moves up
-  VtuGrid grid = make_field_grid(network_, secants_, motion_, {5, 2, 0.5, 7.0, 1.0, 0.25, 2.0},
-                                 std::vector<Index>{3, 4}, neighbourhoods_);
-  EXPECT_EQ(grid.find_cell_data("element")->values,
-            (std::vector<double>{0, 0, 0, 0, 0, 0, 1, 1, 1, 2}));
-  EXPECT_EQ(grid.find_cell_data("broken_at")->values,
-            (std::vector<double>{0, 0, 0, 0, 0, 0, 1, 2, 0, 0}));
-  add_openings(grid, network_, crack_openings(network_, neighbourhoods_, secants_, motion_),
-               std::vector<Index>{3, 4});
-  const std::vector<double>& opening = grid.find_cell_data("crack_opening")->values;
-  EXPECT_GT(opening[8], 0.1);
-  EXPECT_EQ(opening[9], 0.0);
-}
-
 TEST_F(FieldFile, StressesHaveTheirPrincipalValuesAndDirections) {
   std::vector<double> stresses(6 * 6, 0.0);
   stresses[6 + 1] = 4.0;    // the second particle: yy
