@@ -139,7 +139,9 @@ StepState EventRun::unsolved_state() {
 }
 
 std::vector<double> EventRun::completed(const StepState& earlier) {
-  if (staged_ == nullptr && !host_release_) return engine_->completed(earlier);
+  if (staged_ == nullptr && !host_release_) {
+    return engine_->completed(earlier.displacement, earlier.secants);
+  }
   return {earlier.displacement.begin(), earlier.displacement.end()};
 }
 

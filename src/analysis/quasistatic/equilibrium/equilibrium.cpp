@@ -128,13 +128,13 @@ void Equilibrium::restore(std::span<const Index> elements) {
 /// Displacements of an earlier state are wrong only away from elements that can fail, where the
 /// stiffness never changes. The residual of that state therefore gives the correction with any
 /// later K^-1.
-std::vector<double> Equilibrium::completed(const StepState& earlier) {
-  std::vector<double> motion(earlier.displacement.begin(), earlier.displacement.end());
+std::vector<double> Equilibrium::completed(std::span<const double> earlier, Secants secants) {
+  std::vector<double> motion(earlier.begin(), earlier.end());
   const bool may_lack =
       update_->can_follow_a_part() && !work_.is_driven() && solution_.permanent() == nullptr;
   if (!may_lack) return motion;
   const Unknowns& unknowns = body_.unknowns();
-  std::vector<double> forces = internal_force(body_.network(), earlier.secants, motion).forces;
+  std::vector<double> forces = internal_force(body_.network(), secants, motion).forces;
   const Loads& loads = solution_.growing().loads();
   for (std::size_t slot = 0; slot < forces.size(); ++slot) {
     forces[slot] = loads.forces[slot] - forces[slot];

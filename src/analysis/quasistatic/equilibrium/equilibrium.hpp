@@ -12,7 +12,6 @@
 #include "analysis/quasistatic/equilibrium/reaction_work.hpp"
 #include "analysis/quasistatic/equilibrium/separation.hpp"
 #include "analysis/quasistatic/equilibrium/update/make_update.hpp"
-#include "analysis/quasistatic/observer.hpp"
 #include "base/error.hpp"
 #include "network/loaded_network.hpp"
 
@@ -54,9 +53,9 @@ class Equilibrium {
   /// Returns displacements at load factor 1, current everywhere. Costs a solve if some are not.
   std::span<const double> displacement() { return solution_.growing().displacement(); }
 
-  /// Returns the displacements of an earlier state, which were current where_elements_fail(),
-  /// current everywhere. The unknowns must be those of then. Costs a solve at most.
-  std::vector<double> completed(const StepState& earlier);
+  /// Returns where_elements_fail() of an earlier state with these unknowns, current everywhere. Costs
+  /// a solve at most.
+  std::vector<double> completed(std::span<const double> earlier, Secants secants);
 
   LoadWork work();
 

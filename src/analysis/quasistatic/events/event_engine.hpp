@@ -49,7 +49,7 @@ class EventEngine {
 
   /// Returns the displacements of an earlier state, which were current wherever an element can
   /// fail, current everywhere; not in runs by stages.
-  virtual std::vector<double> completed(const StepState& earlier) = 0;
+  virtual std::vector<double> completed(std::span<const double> earlier, Secants secants) = 0;
 
   /// Returns displacements that are current wherever an element can fail, without a solve.
   virtual std::span<const double> where_elements_fail() = 0;

@@ -25,8 +25,8 @@ class SingleEventEngine : public EventEngine {
   Event next_event_below(double most) override;
   EventOutcome apply(const Event& event) override;
   std::span<const double> displacement() override { return equilibrium_.displacement(); }
-  std::vector<double> completed(const StepState& earlier) override {
-    return equilibrium_.completed(earlier);
+  std::vector<double> completed(std::span<const double> earlier, Secants secants) override {
+    return equilibrium_.completed(earlier, secants);
   }
   std::span<const double> where_elements_fail() override {
     return equilibrium_.where_elements_fail();
