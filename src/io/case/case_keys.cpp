@@ -224,6 +224,7 @@ const std::vector<KeySchema> body_keys = {
        "delete it, or set problem = \"shell\""}}},
     {"mesh", in_beams},
     {"mesh_size", in_beams},
+    {"mesh_scale", in_beams},
     {"pattern", in_beams},
     {"surface", neighbourhoods},
     {"columns", {on_lattice}},
@@ -319,13 +320,14 @@ const std::vector<KeySchema> crack_keys = {
      {{plane, "is given, but the body has 2 dimensions",
        "give the `points` of a line: [[0, 1], [2, 1]]"},
       {shell, "is given, but cracks of a shell are lines on its mid-surface",
-       "give the `points` of a line: [[0, 1], [2, 1]]"}}}};
+       "give the `points` of a line: [[0, 1], [2, 1]]"}}},
+    "group"};
 
 const std::vector<KeySchema> interface_keys = {
-    "between",   crack_keys[0],       crack_keys[1],
-    "group",     "fracture_energy",   "tensile_strength",
-    "softening", "softening_error",   "softening_stretches",
-    "closing",   "knee_stress_ratio", "knee_opening_ratio"};
+    "between",     crack_keys[0],       crack_keys[1],
+    crack_keys[2], "fracture_energy",   "tensile_strength",
+    "softening",   "softening_error",   "softening_stretches",
+    "closing",     "knee_stress_ratio", "knee_opening_ratio"};
 
 }  // namespace
 
@@ -355,6 +357,7 @@ const std::vector<TableSchema>& case_schema() {
         "size",
         {"mesh", in_beams},
         {"mesh_size", in_beams},
+        {"mesh_scale", in_beams},
         "order",
         "regions",
         "particles",

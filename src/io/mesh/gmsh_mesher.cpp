@@ -17,8 +17,8 @@
 #include "base/error.hpp"
 #include "base/files.hpp"
 #include "io/case/case_words.hpp"
-#include "io/mesh/gmsh_file.hpp"
 #include "io/mesh/gmsh_script.hpp"
+#include "io/mesh/mesh_file.hpp"
 
 #ifdef PERILINK_GMSH_LIBRARY
 #include <dlfcn.h>
@@ -267,7 +267,7 @@ Mesh mesh_geometry(const std::string& path, int dim, std::optional<double> size,
                                                : "gmsh crashed on it",
                      "open the geometry with gmsh to see what is wrong");
   }
-  return parse_gmsh(read_regular_file(target.path()), path, dim);  // messages name the geometry
+  return parse_mesh(read_regular_file(target.path()), path, dim);  // messages name the geometry
 }
 
 #endif
