@@ -109,9 +109,9 @@ double GmshCursor::number() {
 }
 
 std::size_t GmshCursor::count_line(std::size_t values_each, const char* things) {
-  const std::int64_t value = text_integer();
+  const std::size_t value = checked_count(text_integer(), values_each, things);
   line();
-  return checked_count(value, values_each, things);
+  return value;
 }
 
 std::size_t GmshCursor::checked_count(std::int64_t value, std::size_t values_each,

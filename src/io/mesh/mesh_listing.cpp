@@ -86,13 +86,15 @@ void check_dimension(const MeshListing& listing, const std::string& path, int di
 class MeshMaker {
  public:
   MeshMaker(MeshListing& listing, const std::string& path, int dim)
-      : listing_(listing), path_(path), nodes_(listing, path) {
+      : listing_(listing), path_(path) {
     mesh_.dim = dim;
   }
 
   Mesh make() {
     add_positions();
     add_elements();
+    listing_.corners = {};  // frees memory
+    listing_.element_tags = {};
     add_groups();
     if (mesh_.dim == 2) find_plane();
     add_notes();
@@ -115,10 +117,10 @@ class MeshMaker {
 
   MeshListing& listing_;
   const std::string& path_;
-  NodeTable nodes_;
   Mesh mesh_;
   std::vector<Index> nodes_of_element_;       ///< as MeshListing::corners
-  std::vector<Index> first_, parts_;          ///< per element: range in the list of its dimension
+  std::vector<Index> first_;                  ///< per element, in the list of its dimension
+  std::vector<std::uint8_t> parts_;           ///< per element: parts in that list
   std::map<CellShape, std::size_t> divided_;  ///< numbers of divided cells
 };
 
@@ -182,6 +184,7 @@ std::vector<double> MeshMaker::rank_nodes() const {
 void MeshMaker::add_elements() {
   const auto count = static_cast<std::size_t>(listing_.num_elements());
   const std::vector<double> rank = rank_nodes();
+  const NodeTable table(listing_, path_);
   std::vector<std::uint8_t> grouped(count, 0);
   for (const MeshListing::Group& group : listing_.groups) {
     for (const Index e : group.elements) grouped[e] = 1;
@@ -195,18 +198,18 @@ void MeshMaker::add_elements() {
     const bool used = is_cell || grouped[e] != 0;
     std::vector<Index>* list = used ? list_of(dim) : nullptr;
     for (int k = 0; k < width; ++k, ++begin) {
-      nodes_of_element_.push_back(used ? nodes_.find(listing_.corners[begin]) : no_index);
+      nodes_of_element_.push_back(used ? table.find(listing_.corners[begin]) : no_index);
     }
     const std::span<const Index> corners = std::span(nodes_of_element_).last(width);
     first_.push_back(list == nullptr ? 0 : static_cast<Index>(list->size()) / (dim + 1));
-    parts_.push_back(0);
+    parts_.push_back(0);  // at most six
     if (list == nullptr) continue;
     const std::size_t before = list->size();
     divide(shape, corners, rank, *list);
     if (is_cell && shape == CellShape::quadrilateral && list->size() == before + 6) {
       turn_diagonal(corners, *list);
     }
-    parts_.back() = static_cast<Index>(list->size() - before) / (dim + 1);
+    parts_.back() = static_cast<std::uint8_t>((list->size() - before) / (dim + 1));
     if (!is_cell) continue;
     mesh_.cell_tags.insert(mesh_.cell_tags.end(), parts_.back(), listing_.element_tags[e]);
     if (width > dim + 1) ++divided_[shape];
@@ -222,6 +225,7 @@ void MeshMaker::add_groups() {
   for (MeshListing::Group& listed : listing_.groups) {
     MeshGroup group{std::move(listed.name), listed.dim, {}, {}};
     const bool has_list = list_of(listed.dim) != nullptr;
+    group.elements.reserve(listed.elements.size());
     for (const Index e : listed.elements) {
       group.points.insert(group.points.end(), nodes_of_element_.begin() + begin[e],
                           nodes_of_element_.begin() + begin[e + 1]);

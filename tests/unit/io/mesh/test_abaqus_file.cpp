@@ -102,9 +102,11 @@ TEST(AbaqusFile, ReadsNodesElementsAndSets) {
   EXPECT_THAT(mesh.notes, Contains(HasSubstr("plate.INP: skipped *MATERIAL, *NODE of the assembly, "
                                              "*SOLID SECTION, *STEP: only nodes, elements")));
   const Body body = make_mesh_body(mesh, std::vector<Index>(5, 0), 1.0);
-  EXPECT_EQ(body.facets.size(), 6);
+  EXPECT_EQ(body.facets.size(), 7);
   for (const Group& group : body.groups) {
-    if (group.name == "top") EXPECT_EQ(group.facets.size(), 3u);
+    if (group.name == "top") {
+      EXPECT_EQ(group.facets.size(), 3u);
+    }
     EXPECT_FALSE(group.loose) << group.name;
   }
 }
@@ -160,7 +162,9 @@ SKIN, SPOS
   const Body body = make_mesh_body(mesh, std::vector<Index>(6, 0), 1.0);
   EXPECT_EQ(body.particles.size(), 8) << "the node between corners is none";
   for (const Group& group : body.groups) {
-    if (group.name == "EVERY") EXPECT_EQ(group.facets.size(), 12u);
+    if (group.name == "EVERY") {
+      EXPECT_EQ(group.facets.size(), 12u);
+    }
   }
 }
 
@@ -215,7 +219,7 @@ TEST(AbaqusFile, RefusesWithFileAndLine) {
       {"*Assembly", "*Part, name=b\n*Node\n1, 0.\n*End Part\n*Assembly",
        "has nodes in several parts"}};
   for (const auto& [from, to, message] : faults) {
-    EXPECT_THAT(message_of(test::replaced(plate, from, to)), HasSubstr(message)) << to;
+    EXPECT_THAT(message_of(replaced(plate, from, to)), HasSubstr(message)) << to;
   }
   EXPECT_THAT(message_of("nothing of Abaqus\n"), HasSubstr("holds no mesh"));
   EXPECT_THAT(message_of(""), HasSubstr("holds no mesh"));
@@ -223,8 +227,8 @@ TEST(AbaqusFile, RefusesWithFileAndLine) {
 
 /// Sets that name what is not there are no fault: the case may not use them.
 TEST(AbaqusFile, IncompleteSetsHaveANote) {
-  const std::string text = test::replaced(
-      test::replaced(plate, "SQUARES, 20", "SQUARES, nobody, 99"), "squares, S3", "squares, S5");
+  const std::string text =
+      replaced(replaced(plate, "SQUARES, 20", "SQUARES, nobody, 99"), "squares, S3", "squares, S5");
   const Mesh mesh = parse_mesh(text, "plate.inp", 2);
   EXPECT_THAT(mesh.notes, Contains(HasSubstr("that are read: body, top")));
 }

@@ -83,7 +83,9 @@ TEST(CellShapes, SidesEncloseTheCell) {
     }
     for (const auto& [rim, count] : rims) {
       EXPECT_EQ(count, 1);
-      if (properties.dim == 3) EXPECT_EQ(rims.count({rim.second, rim.first}), 1u);
+      if (properties.dim == 3) {
+        EXPECT_EQ(rims.count({rim.second, rim.first}), 1u);
+      }
     }
   }
 }

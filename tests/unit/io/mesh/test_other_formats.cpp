@@ -47,7 +47,7 @@ TEST(OtherFormats, TheCommandOfTheMessageMakesAMeshThatIsRead) {
   std::filesystem::create_directories(folder);
   const std::string here = "cd \"" + folder.string() + "\" && ";
   const std::string made = here + "gmsh \"" PERILINK_SOURCE_DIR
-                                  "/tests/data/plate_22.msh\" -save -format msh40 -o old.msh";
+                                  "/tests/data/plate_41.msh\" -save -format msh40 -o old.msh";
   ASSERT_EQ(std::system((made + " > gmsh.log 2>&1").c_str()), 0);
   const std::string message = message_of(folder / "old.msh"), before = "name the new file: ";
   ASSERT_THAT(message, AllOf(HasSubstr("is in version \"4\""), HasSubstr(before)));

@@ -75,7 +75,7 @@ std::string refusal(const std::string& text) {
 TEST(DrawnGroups, ACrackOfAGroupCutsWhatItsPointsCut) {
   const Model drawn = model_of(plate_case);
   const Model given =
-      model_of(test::replaced(plate_case, "group = \"crack\"", "points = [[2, 0], [2, 1]]"));
+      model_of(replaced(plate_case, "group = \"crack\"", "points = [[2, 0], [2, 1]]"));
   ASSERT_EQ(drawn.cracks.size(), 1u);
   EXPECT_EQ(drawn.cracks[0].points, (std::vector<Vector3>{{2, 0, 0}, {2, 1, 0}}));
   EXPECT_GT(drawn.network.cut_by_crack[0], 0);
@@ -84,11 +84,11 @@ TEST(DrawnGroups, ACrackOfAGroupCutsWhatItsPointsCut) {
 }
 
 TEST(DrawnGroups, CracksNameAGroupOfTheMesh) {
-  EXPECT_THAT(refusal(test::replaced(plate_case, "group = \"crack\"", "group = \"creck\"")),
+  EXPECT_THAT(refusal(replaced(plate_case, "group = \"crack\"", "group = \"creck\"")),
               ::testing::AllOf(HasSubstr("cracks[1].group: is \"creck\", but no Physical Curve of "
                                          "this name"),
                                HasSubstr("did you mean `crack`?")));
-  EXPECT_THAT(refusal(test::replaced(plate_case, "group = \"crack\"", "group = \"left\"")),
+  EXPECT_THAT(refusal(replaced(plate_case, "group = \"crack\"", "group = \"left\"")),
               HasSubstr("cracks[1].group: crosses no bond of the body"));
 }
 
