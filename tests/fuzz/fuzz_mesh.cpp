@@ -1,5 +1,5 @@
-// Feeds arbitrary bytes to the readers of meshes, of Abaqus if they begin with a star, and what they
-// accept to make_mesh_body().
+// Feeds arbitrary bytes to the readers of meshes, of Abaqus if they begin with a star, and what
+// they accept to make_mesh_body().
 // They may refuse it with their own errors and nothing else.
 
 #include <cstddef>

@@ -44,7 +44,6 @@ const std::map<std::string, std::string>& tested_elsewhere() {
       {"io/mesh/abaqus_sets.cpp", "a part of read_abaqus: test_abaqus_file.cpp"},
       {"io/mesh/gmsh_cursor.cpp", "a part of parse_mesh: test_mesh_file.cpp"},
       {"io/mesh/gmsh_sections.cpp", "a part of parse_mesh: test_mesh_file.cpp"},
-      {"io/mesh/gmsh_version_2.cpp", "a part of parse_mesh: test_mesh_file.cpp"},
       {"io/mesh/mesh_listing.cpp", "a part of parse_mesh: test_mesh_file.cpp"},
       {"python/events.cpp", "tests/python"},
       {"python/module.cpp", "tests/python"},

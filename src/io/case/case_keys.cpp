@@ -313,14 +313,12 @@ const std::vector<KeySchema> random_keys =
     plain("property materials distribution variation correlation_length seed");
 
 /// A line in the plane and on mid-surfaces, a polygon in space.
+constexpr const char* a_line = "give the `points` of a line: [[0, 1], [2, 1]]";
 const std::vector<KeySchema> crack_keys = {
-    {"points",
-     {{space, "is given, but the body has 3 dimensions", "give the `corners` of a plane polygon"}}},
+    {"points", {{space, "is given, but the body has 3 dimensions", "give `corners` of a polygon"}}},
     {"corners",
-     {{plane, "is given, but the body has 2 dimensions",
-       "give the `points` of a line: [[0, 1], [2, 1]]"},
-      {shell, "is given, but cracks of a shell are lines on its mid-surface",
-       "give the `points` of a line: [[0, 1], [2, 1]]"}}},
+     {{plane, "is given, but the body has 2 dimensions", a_line},
+      {shell, "is given, but cracks of a shell are lines on its mid-surface", a_line}}},
     "group"};
 
 const std::vector<KeySchema> interface_keys = {

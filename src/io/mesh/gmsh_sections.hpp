@@ -51,9 +51,11 @@ void read_nodes_2(GmshCursor& file, GmshSections& sections);
 /// groups is added once.
 void read_elements_2(GmshCursor& file, GmshSections& sections);
 
-/// Reads a .msh file of version 4.1, 2.2 or 2.1. Elements may have any order. Partitioned meshes are
-/// refused; sections of results are skipped. A group without a name is named by its number. Groups
-/// are sorted by dimension and tag; groups of equal dimension and name are merged.
+/// Reads a .msh file of version 4.1, 2.2 or 2.1.
+/// - Elements may have any order.
+/// - Partitioned meshes are refused; sections of results are skipped.
+/// - A group without a name is named by its number. Groups are sorted by dimension and tag; groups
+///   of equal dimension and name are merged.
 /// \param path  for messages
 /// \throws InputError
 MeshListing read_gmsh(std::string_view bytes, const std::string& path);

@@ -165,8 +165,8 @@ void MeshMaker::turn_diagonal(std::span<const Index> corners, std::vector<Index>
   if (!(new_one * new_other > 0.0)) std::copy(before.begin(), before.end(), last.begin());
 }
 
-/// Ranks the nodes by their coordinate along a direction that no usual row of nodes is normal to, so
-/// that the diagonals of a regular mesh are parallel.
+/// Ranks the nodes by their coordinate along a direction that no usual row of nodes is normal to.
+/// The diagonals of a regular mesh are then parallel.
 std::vector<double> MeshMaker::rank_nodes() const {
   std::vector<double> rank;
   if (std::ranges::none_of(listing_.shapes, [](CellShape shape) {

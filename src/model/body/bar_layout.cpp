@@ -14,7 +14,7 @@
 #include "discretization/meshes/cell_search.hpp"
 #include "io/case/case_schema.hpp"
 #include "io/text/toml_tree.hpp"
-#include "model/body/drawn_groups.hpp"
+#include "model/body/groups/drawn_groups.hpp"
 #include "model/body/solid_boxes.hpp"
 
 namespace perilink {

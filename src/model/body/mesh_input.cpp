@@ -16,7 +16,7 @@
 #include "io/mesh/gmsh_mesher.hpp"
 #include "io/mesh/mesh_file.hpp"
 #include "io/text/toml_tree.hpp"
-#include "model/body/drawn_groups.hpp"
+#include "model/body/groups/drawn_groups.hpp"
 
 namespace perilink {
 namespace {

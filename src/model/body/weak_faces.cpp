@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "io/case/case_schema.hpp"
 #include "io/case/sections/laws/case_softening.hpp"
-#include "model/body/drawn_groups.hpp"
+#include "model/body/groups/drawn_groups.hpp"
 
 namespace perilink {
 namespace {

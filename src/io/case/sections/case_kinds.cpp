@@ -109,27 +109,6 @@ void write_mesh_file(TomlWriter& out, const MeshSource& source) {
   out.write("mesh_scale", source.mesh_scale);
 }
 
-void read_face(const CaseTable& table, int dim, std::vector<Vector3>& points, std::string& group) {
-  const std::string key = dim == 2 ? "points" : "corners";
-  assign(points, table.vectors(key, dim));
-  if (table.has(key) && points.size() < static_cast<std::size_t>(dim)) {
-    table.refuse(key, fmt::format("has {}", points.size()),
-                 dim == 2 ? "a line needs two points or more" : "a plane needs three corners");
-  }
-  assign(group, table.text("group"));
-  if (table.has("group") && group.empty()) {
-    table.refuse("group", "is empty", "name physical curves of the mesh, in space surfaces");
-  }
-}
-
-void write_face(TomlWriter& out, const std::vector<Vector3>& points, const std::string& group,
-                int dim) {
-  if (!group.empty()) return out.write("group", std::string_view(group));
-  std::vector<std::vector<double>> places;
-  for (const Vector3& x : points) places.emplace_back(x.begin(), x.begin() + dim);
-  out.write(dim == 2 ? "points" : "corners", places);
-}
-
 std::vector<NamedGroup> named_groups(const CaseFile& input) {
   std::vector<NamedGroup> groups;
   const auto add = [&](const char* table, const auto& sections) {

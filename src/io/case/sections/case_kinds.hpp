@@ -51,12 +51,6 @@ std::string what_rotates(const BodySection& body);
 void read_mesh_file(const CaseTable& table, MeshSource& source);
 void write_mesh_file(TomlWriter& out, const MeshSource& source);
 
-/// Reads the place of a crack or an interface: the `points` of a line (2D), the `corners` of a
-/// polygon (3D) or a `group` of the mesh, where a table has them.
-void read_face(const CaseTable& table, int dim, std::vector<Vector3>& points, std::string& group);
-void write_face(TomlWriter& out, const std::vector<Vector3>& points, const std::string& group,
-                int dim);
-
 /// Physical group of the mesh that a case names.
 struct NamedGroup {
   std::string key, name;

@@ -11,6 +11,7 @@
 #include "io/case/sections/case_bond_dynamics.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_lattice.hpp"
+#include "io/case/sections/laws/case_interfaces.hpp"
 
 namespace perilink {
 namespace {

@@ -1,4 +1,4 @@
-#include "model/body/drawn_groups.hpp"
+#include "model/body/groups/drawn_groups.hpp"
 
 #include <fmt/format.h>
 
