@@ -17,6 +17,7 @@ const std::map<std::string, std::string>& tested_elsewhere() {
       {"app/commands/check_sizes.cpp", "a part of check: tests/cli runs the program"},
       {"app/commands/compare_command.cpp", "a command: tests/cli runs the program"},
       {"app/commands/converge_command.cpp", "a command: tests/cli runs the program"},
+      {"app/commands/option_texts.cpp", "texts of the program: tests/cli/test_option_texts.cpp"},
       {"app/commands/report_command.cpp", "a command: tests/cli runs the program"},
       {"app/commands/run_command.cpp", "a command: tests/cli runs the program"},
       {"app/commands/scan_command.cpp", "a command: tests/cli runs the program"},

@@ -190,7 +190,6 @@ void MeshMaker::add_elements() {
     for (const Index e : group.elements) grouped[e] = 1;
   }
   nodes_of_element_.reserve(listing_.corners.size());
-  std::vector<Index> divided;
   for (std::size_t e = 0, begin = 0; e < count; ++e) {
     const CellShape shape = listing_.shapes[e];
     const auto& [plural, dim, width, sides] = properties_of(shape);
@@ -240,6 +239,7 @@ void MeshMaker::add_groups() {
 
 /// Refuses two-dimensional meshes that are not plane, and marks groups that leave their plane.
 void MeshMaker::find_plane() {
+  if (mesh_.cells.empty()) refuse(path_, "holds only collapsed cells", "write the mesh again");
   double lower = INFINITY, upper = -INFINITY, extent = 0.0;
   const double* first = node(mesh_.cells.front());
   for (const Index point : mesh_.cells) {

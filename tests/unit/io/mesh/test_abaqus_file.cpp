@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 /// Two squares and a triangle, with what Abaqus/CAE writes around them.
-constexpr const char* plate = R"(*Heading
+constexpr const char* abaqus_plate = R"(*Heading
  a plate
 ** a comment
 *PREPRINT, ECHO=NO
@@ -74,18 +74,18 @@ Plate-1.3
 7
 )";
 
-std::map<std::string, MeshGroup> groups_of(const Mesh& mesh) {
+std::map<std::string, MeshGroup> abaqus_groups(const Mesh& mesh) {
   std::map<std::string, MeshGroup> groups;
   for (const MeshGroup& group : mesh.groups) groups[group.name] = group;
   return groups;
 }
 
 TEST(AbaqusFile, ReadsNodesElementsAndSets) {
-  const Mesh mesh = parse_mesh(plate, "plate.INP", 2);
+  const Mesh mesh = parse_mesh(abaqus_plate, "plate.INP", 2);
   EXPECT_EQ(mesh.num_points(), 7);
   EXPECT_EQ(mesh.num_cells(), 5);
   EXPECT_THAT(mesh.cell_tags, ElementsAre(10, 10, 11, 11, 20));
-  auto groups = groups_of(mesh);
+  auto groups = abaqus_groups(mesh);
   EXPECT_EQ(groups.size(), 10u);
   EXPECT_THAT(groups["body"].elements, ElementsAre(0, 1, 2, 3, 4));
   EXPECT_THAT(groups["squares"].elements, ElementsAre(0, 1, 2, 3));
@@ -144,7 +144,7 @@ SKIN, SPOS
 )";
   const Mesh mesh = parse_mesh(text, "cube.inp", 3);
   EXPECT_EQ(mesh.num_cells(), 6);
-  auto groups = groups_of(mesh);
+  auto groups = abaqus_groups(mesh);
   EXPECT_THAT(groups["LOWER"].points, ElementsAre(0, 1, 2, 3));
   EXPECT_EQ(groups["LOWER"].elements.size(), 2u);
   EXPECT_EQ(groups["EVERY"].elements.size(), 12u);
@@ -174,7 +174,7 @@ TEST(AbaqusFile, ReadsWhatGmshWrites) {
     const Mesh mesh = load_mesh(path + ".inp", dim), other = load_mesh(path + "_22.msh", dim);
     EXPECT_EQ(mesh.num_points(), other.num_points());
     EXPECT_EQ(mesh.num_cells(), other.num_cells());
-    auto groups = groups_of(mesh);
+    auto groups = abaqus_groups(mesh);
     for (const MeshGroup& group : other.groups) {
       if (group.dim == 0) continue;  // not written
       const std::string its_name = group.name == "right half" ? "right_half" : group.name;
@@ -184,7 +184,7 @@ TEST(AbaqusFile, ReadsWhatGmshWrites) {
   }
 }
 
-std::string message_of(const std::string& text) {
+std::string abaqus_message(const std::string& text) {
   try {
     parse_mesh(text, "plate.inp", 2);
   } catch (const InputError& error) {
@@ -219,24 +219,24 @@ TEST(AbaqusFile, RefusesWithFileAndLine) {
       {"*Assembly", "*Part, name=b\n*Node\n1, 0.\n*End Part\n*Assembly",
        "has nodes in several parts"}};
   for (const auto& [from, to, message] : faults) {
-    EXPECT_THAT(message_of(replaced(plate, from, to)), HasSubstr(message)) << to;
+    EXPECT_THAT(abaqus_message(replaced(abaqus_plate, from, to)), HasSubstr(message)) << to;
   }
-  EXPECT_THAT(message_of("nothing of Abaqus\n"), HasSubstr("holds no mesh"));
-  EXPECT_THAT(message_of(""), HasSubstr("holds no mesh"));
+  EXPECT_THAT(abaqus_message("nothing of Abaqus\n"), HasSubstr("holds no mesh"));
+  EXPECT_THAT(abaqus_message(""), HasSubstr("holds no mesh"));
 }
 
 /// Sets that name what is not there are no fault: the case may not use them.
 TEST(AbaqusFile, IncompleteSetsHaveANote) {
-  const std::string text =
-      replaced(replaced(plate, "SQUARES, 20", "SQUARES, nobody, 99"), "squares, S3", "squares, S5");
+  const std::string text = replaced(replaced(abaqus_plate, "SQUARES, 20", "SQUARES, nobody, 99"),
+                                    "squares, S3", "squares, S5");
   const Mesh mesh = parse_mesh(text, "plate.inp", 2);
   EXPECT_THAT(mesh.notes, Contains(HasSubstr("that are read: body, top")));
 }
 
 TEST(AbaqusFile, AcceptsWindowsLineEnds) {
   std::string windows;
-  for (const char c : std::string(plate)) windows += c == '\n' ? "\r\n" : std::string(1, c);
-  EXPECT_EQ(parse_mesh(windows, "m.inp", 2).cells, parse_mesh(plate, "m.inp", 2).cells);
+  for (const char c : std::string(abaqus_plate)) windows += c == '\n' ? "\r\n" : std::string(1, c);
+  EXPECT_EQ(parse_mesh(windows, "m.inp", 2).cells, parse_mesh(abaqus_plate, "m.inp", 2).cells);
 }
 
 /// A quadrilateral with a corner within: only one diagonal lies inside.

@@ -16,18 +16,20 @@
 namespace perilink {
 namespace {
 
-using enum CellShape;
-
 /// Corners of cells of unit edges.
-const std::map<CellShape, std::vector<double>> corners_of = {
-    {quadrilateral, {0, 0, 1, 0, 1, 1, 0, 1}},
-    {pyramid, {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.4, 0.6, 1}},
-    {wedge, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1}},
-    {hexahedron, {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1}}};
-const std::map<CellShape, double> volume_of = {
-    {quadrilateral, 1.0}, {pyramid, 1.0 / 3.0}, {wedge, 0.5}, {hexahedron, 1.0}};
+const std::map<CellShape, std::vector<double>> unit_corners = {
+    {CellShape::quadrilateral, {0, 0, 1, 0, 1, 1, 0, 1}},
+    {CellShape::pyramid, {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.4, 0.6, 1}},
+    {CellShape::wedge, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1}},
+    {CellShape::hexahedron,
+     {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1}}};
+const std::map<CellShape, double> unit_volumes = {{CellShape::quadrilateral, 1.0},
+                                                  {CellShape::pyramid, 1.0 / 3.0},
+                                                  {CellShape::wedge, 0.5},
+                                                  {CellShape::hexahedron, 1.0}};
 
-double volume(const std::vector<double>& positions, int dim, const std::vector<Index>& parts) {
+double volume_of_parts(const std::vector<double>& positions, int dim,
+                       const std::vector<Index>& parts) {
   double sum = 0.0;
   for (std::size_t k = 0; k < parts.size(); k += dim + 1) {
     sum += std::abs(signed_volume(positions, dim, std::span(parts).subspan(k, dim + 1)));
@@ -39,7 +41,7 @@ double volume(const std::vector<double>& positions, int dim, const std::vector<I
 /// its corner of lowest rank, which does not depend on the cell.
 TEST(CellShapes, PartsFillTheCellAndDivideFacesByTheirLowestCorner) {
   std::mt19937 random(3);
-  for (const auto& [shape, positions] : corners_of) {
+  for (const auto& [shape, positions] : unit_corners) {
     const ShapeProperties& properties = properties_of(shape);
     std::vector<Index> corners(properties.corners);
     std::iota(corners.begin(), corners.end(), 0);
@@ -48,7 +50,7 @@ TEST(CellShapes, PartsFillTheCellAndDivideFacesByTheirLowestCorner) {
       std::shuffle(rank.begin(), rank.end(), random);
       std::vector<Index> parts;
       divide(shape, corners, rank, parts);
-      EXPECT_NEAR(volume(positions, properties.dim, parts), volume_of.at(shape), 1e-15);
+      EXPECT_NEAR(volume_of_parts(positions, properties.dim, parts), unit_volumes.at(shape), 1e-15);
       std::set<std::set<Index>> edges;
       const std::size_t width = properties.dim + 1;
       for (std::size_t k = 0; k < parts.size(); ++k) {
@@ -67,7 +69,9 @@ TEST(CellShapes, PartsFillTheCellAndDivideFacesByTheirLowestCorner) {
 }
 
 TEST(CellShapes, SidesEncloseTheCell) {
-  for (const CellShape shape : {triangle, quadrilateral, tetrahedron, pyramid, wedge, hexahedron}) {
+  for (const CellShape shape :
+       {CellShape::triangle, CellShape::quadrilateral, CellShape::tetrahedron, CellShape::pyramid,
+        CellShape::wedge, CellShape::hexahedron}) {
     const ShapeProperties& properties = properties_of(shape);
     std::map<std::pair<int, int>, int> rims;  // each edge between two sides, once in each direction
     for (const ShapeSide& side : properties.sides) {
@@ -92,20 +96,20 @@ TEST(CellShapes, SidesEncloseTheCell) {
 
 /// Meshers collapse a face to an edge to make a wedge of a hexahedron.
 TEST(CellShapes, CollapsedCellsHaveFewerParts) {
-  const std::vector<double>& positions = corners_of.at(wedge);
+  const std::vector<double>& positions = unit_corners.at(CellShape::wedge);
   const std::vector<double> rank = {3, 0, 5, 1, 4, 2};
   std::vector<Index> parts, triangle_parts;
-  divide(hexahedron, std::vector<Index>{0, 1, 2, 2, 3, 4, 5, 5}, rank, parts);
+  divide(CellShape::hexahedron, std::vector<Index>{0, 1, 2, 2, 3, 4, 5, 5}, rank, parts);
   EXPECT_EQ(parts.size(), 3u * 4u);
-  EXPECT_NEAR(volume(positions, 3, parts), 0.5, 1e-15);
-  divide(quadrilateral, std::vector<Index>{0, 1, 2, 2}, rank, triangle_parts);
+  EXPECT_NEAR(volume_of_parts(positions, 3, parts), 0.5, 1e-15);
+  divide(CellShape::quadrilateral, std::vector<Index>{0, 1, 2, 2}, rank, triangle_parts);
   EXPECT_EQ(triangle_parts.size(), 3u);
 }
 
 TEST(CellShapes, SimplicesStay) {
   std::vector<Index> parts;
-  divide(tetrahedron, std::vector<Index>{7, 3, 9, 1}, {}, parts);
-  divide(line, std::vector<Index>{5, 2}, {}, parts);
+  divide(CellShape::tetrahedron, std::vector<Index>{7, 3, 9, 1}, {}, parts);
+  divide(CellShape::line, std::vector<Index>{5, 2}, {}, parts);
   EXPECT_EQ(parts, (std::vector<Index>{7, 3, 9, 1, 5, 2}));
 }
 

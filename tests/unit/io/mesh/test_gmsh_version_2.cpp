@@ -19,7 +19,7 @@ using test::square_mesh;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-std::string refusal(const std::string& bytes) {
+std::string version_2_message(const std::string& bytes) {
   try {
     parse_mesh(bytes, "body.msh", 2);
   } catch (const InputError& error) {
@@ -93,15 +93,15 @@ TEST(GmshVersion2, RefusesFaultsOfVersion2) {
       {"4 2 2 5 21 10", "4 2 2 5 21 11", "node 11, which is not in the file"},
       {"20 2 0 0", "20 2 zero 0", "has \"zero\" where a number should be"}};
   for (const auto& [from, to, message] : faults) {
-    EXPECT_THAT(refusal(replaced(old_square, from, to)), HasSubstr(message)) << to;
+    EXPECT_THAT(version_2_message(replaced(old_square, from, to)), HasSubstr(message)) << to;
   }
 }
 
-const std::string data = PERILINK_SOURCE_DIR "/tests/data/";
+const std::string data_folder = PERILINK_SOURCE_DIR "/tests/data/";
 
 /// One plate as gmsh writes it. Its right half is in two groups, so that version 2 repeats cells.
 TEST(GmshVersion2, ReadsOnePlateFromEveryFormatOfGmsh) {
-  const Mesh expected = load_mesh(data + "plate_41.msh", 2);
+  const Mesh expected = load_mesh(data_folder + "plate_41.msh", 2);
   EXPECT_EQ(expected.num_cells(), 2 * 24);
   EXPECT_THAT(expected.notes,
               ElementsAre(HasSubstr("24 quadrilaterals are divided into triangles")));
@@ -117,7 +117,7 @@ TEST(GmshVersion2, ReadsOnePlateFromEveryFormatOfGmsh) {
       {"crack", {2, 3}},  {"plate", {48, 35}}, {"right half", {24, 20}}};
   for (const char* name :
        {"plate_41.msh", "plate_41_binary.msh", "plate_22.msh", "plate_22_binary.msh"}) {
-    const Mesh mesh = load_mesh(data + name, 2);
+    const Mesh mesh = load_mesh(data_folder + name, 2);
     EXPECT_EQ(mesh.num_points(), expected.num_points()) << name;
     EXPECT_EQ(mesh.num_cells(), expected.num_cells()) << name;
     EXPECT_EQ(sizes_of(mesh), sizes) << name;
@@ -126,8 +126,8 @@ TEST(GmshVersion2, ReadsOnePlateFromEveryFormatOfGmsh) {
 
 /// Cells of every shape, with nodes between their corners, as gmsh writes them.
 TEST(GmshVersion2, ReadsTheCornersOfSecondOrder) {
-  const Mesh first = load_mesh(data + "block_22.msh", 3);
-  const Mesh second = load_mesh(data + "block_order2.msh", 3);
+  const Mesh first = load_mesh(data_folder + "block_22.msh", 3);
+  const Mesh second = load_mesh(data_folder + "block_order2.msh", 3);
   EXPECT_EQ(second.num_cells(), first.num_cells());
   EXPECT_GT(second.num_points(), first.num_points());
   EXPECT_THAT(second.notes, ::testing::Contains(HasSubstr("cells of second order count as")));
@@ -137,7 +137,7 @@ TEST(GmshVersion2, ReadsTheCornersOfSecondOrder) {
 TEST(GmshVersion2, RefusesPartitionedMeshesOfGmsh) {
   for (const char* name : {"parts_22.msh", "parts_41.msh"}) {
     try {
-      load_mesh(data + name, 2);
+      load_mesh(data_folder + name, 2);
       FAIL() << name;
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(), HasSubstr("is partitioned\n  save the mesh before it is"));
@@ -149,7 +149,7 @@ TEST(GmshVersion2, RefusesEveryTruncation) {
   const std::string whole = old_square;
   const std::size_t end = whole.rfind("$EndElements");
   for (std::size_t size = 0; size < end + 12; ++size) {
-    EXPECT_NE(refusal(whole.substr(0, size)), "accepted") << size;
+    EXPECT_NE(version_2_message(whole.substr(0, size)), "accepted") << size;
   }
 }
 

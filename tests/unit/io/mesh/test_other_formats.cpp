@@ -23,7 +23,7 @@ TEST(OtherFormats, TheAdviceHasTheCommandWithTheNamesOfTheFile) {
                     HasSubstr("meshio convert \"d.b/a.med\" \"d.b/a.msh\"")));
 }
 
-std::string message_of(const std::filesystem::path& path) {
+std::string loading_message(const std::filesystem::path& path) {
   try {
     load_mesh(path.string(), 2);
   } catch (const InputError& error) {
@@ -35,7 +35,7 @@ std::string message_of(const std::filesystem::path& path) {
 TEST(OtherFormats, FilesOfOtherProgramsAreRefusedWithIt) {
   const test::TemporaryDirectory directory;
   test::write_text(directory / "body.vtu", "<?xml version=\"1.0\"?>\n<VTKFile>\n</VTKFile>\n");
-  EXPECT_THAT(message_of(directory / "body.vtu"),
+  EXPECT_THAT(loading_message(directory / "body.vtu"),
               AllOf(HasSubstr("is no mesh of gmsh"), HasSubstr("meshio convert ")));
 }
 
@@ -49,7 +49,7 @@ TEST(OtherFormats, TheCommandOfTheMessageMakesAMeshThatIsRead) {
   const std::string made = here + "gmsh \"" PERILINK_SOURCE_DIR
                                   "/tests/data/plate_41.msh\" -save -format msh40 -o old.msh";
   ASSERT_EQ(std::system((made + " > gmsh.log 2>&1").c_str()), 0);
-  const std::string message = message_of(folder / "old.msh"), before = "name the new file: ";
+  const std::string message = loading_message(folder / "old.msh"), before = "name the new file: ";
   ASSERT_THAT(message, AllOf(HasSubstr("is in version \"4\""), HasSubstr(before)));
   const std::string command = message.substr(message.find(before) + before.size());
   ASSERT_EQ(std::system((here + "(" + command + ") > gmsh.log 2>&1").c_str()), 0) << command;

@@ -36,7 +36,7 @@ TEST(DrawnGroups, LinesBesideTheMeshAreNoneOfAGroup) {
 }
 
 /// A plate of 4 x 2 with a line of the mesh from (2, 0) to (2, 1).
-constexpr const char* plate_case = R"(regions = [
+constexpr const char* drawn_case = R"(regions = [
   {name = "plate", group = "plate"},
   {name = "left", group = "left"},
   {name = "right", group = "right"},
@@ -59,13 +59,13 @@ x = 1
 group = "crack"
 )";
 
-Model model_of(const std::string& text) {
+Model drawn_model(const std::string& text) {
   return build_model(parse_case(text, PERILINK_SOURCE_DIR "/tests/data/case.toml"));
 }
 
-std::string refusal(const std::string& text) {
+std::string drawn_refusal(const std::string& text) {
   try {
-    model_of(text);
+    drawn_model(text);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -73,9 +73,9 @@ std::string refusal(const std::string& text) {
 }
 
 TEST(DrawnGroups, ACrackOfAGroupCutsWhatItsPointsCut) {
-  const Model drawn = model_of(plate_case);
+  const Model drawn = drawn_model(drawn_case);
   const Model given =
-      model_of(replaced(plate_case, "group = \"crack\"", "points = [[2, 0], [2, 1]]"));
+      drawn_model(replaced(drawn_case, "group = \"crack\"", "points = [[2, 0], [2, 1]]"));
   ASSERT_EQ(drawn.cracks.size(), 1u);
   EXPECT_EQ(drawn.cracks[0].points, (std::vector<Vector3>{{2, 0, 0}, {2, 1, 0}}));
   EXPECT_GT(drawn.network.cut_by_crack[0], 0);
@@ -84,17 +84,17 @@ TEST(DrawnGroups, ACrackOfAGroupCutsWhatItsPointsCut) {
 }
 
 TEST(DrawnGroups, CracksNameAGroupOfTheMesh) {
-  EXPECT_THAT(refusal(replaced(plate_case, "group = \"crack\"", "group = \"creck\"")),
+  EXPECT_THAT(drawn_refusal(replaced(drawn_case, "group = \"crack\"", "group = \"creck\"")),
               ::testing::AllOf(HasSubstr("cracks[1].group: is \"creck\", but no Physical Curve of "
                                          "this name"),
                                HasSubstr("did you mean `crack`?")));
-  EXPECT_THAT(refusal(replaced(plate_case, "group = \"crack\"", "group = \"left\"")),
+  EXPECT_THAT(drawn_refusal(replaced(drawn_case, "group = \"crack\"", "group = \"left\"")),
               HasSubstr("cracks[1].group: crosses no bond of the body"));
 }
 
 /// The surface between the cubes of a block, of quadrilaterals that are divided as their cells.
 TEST(DrawnGroups, ACrackOfASurfaceInSpaceCutsItsBonds) {
-  const Model model = model_of(R"(regions = [
+  const Model model = drawn_model(R"(regions = [
   {name = "block", group = "block"},
   {name = "left", x = [0, 0], y = [0, 1], z = [0, 1]},
   {name = "right", x = [2, 2], y = [0, 1], z = [0, 1]},
