@@ -61,22 +61,30 @@ std::vector<const CLI::App*> commands_of(const CLI::App& app) {
 
 std::string long_name(const CLI::Option& option) { return "--" + option.get_lnames().front(); }
 
+/// Returns the kind of an option's value, such as TEXT, without the range that follows it.
+std::string value_name(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  return troff(type.substr(0, type.find(':')));
+}
+
 std::string options_for_troff(const CLI::App& app) {
   std::string text;
   for (const CLI::Option* option : options_of(app)) {
     text += fmt::format(".TP\n\\fB{}\\fR{}\n{}\n", troff(option->get_name(false, true)),
-                        has_value(*option) ? " \\fI" + troff(option->get_type_name()) + "\\fR" : "",
+                        has_value(*option) ? " \\fI" + value_name(*option) + "\\fR" : "",
                         troff(option->get_description()));
   }
   return text;
 }
 
 std::string manual(const CLI::App& app, const std::string& footer) {
+  const std::string description = app.get_description();  // "Perilink: ..."
   std::string text = fmt::format(
       ".TH PERILINK 1 \"\" \"Perilink {}\" \"User Commands\"\n.SH NAME\nperilink \\- {}\n"
       ".SH SYNOPSIS\n\\fBperilink\\fR \\fICOMMAND\\fR [\\fIOPTIONS\\fR]\n.SH OPTIONS\n{}"
       ".SH COMMANDS\n",
-      program_version(), troff(app.get_description()), options_for_troff(app));
+      program_version(), troff(description.substr(description.find(':') + 2)),
+      options_for_troff(app));
   for (const CLI::App* command : commands_of(app)) {
     text += fmt::format(".SS {}", troff(command->get_name()));
     for (const CLI::Option* option : command->get_options()) {
