@@ -149,7 +149,8 @@ struct SpringSection {
 struct CrackSection {
   /// Corners of a line (2D) or of a plane convex polygon (3D) [length].
   std::vector<Vector3> points;
-  std::string group = {};  ///< instead: physical curves of the mesh, in space surfaces
+  std::string group = {};            ///< instead: physical curves of the mesh, in space surfaces
+  std::optional<bool> closing = {};  ///< its faces press on each other; empty: as the materials
 };
 
 /// [[interfaces]]: bonds across a face between two regions, or across a line or plane, have their

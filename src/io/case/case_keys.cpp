@@ -312,14 +312,14 @@ const std::vector<KeySchema> stage_keys =
 const std::vector<KeySchema> random_keys =
     plain("property materials distribution variation correlation_length seed");
 
-/// A line in the plane and on mid-surfaces, a polygon in space.
 constexpr const char* a_line = "give the `points` of a line: [[0, 1], [2, 1]]";
 const std::vector<KeySchema> crack_keys = {
     {"points", {{space, "is given, but the body has 3 dimensions", "give `corners` of a polygon"}}},
     {"corners",
      {{plane, "is given, but the body has 2 dimensions", a_line},
       {shell, "is given, but cracks of a shell are lines on its mid-surface", a_line}}},
-    "group"};
+    "group",
+    {"closing", {{shell, "is given, but cracks of a shell do not close", delete_it}}}};
 
 const std::vector<KeySchema> interface_keys = {
     "between",     crack_keys[0],       crack_keys[1],

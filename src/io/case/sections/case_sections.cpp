@@ -115,6 +115,7 @@ CrackSection read_crack(const CaseTable& table, int dim) {
   CrackSection crack;
   table.need_one_of({dim == 2 ? "points" : "corners", "group"});
   read_face(table, dim, crack.points, crack.group);
+  crack.closing = table.boolean("closing");
   return crack;
 }
 

@@ -199,6 +199,7 @@ std::string write_case(const CaseFile& input) {
   for (const CrackSection& crack : input.cracks) {
     out.header("[[cracks]]");
     write_face(out, crack.points, crack.group, dim);
+    out.write("closing", crack.closing);
   }
   for (const InterfaceSection& face : input.interfaces) write_interface(out, face, dim);
   for (const RandomSection& random : input.random) write_random(out, random);

@@ -156,6 +156,7 @@ DrawnCracks drawn_cracks(const CaseFile& input, const Body& body) {
     } else {
       own = drawn_faces(input, key, section.group, body);
     }
+    for (Crack& crack : own) crack.closes = section.closing;
     drawn.entry.resize(drawn.entry.size() + own.size(), k);
     std::ranges::move(own, std::back_inserter(drawn.cracks));
   }
