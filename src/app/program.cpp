@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <iterator>
 #include <new>
 #include <span>
 #include <string>
@@ -17,6 +18,7 @@
 #include <vector>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/option_texts.hpp"
 #include "app/commands/plot_command.hpp"
 #include "app/process/console.hpp"
 #include "base/build_info.hpp"
@@ -195,6 +197,18 @@ const CLI::App* add_report_command(CLI::App& app, ReportOptions& options) {
   return command;
 }
 
+/// Adds the option by which the build gets the manual page and the completions.
+void add_describe_option(CLI::App& app) {
+  app.add_option_function<std::string>("--describe",
+                                       [&app](const std::string& kind) {
+                                         throw CLI::CallForVersion(option_text(app, kind, footer),
+                                                                   0);
+                                       })
+      ->check(
+          CLI::IsMember(std::vector<std::string>(std::begin(option_texts), std::end(option_texts))))
+      ->group("");
+}
+
 /// Ends the program after an uncaught failure, such as exhausted memory in a parallel loop. Files
 /// written so far stay readable and the summary keeps the status of an unfinished run.
 [[noreturn]] void end_without_handler() {
@@ -249,6 +263,7 @@ int run_program(int argc, char** argv) {
   });
   app.require_subcommand(1);
   app.footer(footer);
+  add_describe_option(app);
 
   RunOptions run;
   const CLI::App* run_command = add_run_command(app, run);

@@ -9,6 +9,7 @@
 #include "analysis/quasistatic/damage_analysis.hpp"
 #include "assembly/linear_elements.hpp"
 #include "assembly/results/surface_conditions.hpp"
+#include "discretization/cuts/cracks.hpp"
 #include "discretization/facets.hpp"
 #include "discretization/lattices/lattice.hpp"
 #include "io/case/case_file.hpp"
@@ -63,7 +64,9 @@ struct Model : LoadedNetwork {
   SurfaceConditions surface_conditions;  ///< for stresses; empty: unknown
   LoadResultant resultant;
   std::vector<std::size_t> entry_of_bar;  ///< in [[rebar]], by Bars::bar
-  std::vector<std::string> notes;         ///< for the user: pinned modes, unbalanced moments
+  std::vector<Crack> cracks;              ///< of [[cracks]]; surfaces of a mesh by their triangles
+  std::vector<std::size_t> entry_of_crack;  ///< in [[cracks]]
+  std::vector<std::string> notes;           ///< for the user: pinned modes, unbalanced moments
 };
 
 }  // namespace perilink

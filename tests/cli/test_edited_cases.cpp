@@ -89,10 +89,12 @@ TEST_F(MeshedCase, MeshesOfOtherFormatsAreRefusedWithWhatConvertsThem) {
   const struct {
     const char *mesh, *text, *fault, *advice;
   } meshes[] = {
-      {"body.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n",
-       "body.msh:2: is in version \"2.2\" of gmsh's format",
+      {"body.msh", "$MeshFormat\n4 0 8\n$EndMeshFormat\n",
+       "body.msh:2: is in version \"4\" of gmsh's format",
        "gmsh \"../body.msh\" -save -format msh41 -o \"../body_41.msh\""},
-      {"body.inp", "*HEADING\n", "body.inp", "no mesh of gmsh"},
+      {"body.inp", "*ELEMENT, TYPE=CAX4\n1, 1, 2, 3, 4\n", "body.inp:1: has axisymmetric elements",
+       "mesh the solid in space"},
+      {"body.med", "\x89HDF", "no mesh of gmsh", "meshio convert \"../body.med\" \"../body.msh\""},
       {"body.vtk", "# vtk DataFile Version 2.0\n", "no mesh of gmsh",
        "gmsh \"../body.vtk\" -save -format msh41 -o \"../body_41.msh\""},
   };

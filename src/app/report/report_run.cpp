@@ -139,8 +139,9 @@ Json cracks_of(const TomlValue& root) {
   for (const TomlValue& crack : list == nullptr ? std::vector<TomlValue>{} : list->items) {
     const TomlValue* points = crack.find("points");
     if (points == nullptr) points = crack.find("corners");
+    if (points == nullptr) continue;  // a group of the mesh
     Json line = Json::array();
-    for (const TomlValue& point : points == nullptr ? std::vector<TomlValue>{} : points->items) {
+    for (const TomlValue& point : points->items) {
       Json at = Json::array();
       for (const TomlValue& coordinate : point.items) at.push_back(coordinate.number);
       line.push_back(std::move(at));

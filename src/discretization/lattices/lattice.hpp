@@ -71,7 +71,8 @@ struct Group {
   /// shape (lines, 2).
   std::vector<double> line_points = {};
   std::vector<Index> lines = {};
-  /// End of a line that is not an edge of the body; such a curve is only valid for bars.
+  /// Corner of an element that is not a side of a cell. Such curves are valid for bars and, in the
+  /// plane, for cracks.
   std::optional<Vector3> loose = {};
   /// Groups of lines (2D) or triangles (3D): corners of their cell sides, shape (sides, dim).
   std::vector<Index> sides = {};

@@ -121,14 +121,6 @@ struct Numbering {
   bool whole = true;                 ///< whether every cell has a material
 };
 
-[[noreturn]] void refuse_loose_facet(const Mesh& mesh, const MeshGroup& group, Index element) {
-  Vector3 x =
-      point_of(mesh.positions, mesh.dim, mesh.facets[static_cast<std::size_t>(element) * mesh.dim]);
-  throw std::invalid_argument(
-      fmt::format("an element of the group \"{}\" with a corner at ({}) is no side of a cell",
-                  group.name, joined({x.data(), static_cast<std::size_t>(mesh.dim)})));
-}
-
 void refuse_overlap(const Mesh& mesh, const CellFaces& faces, const Numbering& numbering,
                     const Body& body) {
   const auto overlap = find_overlap(body.cells, body.particles.positions, faces);
@@ -165,7 +157,6 @@ void add_facets_of_facets(const Mesh& mesh, const MeshGroup& group, const CellFa
         result.facets.push_back(numbering.surface_facet[face]);
       }
     } else if (numbering.whole) {
-      if (mesh.dim == 3) refuse_loose_facet(mesh, group, element);
       if (!result.loose) result.loose = point_of(mesh.positions, mesh.dim, own[0]);
     }
   }

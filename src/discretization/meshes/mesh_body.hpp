@@ -31,7 +31,7 @@ Simplices cells_of(const Body& body, bool tied);
 /// \param thickness  two-dimensional bodies only [length]
 /// \param tied       per cell, nonzero for a tied finite element (Body::tied); empty: none
 /// \throws std::invalid_argument if no cell has a material, a cell has no volume, cells overlap,
-///     parts touch without being joined, or a group's facet is not a side of a cell
+///     or parts touch without being joined
 Body make_mesh_body(const Mesh& mesh, std::span<const Index> material, double thickness,
                     std::span<const std::uint8_t> tied = {});
 

@@ -24,10 +24,15 @@ namespace perilink {
 struct CaseSetting;
 struct TomlValue;
 
-/// [body]
-struct BodySection {
-  std::optional<std::string> mesh;  ///< file, from the folder of the case; irregular pattern
-  std::optional<double> mesh_size;  ///< size of the cells where `mesh` is a geometry [length]
+/// Mesh that a table names.
+struct MeshSource {
+  std::optional<std::string> mesh;   ///< file of a mesh or geometry, from the folder of the case
+  std::optional<double> mesh_size;   ///< size of the cells where `mesh` is a geometry [length]
+  std::optional<double> mesh_scale;  ///< factor on the coordinates of the file; absent: 1
+};
+
+/// [body]; the pattern of a mesh is irregular.
+struct BodySection : MeshSource {
   Problem problem = Problem::plane_stress;
   BodyMethod method = BodyMethod::bonds;
   BodyModel model = BodyModel::bond_based;
@@ -145,6 +150,7 @@ struct SpringSection {
 struct CrackSection {
   /// Corners of a line (2D) or of a plane convex polygon (3D) [length].
   std::vector<Vector3> points;
+  std::string group = {};            ///< instead: physical curves of the mesh, in space surfaces
   std::optional<bool> closing = {};  ///< its faces press on each other; empty: as the materials
 };
 
@@ -264,12 +270,10 @@ struct StageSection {
 };
 
 /// [elements]: finite elements (hosts) that constrain particles until bonds near them may break;
-/// exactly one of spacings and size.
-struct ElementsSection {
+/// exactly one of spacings, size and a mesh, whose cells become hosts.
+struct ElementsSection : MeshSource {
   std::optional<int> spacings;         ///< particle spacings along each side of an element
   std::optional<double> size;          ///< approximate length of each side [length]
-  std::optional<std::string> mesh;     ///< file of a mesh (cells become hosts) or of a geometry
-  std::optional<double> mesh_size;     ///< size of the cells, where `mesh` is a geometry
   int order = 2;                       ///< degree of the polynomials along each axis: 1 or 2
   std::vector<std::string> regions;    ///< regions with elements; empty: the whole body
   std::vector<std::string> particles;  ///< regions without elements

@@ -226,6 +226,7 @@ const std::vector<KeySchema> body_keys = {
        "delete it, or set problem = \"shell\""}}},
     {"mesh", in_beams},
     {"mesh_size", in_beams},
+    {"mesh_scale", in_beams},
     {"pattern", in_beams},
     {"seed", seeds},
     {"surface", neighbourhoods},
@@ -323,22 +324,20 @@ const std::vector<KeySchema> gauge_keys =
 const std::vector<KeySchema> random_keys =
     plain("property materials distribution variation correlation_length seed");
 
-/// A line in the plane and on mid-surfaces, a polygon in space.
+constexpr const char* a_line = "give the `points` of a line: [[0, 1], [2, 1]]";
 const std::vector<KeySchema> crack_keys = {
-    {"points",
-     {{space, "is given, but the body has 3 dimensions", "give the `corners` of a plane polygon"}}},
+    {"points", {{space, "is given, but the body has 3 dimensions", "give `corners` of a polygon"}}},
     {"corners",
-     {{plane, "is given, but the body has 2 dimensions",
-       "give the `points` of a line: [[0, 1], [2, 1]]"},
-      {shell, "is given, but cracks of a shell are lines on its mid-surface",
-       "give the `points` of a line: [[0, 1], [2, 1]]"}}},
+     {{plane, "is given, but the body has 2 dimensions", a_line},
+      {shell, "is given, but cracks of a shell are lines on its mid-surface", a_line}}},
+    "group",
     {"closing", {{shell, "is given, but cracks of a shell do not close", delete_it}}}};
 
 const std::vector<KeySchema> interface_keys = {
-    "between",   crack_keys[0],       crack_keys[1],
-    "group",     "fracture_energy",   "tensile_strength",
-    "softening", "softening_error",   "softening_stretches",
-    "closing",   "knee_stress_ratio", "knee_opening_ratio"};
+    "between",     crack_keys[0],       crack_keys[1],
+    crack_keys[2], "fracture_energy",   "tensile_strength",
+    "softening",   "softening_error",   "softening_stretches",
+    "closing",     "knee_stress_ratio", "knee_opening_ratio"};
 
 }  // namespace
 
@@ -368,6 +367,7 @@ const std::vector<TableSchema>& case_schema() {
         "size",
         {"mesh", in_beams},
         {"mesh_size", in_beams},
+        {"mesh_scale", in_beams},
         "order",
         "regions",
         "particles",

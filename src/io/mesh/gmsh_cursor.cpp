@@ -9,15 +9,13 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "io/mesh/mesh_listing.hpp"
 #include "io/text/toml_tree.hpp"
 
 namespace perilink {
 namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
-
-/// Powers of larger numbers leave the range of double precision.
-constexpr double largest_coordinate = 1e50;
 
 }  // namespace
 
@@ -110,12 +108,18 @@ double GmshCursor::number() {
   return value;
 }
 
-std::size_t GmshCursor::count(std::size_t values_each, const char* things) {
-  const std::int64_t value = size();
+std::size_t GmshCursor::count_line(std::size_t values_each, const char* things) {
+  const std::size_t value = checked_count(text_integer(), values_each, things);
+  line();
+  return value;
+}
+
+std::size_t GmshCursor::checked_count(std::int64_t value, std::size_t values_each,
+                                      const char* things) const {
   // As text, each value takes at least a digit and a blank; the file may end after the last digit.
   const std::size_t least = std::max<std::size_t>(values_each, 1) * (binary_ ? 4 : 2);
   const std::size_t left = bytes_.size() - at_ + 1;
-  if (static_cast<std::uint64_t>(value) > left / least) {
+  if (value < 0 || static_cast<std::uint64_t>(value) > left / least) {
     refuse(fmt::format("announces {} {}, more than the rest of the file can hold", value, things),
            "the file is cut off or damaged: write the mesh again");
   }

@@ -17,6 +17,7 @@ class GmshCursor {
   const std::string& path() const { return path_; }
 
   void set_binary(bool binary) { binary_ = binary; }
+  bool binary() const { return binary_; }
   bool at_end();
 
   /// Reads a line of text without its end, also in binary files, whose headers are text.
@@ -32,7 +33,11 @@ class GmshCursor {
   /// Reads the number of items that follow. Refuses numbers larger than the rest of the file can
   /// hold, so that memory can be reserved.
   /// \param values_each  least number of values per item; 0 means 1
-  std::size_t count(std::size_t values_each, const char* things);
+  std::size_t count(std::size_t values_each, const char* things) {
+    return checked_count(size(), values_each, things);
+  }
+  /// Reads a line with such a number, which is text also in binary files.
+  std::size_t count_line(std::size_t values_each, const char* things);
 
   /// Skips to the line after "$End<section>".
   void skip_to_end_of(std::string_view section);
@@ -42,6 +47,7 @@ class GmshCursor {
   [[noreturn]] void refuse(const std::string& fault, const std::string& advice = "") const;
 
  private:
+  std::size_t checked_count(std::int64_t value, std::size_t values_each, const char* things) const;
   void skip_blanks();
   template <class Value>
   Value raw();

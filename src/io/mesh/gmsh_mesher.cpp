@@ -18,8 +18,8 @@
 #include "base/error.hpp"
 #include "base/files.hpp"
 #include "io/case/case_words.hpp"
-#include "io/mesh/gmsh_file.hpp"
 #include "io/mesh/gmsh_script.hpp"
+#include "io/mesh/mesh_file.hpp"
 
 #ifdef PERILINK_GMSH_LIBRARY
 #include <dlfcn.h>
@@ -274,7 +274,7 @@ Mesh mesh_checked(const std::string& path, int dim, std::optional<double> size,
   if (WEXITSTATUS(outcome.status) != 0) {
     throw MeshingError("gmsh cannot mesh it: " + outcome.message);
   }
-  return parse_gmsh(read_regular_file(target.path()), name, dim);
+  return parse_mesh(read_regular_file(target.path()), name, dim);
 }
 
 }  // namespace

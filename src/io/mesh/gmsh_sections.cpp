@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <optional>
+#include <set>
 
 #include "io/mesh/gmsh_cursor.hpp"
 #include "io/mesh/other_formats.hpp"
@@ -15,9 +18,11 @@ namespace {
 /// request any amount of memory.
 constexpr std::size_t most_physical_groups = 1000;
 
-void read_format(GmshCursor& file) {
+/// \return whether the file has version 2
+bool read_format(GmshCursor& file) {
   const std::string version(file.word());
-  if (version != "4.1") {
+  const bool old = version == "2.2" || version == "2.1";
+  if (version != "4.1" && !old) {
     file.refuse(fmt::format("is in version {} of gmsh's format", quoted(version)),
                 conversion_to_41(file.path()));
   }
@@ -35,6 +40,7 @@ void read_format(GmshCursor& file) {
     }
   }
   file.expect_end_of("MeshFormat");
+  return old;
 }
 
 /// Names are in quotes, one per line, as text also in binary files.
@@ -55,145 +61,198 @@ void read_names(GmshCursor& file, GmshSections& sections) {
   file.expect_end_of("PhysicalNames");
 }
 
-void read_entities(GmshCursor& file, GmshSections& sections) {
+/// Reads the sections of version 4.1.
+class Version4 {
+ public:
+  Version4(GmshCursor& file, GmshSections& sections) : file_(file), sections_(sections) {}
+
+  void read_entities();
+  void read_nodes();
+  void read_elements();
+  void add_groups();
+
+ private:
+  struct Block {
+    GmshKey entity;
+    Index first, last;  ///< range of elements
+  };
+
+  GmshKey read_entity_of_block();
+
+  GmshCursor& file_;
+  GmshSections& sections_;
+  std::map<GmshKey, std::vector<int>> physical_tags_;  ///< by entity
+  std::vector<Block> blocks_;
+};
+
+void Version4::read_entities() {
   std::size_t counts[4];
-  for (std::size_t& count : counts) count = file.count(1, "entities");
+  for (std::size_t& count : counts) count = file_.count(1, "entities");
   for (int dim = 0; dim <= 3; ++dim) {
     for (std::size_t i = 0; i < counts[dim]; ++i) {
-      const int tag = file.integer();
-      for (int k = 0; k < (dim == 0 ? 3 : 6); ++k) file.number();  // position or bounding box
-      std::vector<int> physical(file.count(1, "physical groups"));
+      const int tag = file_.integer();
+      for (int k = 0; k < (dim == 0 ? 3 : 6); ++k) file_.number();  // position or bounding box
+      std::vector<int> physical(file_.count(1, "physical groups"));
       if (physical.size() > most_physical_groups) {
-        file.refuse(fmt::format("has an entity in {} physical groups", physical.size()),
-                    fmt::format("{} are possible", most_physical_groups));
+        file_.refuse(fmt::format("has an entity in {} physical groups", physical.size()),
+                     fmt::format("{} are possible", most_physical_groups));
       }
       // A negative tag reverses the elements of the group; their orientation is not used.
-      for (int& group : physical) group = std::abs(std::max(file.integer(), -INT32_MAX));
-      for (auto k = dim > 0 ? file.count(1, "bounding entities") : 0; k > 0; --k) file.integer();
-      sections.physical_tags[{dim, tag}] = std::move(physical);
+      for (int& group : physical) group = std::abs(std::max(file_.integer(), -INT32_MAX));
+      for (auto k = dim > 0 ? file_.count(1, "bounding entities") : 0; k > 0; --k) file_.integer();
+      physical_tags_[{dim, tag}] = std::move(physical);
     }
   }
-  file.expect_end_of("Entities");
+  file_.expect_end_of("Entities");
 }
 
-GmshKey read_entity_of_block(GmshCursor& file) {
-  const int dim = file.integer();
-  const int tag = file.integer();
-  if (dim < 0 || dim > 3) file.refuse(fmt::format("has an entity of dimension {}", dim));
+GmshKey Version4::read_entity_of_block() {
+  const int dim = file_.integer();
+  const int tag = file_.integer();
+  if (dim < 0 || dim > 3) file_.refuse(fmt::format("has an entity of dimension {}", dim));
   return {dim, tag};
 }
 
-void read_nodes(GmshCursor& file, GmshSections& sections) {
-  const std::size_t num_blocks = file.count(4, "blocks of nodes");
-  for (int k = 0; k < 3; ++k) file.size();  // number of nodes, smallest and largest tag
+void Version4::read_nodes() {
+  MeshListing& listing = sections_.listing;
+  const std::size_t num_blocks = file_.count(4, "blocks of nodes");
+  for (int k = 0; k < 3; ++k) file_.size();  // number of nodes, smallest and largest tag
   for (std::size_t block = 0; block < num_blocks; ++block) {
-    const int dim = read_entity_of_block(file).first;
-    const bool parametric = file.integer() != 0;
-    const std::size_t count = file.count(4, "nodes");
-    for (std::size_t i = 0; i < count; ++i) sections.node_tags.push_back(file.size());
+    const int dim = read_entity_of_block().first;
+    const bool parametric = file_.integer() != 0;
+    const std::size_t count = file_.count(4, "nodes");
+    for (std::size_t i = 0; i < count; ++i) listing.node_tags.push_back(file_.size());
     for (std::size_t i = 0; i < count; ++i) {
-      for (int axis = 0; axis < 3; ++axis) sections.coordinates.push_back(file.number());
-      for (int k = 0; parametric && k < dim; ++k) file.number();
+      for (int axis = 0; axis < 3; ++axis) listing.coordinates.push_back(file_.number());
+      for (int k = 0; parametric && k < dim; ++k) file_.number();
     }
   }
-  file.expect_end_of("Nodes");
+  file_.expect_end_of("Nodes");
 }
 
-int nodes_of_type(const GmshCursor& file, int type) {
-  switch (type) {
-    case 15: return 1;
-    case 1: return 2;
-    case 2: return 3;
-    case 4: return 4;
-    case 3:
-      file.refuse("has quadrilaterals",
-                  "mesh with triangles: leave out Recombine Surface and "
-                  "Mesh.RecombineAll");
-    case 5:
-    case 6:
-    case 7:
-      file.refuse("has hexahedra, prisms or pyramids",
-                  "mesh with tetrahedra: leave out Recombine, also in Extrude");
-    case 8:
-    case 9:
-    case 10:
-    case 11: file.refuse("has elements of second order", conversion_to_first_order(file.path()));
-    default:
-      file.refuse(fmt::format("has elements of gmsh's type {}", type),
-                  "triangles in the plane and tetrahedra in space, both of first order, are read");
-  }
-}
-
-void read_elements(GmshCursor& file, GmshSections& sections) {
-  const std::size_t num_blocks = file.count(4, "blocks of elements");
-  for (int k = 0; k < 3; ++k) file.size();  // number of elements, smallest and largest tag
+void Version4::read_elements() {
+  MeshListing& listing = sections_.listing;
+  const std::size_t num_blocks = file_.count(4, "blocks of elements");
+  for (int k = 0; k < 3; ++k) file_.size();  // number of elements, smallest and largest tag
   for (std::size_t b = 0; b < num_blocks; ++b) {
-    GmshBlock block;
-    block.entity = read_entity_of_block(file);
-    block.type = file.integer();
-    const int width = nodes_of_type(file, block.type);
-    if (width != block.entity.first + 1) {
-      file.refuse(fmt::format("has elements of {} corners on an entity of dimension {}", width,
-                              block.entity.first));
+    const GmshKey entity = read_entity_of_block();
+    const GmshType type = gmsh_type(file_, file_.integer());
+    const ShapeProperties& properties = properties_of(type.shape);
+    if (properties.dim != entity.first) {
+      file_.refuse(
+          fmt::format("has {} on an entity of dimension {}", properties.plural, entity.first));
     }
-    const std::size_t count = file.count(static_cast<std::size_t>(width) + 1, "elements");
-    block.nodes.reserve(count * width);
+    const std::size_t count = file_.count(static_cast<std::size_t>(type.nodes) + 1, "elements");
+    const Index first = listing.num_elements();
     for (std::size_t i = 0; i < count; ++i) {
-      block.tags.push_back(file.size());
-      for (int k = 0; k < width; ++k) block.nodes.push_back(file.size());
+      const std::int64_t tag = file_.size();
+      add_gmsh_element(
+          type, tag, [&] { return file_.size(); }, listing);
     }
-    sections.blocks.push_back(std::move(block));
+    blocks_.push_back({entity, first, listing.num_elements()});
   }
-  file.expect_end_of("Elements");
+  file_.expect_end_of("Elements");
 }
 
-void read_section(GmshCursor& file, const std::string& name, GmshSections& sections) {
-  if (name == "PhysicalNames") return read_names(file, sections);
-  if (name == "Entities") return read_entities(file, sections);
-  if (name == "Nodes") return read_nodes(file, sections);
-  if (name == "Elements") return read_elements(file, sections);
-  if (name == "PartitionedEntities") {
-    file.refuse("is partitioned", "save the mesh before it is partitioned");
+/// Adds the elements to their physical groups, after all sections have been read.
+void Version4::add_groups() {
+  for (const Block& block : blocks_) {
+    const std::vector<int>& tags = physical_tags_[block.entity];
+    for (const int tag : std::set<int>(tags.begin(), tags.end())) {
+      std::vector<Index>& group = sections_.elements[{block.entity.first, tag}];
+      for (Index e = block.first; e < block.last; ++e) group.push_back(e);
+    }
   }
-  file.skip_to_end_of(name);
+}
+
+/// Names the physical groups, and merges those of equal dimension and name.
+void add_named_groups(GmshSections& sections) {
+  std::map<std::pair<int, std::string>, std::size_t> number;
+  std::vector<MeshListing::Group>& groups = sections.listing.groups;
+  for (auto& [key, elements] : sections.elements) {
+    const auto found = sections.names.find(key);
+    std::string name = found != sections.names.end() ? found->second : std::to_string(key.second);
+    const auto [known, is_new] = number.try_emplace({key.first, name}, groups.size());
+    if (is_new) {
+      groups.push_back({std::move(name), key.first, std::move(elements)});
+      continue;
+    }
+    std::vector<Index>& all = groups[known->second].elements;
+    all.insert(all.end(), elements.begin(), elements.end());
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+  }
+}
+
+/// Returns the name of the section that begins here; none at the end of the file.
+std::optional<std::string> section_name(GmshCursor& file, bool format_known) {
+  if (file.at_end()) return std::nullopt;
+  std::string_view header = file.line();
+  while (!header.empty() && (header.back() == ' ' || header.back() == '\t')) {
+    header.remove_suffix(1);
+  }
+  if (!format_known && header != "$MeshFormat" && header != "$Comments") {
+    file.refuse("does not begin with $MeshFormat, so it is no mesh of gmsh",
+                conversion_of_others(file.path()));
+  }
+  if (!header.starts_with('$')) {
+    file.refuse(
+        fmt::format("has {} where a section $... should begin", quoted(std::string(header))));
+  }
+  return std::string(header.substr(1));
 }
 
 }  // namespace
 
-GmshSections read_gmsh_sections(std::string_view bytes, const std::string& path) {
+GmshType gmsh_type(const GmshCursor& file, int number) {
+  using enum CellShape;
+  static const std::map<int, GmshType> types = {
+      {15, {point, 1}},          {1, {line, 2}},           {8, {line, 3}},
+      {26, {line, 4}},           {27, {line, 5}},          {28, {line, 6}},
+      {2, {triangle, 3}},        {9, {triangle, 6}},       {20, {triangle, 9}},
+      {21, {triangle, 10}},      {22, {triangle, 12}},     {23, {triangle, 15}},
+      {3, {quadrilateral, 4}},   {10, {quadrilateral, 9}}, {16, {quadrilateral, 8}},
+      {36, {quadrilateral, 16}}, {4, {tetrahedron, 4}},    {11, {tetrahedron, 10}},
+      {29, {tetrahedron, 20}},   {30, {tetrahedron, 35}},  {5, {hexahedron, 8}},
+      {12, {hexahedron, 27}},    {17, {hexahedron, 20}},   {92, {hexahedron, 64}},
+      {6, {wedge, 6}},           {13, {wedge, 18}},        {18, {wedge, 15}},
+      {7, {pyramid, 5}},         {14, {pyramid, 14}},      {19, {pyramid, 13}}};
+  const auto found = types.find(number);
+  if (found != types.end()) return found->second;
+  file.refuse(fmt::format("has elements of gmsh's type {}", number),
+              "triangles and quadrilaterals in the plane, and tetrahedra, hexahedra, wedges and "
+              "pyramids in space are read: save the mesh without this element");
+}
+
+MeshListing read_gmsh(std::string_view bytes, const std::string& path) {
   if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);  // byte order mark of UTF-8
   GmshCursor file(bytes, path);
   GmshSections sections;
-  bool format_known = false;
-  while (!file.at_end()) {
-    std::string_view header = file.line();
-    while (!header.empty() && (header.back() == ' ' || header.back() == '\t')) {
-      header.remove_suffix(1);
-    }
-    if (!format_known && header != "$MeshFormat" && header != "$Comments") {
-      file.refuse("does not begin with $MeshFormat, so it is no mesh of gmsh",
-                  conversion_of_others(path));
-    }
-    if (!header.starts_with('$')) {
-      file.refuse(
-          fmt::format("has {} where a section $... should begin", quoted(std::string(header))));
-    }
-    const std::string name(header.substr(1));
+  Version4 version_4(file, sections);
+  bool format_known = false, is_old = false;
+  while (const auto section = section_name(file, format_known)) {
+    const std::string& name = *section;
     if (name == "MeshFormat") {
-      read_format(file);
+      is_old = read_format(file);
       format_known = true;
-    } else if (name == "Comments") {
-      file.skip_to_end_of(name);
+    } else if (name == "PhysicalNames") {
+      read_names(file, sections);
+    } else if (name == "Entities" && !is_old) {
+      version_4.read_entities();
+    } else if (name == "Nodes") {
+      is_old ? read_nodes_2(file, sections) : version_4.read_nodes();
+    } else if (name == "Elements") {
+      is_old ? read_elements_2(file, sections) : version_4.read_elements();
+    } else if (name == "PartitionedEntities") {
+      file.refuse("is partitioned", "save the mesh before it is partitioned");
     } else {
-      read_section(file, name, sections);
+      file.skip_to_end_of(name);
     }
   }
   if (!format_known) file.refuse("is empty", "write the mesh again");
-  if (sections.node_tags.empty() || sections.blocks.empty()) {
-    file.refuse("holds no mesh: it has no nodes or no elements",
-                "mesh the geometry before saving it: gmsh FILE.geo -2 (or -3)");
-  }
-  return sections;
+  version_4.add_groups();
+  add_named_groups(sections);
+  return std::move(sections.listing);
 }
 
 }  // namespace perilink

@@ -7,32 +7,57 @@
 #include <utility>
 #include <vector>
 
+#include "io/mesh/gmsh_cursor.hpp"
+#include "io/mesh/mesh_listing.hpp"
+
 namespace perilink {
 
 /// Dimension and tag of an entity or of a physical group.
 using GmshKey = std::pair<int, int>;
 
-/// Elements of one entity and one type.
-struct GmshBlock {
-  GmshKey entity;
-  int type = 0;                     ///< gmsh's number: 1 line, 2 triangle, 4 tetrahedron, 15 point
-  std::vector<std::int64_t> tags;   ///< tags that the elements have
-  std::vector<std::int64_t> nodes;  ///< tags of their nodes, element after element
-};
-
-/// Contents of a .msh 4.1 file, unprocessed.
+/// Contents of a .msh file; its groups are not yet named.
 struct GmshSections {
-  std::map<GmshKey, std::string> names;               ///< by physical group
-  std::map<GmshKey, std::vector<int>> physical_tags;  ///< by entity
-  std::vector<std::int64_t> node_tags;
-  std::vector<double> coordinates;  ///< [length], shape (nodes, 3)
-  std::vector<GmshBlock> blocks;
+  MeshListing listing;
+  std::map<GmshKey, std::string> names;            ///< by physical group
+  std::map<GmshKey, std::vector<Index>> elements;  ///< by physical group
 };
 
-/// Reads the sections of a file. Element types other than points, lines, triangles and tetrahedra
-/// of first order are refused, and so are partitioned meshes. Sections of results are skipped.
+/// Kind of an element with its number of nodes, the first of which are its corners.
+struct GmshType {
+  CellShape shape;
+  int nodes;
+};
+
+/// Returns the kind of element of gmsh's number, or refuses the file.
+GmshType gmsh_type(const GmshCursor& file, int number);
+
+/// Adds an element, whose tag and nodes come next in the file.
+/// \param read_tag  reads one tag of a node
+template <class ReadTag>
+void add_gmsh_element(const GmshType& type, std::int64_t tag, const ReadTag& read_tag,
+                      MeshListing& listing) {
+  const int corners = properties_of(type.shape).corners;
+  listing.shapes.push_back(type.shape);
+  listing.element_tags.push_back(tag);
+  for (int k = 0; k < corners; ++k) listing.corners.push_back(read_tag());
+  for (int k = corners; k < type.nodes; ++k) read_tag();
+  if (type.nodes > corners) listing.second_order[properties_of(type.shape).dim] = true;
+}
+
+/// Reads section $Nodes of version 2.
+void read_nodes_2(GmshCursor& file, GmshSections& sections);
+
+/// Reads section $Elements of version 2. An element that the file repeats for each of its physical
+/// groups is added once.
+void read_elements_2(GmshCursor& file, GmshSections& sections);
+
+/// Reads a .msh file of version 4.1, 2.2 or 2.1.
+/// - Elements may have any order.
+/// - Partitioned meshes are refused; sections of results are skipped.
+/// - A group without a name is named by its number. Groups are sorted by dimension and tag; groups
+///   of equal dimension and name are merged.
 /// \param path  for messages
 /// \throws InputError
-GmshSections read_gmsh_sections(std::string_view bytes, const std::string& path);
+MeshListing read_gmsh(std::string_view bytes, const std::string& path);
 
 }  // namespace perilink

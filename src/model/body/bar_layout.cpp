@@ -12,10 +12,10 @@
 #include "base/plain_text.hpp"
 #include "discretization/facet_geometry.hpp"
 #include "discretization/meshes/cell_search.hpp"
-#include "discretization/meshes/mesh_curves.hpp"
 #include "io/case/case_schema.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/text/toml_tree.hpp"
+#include "model/body/groups/drawn_groups.hpp"
 #include "model/body/solid_boxes.hpp"
 
 namespace perilink {
@@ -128,36 +128,13 @@ void refuse_hooks_of_closed(const CaseFile& input, std::size_t k, const Points& 
                    "delete the key; closed bars are anchored by their corners");
 }
 
-/// Returns the curves of a physical group as bars.
-std::vector<Points> drawn_bars(const CaseFile& input, std::size_t k, const Body& body) {
-  const std::string& name = input.rebar[k].group;
-  const SourceLocation where = input.where(item_key("rebar", k, "group"));
-  std::vector<std::string_view> names;
-  for (const Group& group : body.groups) {
-    if (group.lines.empty()) continue;
-    names.push_back(group.name);
-    if (group.name != name) continue;
-    try {
-      std::vector<Points> curves = curves_of(group.line_points, group.lines);
-      if (!curves.empty()) return curves;
-    } catch (const std::invalid_argument& error) {
-      throw InputError(where, fmt::format("is {}, which {}", quoted(name), error.what()),
-                       "draw every bar once; Coherence in gmsh joins coinciding curves");
-    }
-    throw InputError(where, fmt::format("is {}, whose lines have no length", quoted(name)), "");
-  }
-  throw InputError(
-      where, fmt::format("is {}, but the mesh has no physical curves of this name", quoted(name)),
-      names.empty()
-          ? fmt::format("write Physical Curve({}) = {{...}}; in the geometry", quoted(name))
-          : suggest(name, names));
-}
-
 /// Returns the bars of an entry before they are copied.
 std::vector<Points> first_bars(const CaseFile& input, std::size_t k, const Body& body) {
   const RebarSection& section = input.rebar[k];
   const int dim = body.particles.dim;
-  if (!section.group.empty()) return drawn_bars(input, k, body);
+  if (!section.group.empty()) {
+    return drawn_curves(input, item_key("rebar", k, "group"), section.group, body);
+  }
   if (!section.layout) return {section.points};
   const Box room = room_of(input, k, dim);
   if (section.layout->spacing) {

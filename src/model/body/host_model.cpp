@@ -86,14 +86,15 @@ std::vector<double> faces_of(const Model& model) {
   return faces;
 }
 
-Hosts find_hosts(const CaseFile& input, const Model& model) {
+/// \param notes  receives those of a mesh
+Hosts find_hosts(const CaseFile& input, const Model& model, std::vector<std::string>& notes) {
   const ElementsSection& section = *input.elements;
   const Particles& particles = model.network.particles;
   const std::vector<double> faces = faces_of(model);
   const double tolerance = border_tolerance * model.lattice.spacing;
   if (section.mesh) {
-    const Mesh mesh =
-        read_mesh(input, "elements.mesh", *section.mesh, section.mesh_size, particles.dim);
+    const Mesh mesh = read_mesh(input, "elements.mesh", section, particles.dim);
+    notes.insert(notes.end(), mesh.notes.begin(), mesh.notes.end());
     try {
       return hosts_on_mesh(particles, faces, mesh, section.order, tolerance);
     } catch (const std::invalid_argument& error) {
@@ -148,15 +149,12 @@ Bonds nearest_pairs(const Model& model) {
 }
 
 /// Marks elements with a particle that a pre-crack separates from a near neighbour.
-std::vector<std::uint8_t> cracked_elements(const CaseFile& input, const Model& model,
-                                           const Hosts& hosts) {
+std::vector<std::uint8_t> cracked_elements(const Model& model, const Hosts& hosts) {
   std::vector<std::uint8_t> cracked(static_cast<std::size_t>(hosts.size()), 0);
-  if (input.cracks.empty()) return cracked;
+  if (model.cracks.empty()) return cracked;
   const Particles& particles = model.network.particles;
-  std::vector<Crack> cracks;
-  for (const CrackSection& crack : input.cracks) cracks.push_back({crack.points});
   const Bonds pairs = nearest_pairs(model);
-  const CutBonds cut = find_cut_bonds(particles, pairs, cracks, model.lattice.spacing);
+  const CutBonds cut = find_cut_bonds(particles, pairs, model.cracks, model.lattice.spacing);
   std::vector<std::uint8_t> beside(static_cast<std::size_t>(particles.size()), 0);
   for (std::size_t k = 0; k < pairs.first.size(); ++k) {
     if (cut.keep[k] == 0) beside[pairs.first[k]] = beside[pairs.second[k]] = 1;
@@ -202,13 +200,13 @@ bool is_gripped_later(const Model& model, const EmbeddedBody& body, Index elemen
 void carry_particles(const CaseFile& input, Model& model) {
   if (!input.elements || !carries_particles(*input.elements)) return;
   EmbeddedBody body;
-  body.hosts = find_hosts(input, model);
+  body.hosts = find_hosts(input, model, model.notes);
   body.free = std::move(model.unknowns);
   body.release_threshold = input.elements->release_threshold;
   body.release_strain = input.elements->release_strain;
   body.buffer_zone = input.elements->buffer_zone.value_or(model.horizon);
   const std::vector<std::uint8_t> carry = particles_to_carry(input, model);
-  const std::vector<std::uint8_t> cracked = cracked_elements(input, model, body.hosts);
+  const std::vector<std::uint8_t> cracked = cracked_elements(model, body.hosts);
   body.whole = fit_supports(body.hosts, body.free);
   for (Index e = 0; e < body.hosts.size(); ++e) {
     const auto inside = body.hosts.inside.row(e);

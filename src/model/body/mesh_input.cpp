@@ -13,10 +13,12 @@
 #include "discretization/meshes/mesh_conformity.hpp"
 #include "io/case/case_schema.hpp"
 #include "io/case/case_words.hpp"
+#include "io/case/sections/case_kinds.hpp"
 #include "io/checkpoint/checkpoint.hpp"
-#include "io/mesh/gmsh_file.hpp"
 #include "io/mesh/gmsh_mesher.hpp"
+#include "io/mesh/mesh_file.hpp"
 #include "io/text/toml_tree.hpp"
+#include "model/body/groups/drawn_groups.hpp"
 
 namespace perilink {
 namespace {
@@ -44,8 +46,8 @@ const char* elements_of(const MeshGroup& group) {
 std::string suggest_group(const Mesh& mesh, const std::string& name) {
   if (mesh.groups.empty()) {
     return fmt::format(
-        "the mesh has no physical group at all; write Physical {}(\"{}\") = {{...}}; in the "
-        "geometry",
+        "the mesh has no group at all; write Physical {}(\"{}\") = {{...}}; in the geometry of "
+        "gmsh, or a set in Abaqus",
         mesh.dim == 2 ? "Surface" : "Volume", name);
   }
   std::vector<std::string_view> names;
@@ -57,21 +59,35 @@ void refuse_unknown_groups(const CaseFile& input, const Mesh& mesh) {
   for (std::size_t i = 0; i < input.regions.size(); ++i) {
     const std::string& name = input.regions[i].group;
     if (name.empty() || find_group(mesh, name) != nullptr) continue;
-    throw InputError(input.where(item_key("regions", i, "group")),
-                     fmt::format("is {}, but {} has no such physical group", quoted(name),
-                                 mesh_path(input).string()),
-                     suggest_group(mesh, name));
+    throw InputError(
+        input.where(item_key("regions", i, "group")),
+        fmt::format("is {}, but {} has no such group", quoted(name), mesh_path(input).string()),
+        suggest_group(mesh, name));
+  }
+}
+
+/// Refuses named groups of lines that leave the plane of a two-dimensional mesh.
+void refuse_groups_off_plane(const CaseFile& input, const Mesh& mesh) {
+  for (const auto& [key, name] : named_groups(input)) {
+    const bool off_plane = std::ranges::any_of(
+        mesh.groups, [&](const MeshGroup& group) { return group.name == name && group.off_plane; });
+    if (!off_plane) continue;
+    throw InputError(
+        input.where(key),
+        fmt::format("is {}, a group with lines outside the plane of the body", quoted(name)),
+        "draw two-dimensional bodies in the plane of x and y");
   }
 }
 
 /// Adds notes on names shared by several groups and on the unit of a geometry file.
 void add_notes(const CaseFile& input, MeshInput& read) {
+  read.notes = read.mesh.notes;
   for (const Region& region : input.regions) {
     const auto named = [&](const MeshGroup& group) { return group.name == region.group; };
     if (std::count_if(read.mesh.groups.begin(), read.mesh.groups.end(), named) < 2) continue;
     read.notes.push_back(fmt::format(
-        "the region {} is the physical group {} of {}; groups of lower dimension have the same "
-        "name and are not used",
+        "the region {} is the group {} of {}; groups of lower dimension have the same name and are "
+        "not used",
         quoted(region.name), quoted(region.group),
         elements_of(*find_group(read.mesh, region.group))));
   }
@@ -86,10 +102,11 @@ void add_notes(const CaseFile& input, MeshInput& read) {
   }
   const bool step = std::string_view("sS").find(path.extension().string()[1]) != std::string::npos;
   read.notes.push_back(fmt::format(
-      "{}: {}; the mesh goes from ({}) to ({})", path.string(),
+      "{}: {}{}; the mesh goes from ({}) to ({})", path.string(),
       step ? "lengths are in millimetres, to which gmsh converts STEP files from any unit"
            : "BREP files state no unit, so lengths are taken as they stand in the file",
-      joined(lower), joined(upper)));
+      input.body.mesh_scale ? fmt::format(", times {}", *input.body.mesh_scale) : "", joined(lower),
+      joined(upper)));
 }
 
 /// Regions of the materials with the material of each, in order of precedence.
@@ -116,23 +133,15 @@ Patches patches_of(const CaseFile& input, const Mesh& mesh) {
 
 }  // namespace
 
-void refuse_loose_lines(const CaseFile& input, const std::string& key, const Body& body,
-                        const Group& group) {
-  if (!group.loose) return;
-  throw InputError(
-      input.where(key),
-      fmt::format("is {}, a line of which, at ({}), is not an edge of a cell", quoted(group.name),
-                  joined({group.loose->data(), static_cast<std::size_t>(body.particles.dim)})),
-      "embed it in the body before meshing (BooleanFragments or Coherence in "
-      "gmsh); for bars, give intervals");
-}
-
-Mesh read_mesh(const CaseFile& input, const std::string& key, const std::string& file,
-               std::optional<double> size, int dim) {
+Mesh read_mesh(const CaseFile& input, const std::string& key, const MeshSource& source, int dim) {
   try {
-    const std::string path = seen_from_case(input, file).string();
-    return is_geometry(path) ? mesh_geometry(path, dim, size, input.trust_geometry)
-                             : read_gmsh_file(path, dim);
+    const std::string path = seen_from_case(input, *source.mesh).string();
+    const double scale = source.mesh_scale.value_or(1.0);
+    const auto size = source.mesh_size ? std::optional(*source.mesh_size / scale) : std::nullopt;
+    Mesh mesh = is_geometry(path) ? mesh_geometry(path, dim, size, input.trust_geometry)
+                                  : load_mesh(path, dim);
+    for (double& x : mesh.positions) x *= scale;
+    return mesh;
   } catch (const FileError& error) {
     throw InputError(input.where(key), error.what(),
                      "give the path relative to the folder of the case");
@@ -155,8 +164,9 @@ const MeshGroup& group_of_cells(const CaseFile& input, const Mesh& mesh, const R
 
 MeshInput read_mesh_input(const CaseFile& input, int dim) {
   MeshInput read;
-  read.mesh = read_mesh(input, "body.mesh", *input.body.mesh, input.body.mesh_size, dim);
+  read.mesh = read_mesh(input, "body.mesh", input.body, dim);
   refuse_unknown_groups(input, read.mesh);
+  refuse_groups_off_plane(input, read.mesh);
   add_notes(input, read);
   const Patches patches = patches_of(input, read.mesh);
   read.material = materials_of_cells(read.mesh, patches.regions, patches.material);
@@ -204,7 +214,7 @@ void refuse_regions_of_curves(const CaseFile& input, const Body& body) {
         std::find_if(body.groups.rbegin(), body.groups.rend(),
                      [&](const Group& own) { return own.name == input.regions[i].group; });
     if (group == body.groups.rend()) continue;
-    refuse_loose_lines(input, item_key("regions", i, "group"), body, *group);
+    refuse_loose_group(input, item_key("regions", i, "group"), body, *group);
   }
 }
 

@@ -19,18 +19,16 @@ struct MeshInput {
 };
 
 /// Reads a mesh file, or meshes a geometry file.
-/// \param key   key that names the file, for messages
-/// \param file  path relative to the folder of the case
-/// \param size  target cell size of a geometry
+/// \param key     key that names the file, for messages
+/// \param source  names a file; the size of its cells is in the unit of the case
 /// \throws InputError  where it cannot be read
-Mesh read_mesh(const CaseFile& input, const std::string& key, const std::string& file,
-               std::optional<double> size, int dim);
+Mesh read_mesh(const CaseFile& input, const std::string& key, const MeshSource& source, int dim);
 
 /// Reads the mesh that is the body of a case.
 /// \throws InputError  where the mesh cannot be read, or lacks a group or its cells
 MeshInput read_mesh_input(const CaseFile& input, int dim);
 
-/// Returns the physical group of a region, which must consist of cells.
+/// Returns the group of a region, which must consist of cells.
 /// \param key       place in the case, for messages
 /// \param contents  what the region should hold, for messages
 /// \throws InputError  where the group has no area (2D) or volume (3D)
@@ -42,12 +40,6 @@ const MeshGroup& group_of_cells(const CaseFile& input, const Mesh& mesh, const R
 /// \throws InputError  where the mesh cannot be read, is damaged or does not suit the case: a group
 ///         that it lacks, a material for a group without cells, cells that overlap
 Body read_mesh_body(const CaseFile& input, int dim, std::vector<std::string>& notes);
-
-/// Refuses a group with lines that are not edges of cells, because the mesh would lose them.
-/// \param key  key that names the group, for messages
-/// \throws InputError
-void refuse_loose_lines(const CaseFile& input, const std::string& key, const Body& body,
-                        const Group& group);
 
 /// Returns the case with its mesh path relative to a folder, to be written there.
 CaseFile seen_from(const CaseFile& input, const std::filesystem::path& directory);

@@ -4,18 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <stdexcept>
-#include <string_view>
 
 #include "base/error.hpp"
-#include "discretization/facet_geometry.hpp"
-#include "discretization/mesh_faces.hpp"
-#include "discretization/meshes/mesh_surfaces.hpp"
 #include "io/case/case_schema.hpp"
 #include "io/case/sections/laws/case_softening.hpp"
-#include "io/text/toml_tree.hpp"
-#include "model/body/mesh_input.hpp"
+#include "model/body/groups/drawn_groups.hpp"
 
 namespace perilink {
 namespace {
@@ -56,81 +50,6 @@ std::string key_of(const CaseFile& input, std::size_t k, int dim) {
   return item_key("interfaces", k, place);
 }
 
-/// Returns the physical curves or surfaces of an interface.
-const Group& group_of_face(const CaseFile& input, std::size_t k, const Body& body) {
-  const std::string& name = input.interfaces[k].group;
-  std::vector<std::string_view> names;
-  for (const Group& group : body.groups) {
-    if (group.sides.empty()) continue;
-    if (group.name == name) {
-      refuse_loose_lines(input, item_key("interfaces", k, "group"), body, group);
-      return group;
-    }
-    names.push_back(group.name);
-  }
-  const char* kind = body.particles.dim == 2 ? "Curve" : "Surface";
-  throw InputError(
-      input.where(item_key("interfaces", k, "group")),
-      fmt::format("is {}, but no Physical {} of this name lies in the body", quoted(name), kind),
-      names.empty()
-          ? fmt::format("write Physical {}({}) = {{...}}; in the geometry", kind, quoted(name))
-          : suggest(name, names));
-}
-
-using Corners = std::vector<Index>;
-
-std::map<Corners, Index> facets_by_corners(const Body& body) {
-  std::map<Corners, Index> facets;
-  for (Index f = 0; f < body.facets.size(); ++f) {
-    const auto row = body.facets.corners.row(f);
-    Corners corners(row.begin(), row.end());
-    std::sort(corners.begin(), corners.end());
-    facets.emplace(std::move(corners), f);
-  }
-  return facets;
-}
-
-/// Returns the area vector of a facet. It points to the left of a line, or to the side from which a
-/// triangle runs counter-clockwise.
-Vector3 normal_of(const Body& body, const Corners& corners) {
-  const auto at = [&](std::size_t k) {
-    return point_of(body.particles.positions, body.particles.dim, corners[k]);
-  };
-  const Vector3 along = minus(at(1), at(0));
-  if (corners.size() == 2) return {-along[1], along[0], 0.0};
-  return cross(along, minus(at(2), at(0)));
-}
-
-/// Returns the facets of a group with a common positive side. A particle between two materials
-/// belongs to the later one, and lies on its side; a particle on the surface lies inside.
-std::vector<Crack> faces_of_group(const Body& body, const Group& group) {
-  const auto dim = static_cast<std::size_t>(body.particles.dim);
-  const std::map<Corners, Index> facets = facets_by_corners(body);
-  std::vector<Index> known, others;
-  for (std::size_t s = 0; s < group.sides.size(); s += dim) {
-    Corners corners(group.sides.begin() + s, group.sides.begin() + s + dim), sorted = corners;
-    std::sort(sorted.begin(), sorted.end());
-    const auto facet = facets.find(sorted);
-    if (facet != facets.end()) {
-      const double towards =
-          dot(normal_of(body, corners),
-              point_of(body.facets.area_vectors, body.particles.dim, facet->second));
-      const bool wrong = body.facets.on_surface(facet->second) ? towards > 0.0 : towards < 0.0;
-      if (wrong) std::swap(corners[dim - 2], corners[dim - 1]);
-    }
-    std::vector<Index>& list = facet != facets.end() ? known : others;
-    list.insert(list.end(), corners.begin(), corners.end());
-  }
-  known.insert(known.end(), others.begin(), others.end());
-  turn_alike(known, body.particles.dim);
-  std::vector<Crack> faces;
-  for (std::size_t c = 0; c < known.size(); ++c) {
-    if (c % dim == 0) faces.emplace_back();
-    faces.back().points.push_back(point_of(body.particles.positions, body.particles.dim, known[c]));
-  }
-  return faces;
-}
-
 }  // namespace
 
 std::vector<WeakInterface> weak_interfaces(const CaseFile& input, const Body& body) {
@@ -142,7 +61,7 @@ std::vector<WeakInterface> weak_interfaces(const CaseFile& input, const Body& bo
     const double energy = has_stretches(section.softening) ? 1.0 : section.fracture_energy;
     WeakInterface face{{}, {{section.points}}, energy, section.softening};
     if (!section.group.empty()) {
-      face.faces = faces_of_group(body, group_of_face(input, k, body));
+      face.faces = drawn_faces(input, item_key("interfaces", k, "group"), section.group, body);
     } else if (!section.between.empty()) {
       face.side.assign(static_cast<std::size_t>(body.particles.size()), 0);
       mark(input, body, section.between[0], 1, face.side);

@@ -87,7 +87,7 @@ void require_balance(const CaseFile& input, Model& model, const Fragment& fragme
 
 /// Refuses loads on a part that a pre-crack cuts off, or leaves with too few bonds.
 void refuse_cut_off(const CaseFile& input, const Model& model, std::span<const Index> particles) {
-  const std::string crack = crack_beside(input, model, particles);
+  const std::string crack = crack_beside(model, particles);
   if (crack.empty()) return;
   const auto x = model.network.places().position(particles.front());
   throw InputError(input.where(crack),

@@ -297,13 +297,11 @@ std::vector<std::uint8_t> loaded_particles(const CaseFile& input, const Model& m
 
 /// Returns, per particle, the first pre-crack that cuts one of its bonds, else the number of
 /// pre-cracks.
-std::vector<std::size_t> cracks_beside(const CaseFile& input, const Model& model,
-                                       std::span<const Index> particles) {
+std::vector<std::size_t> cracks_beside(const Model& model, std::span<const Index> particles) {
   const Particles& all = model.network.places();
   std::vector<CrackCutter> cutters;
-  for (const CrackSection& section : input.cracks) {
-    const Crack crack{section.points};
-    cutters.emplace_back(std::span(&crack, 1), dimension_of(input.body), model.lattice.spacing);
+  for (const Crack& crack : model.cracks) {
+    cutters.emplace_back(std::span(&crack, 1), all.dim, model.lattice.spacing);
   }
   std::vector<double> places;
   for (const Index i : particles) {
@@ -350,7 +348,7 @@ CutOffParts find_cut_off_parts(const CaseFile& input, const Model& model,
   const Network& network = model.network;
   CutOffParts off;
   off.particles.assign(static_cast<std::size_t>(network.particles.size()), 0);
-  if (input.cracks.empty() || network.has_states()) return off;
+  if (model.cracks.empty() || network.has_states()) return off;
   std::vector<Fragment> parts = find_loose_parts(network, prescription.held);
   if (parts.empty()) return off;
   std::vector<std::uint8_t> loaded = loaded_particles(input, model);
@@ -361,7 +359,7 @@ CutOffParts find_cut_off_parts(const CaseFile& input, const Model& model,
   }
   std::erase_if(parts, [&](const Fragment& part) {
     return std::ranges::any_of(part.particles, [&](Index i) { return loaded[i] != 0; }) ||
-           crack_beside(input, model, part.particles).empty();
+           crack_beside(model, part.particles).empty();
   });
   if (parts.empty()) return off;
   off.springs.assign(prescription.held.size(), 0.0);
@@ -383,11 +381,10 @@ CutOffParts find_cut_off_parts(const CaseFile& input, const Model& model,
   return off;
 }
 
-std::string crack_beside(const CaseFile& input, const Model& model,
-                         std::span<const Index> particles) {
-  const std::vector<std::size_t> beside = cracks_beside(input, model, particles);
-  const auto first = std::ranges::find_if(beside, [&](auto k) { return k < input.cracks.size(); });
-  return first == beside.end() ? "" : item_key("cracks", *first);
+std::string crack_beside(const Model& model, std::span<const Index> particles) {
+  const std::vector<std::size_t> beside = cracks_beside(model, particles);
+  const auto first = std::ranges::find_if(beside, [&](auto k) { return k < model.cracks.size(); });
+  return first == beside.end() ? "" : item_key("cracks", model.entry_of_crack[*first]);
 }
 
 }  // namespace perilink

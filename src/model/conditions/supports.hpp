@@ -43,7 +43,6 @@ CutOffParts find_cut_off_parts(const CaseFile& input, const Model& model,
                                const Prescription& prescription);
 
 /// Returns the key of the first pre-crack that cuts a bond of these particles; empty: none does.
-std::string crack_beside(const CaseFile& input, const Model& model,
-                         std::span<const Index> particles);
+std::string crack_beside(const Model& model, std::span<const Index> particles);
 
 }  // namespace perilink

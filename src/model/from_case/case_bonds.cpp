@@ -15,6 +15,7 @@
 #include "io/case/sections/laws/case_softening.hpp"
 #include "model/body/bar_layout.hpp"
 #include "model/body/fracture_rule.hpp"
+#include "model/body/groups/drawn_groups.hpp"
 #include "model/body/horizon_limits.hpp"
 #include "model/body/mesh_input.hpp"
 #include "model/body/shell_rules.hpp"
@@ -47,36 +48,25 @@ void refuse_poissons_ratios(const CaseFile& input, const Body& body, const Netwo
   }
 }
 
-std::string crack_key(std::size_t crack, int dim) {
-  return item_key("cracks", crack, dim == 2 ? "points" : "corners");
-}
-
-void refuse_impossible_cracks(const CaseFile& input, int dim) {
-  for (std::size_t k = 0; k < input.cracks.size(); ++k) {
-    try {
-      check_crack({input.cracks[k].points}, dim);
-    } catch (const std::invalid_argument& error) {
-      throw InputError(input.where(crack_key(k, dim)), error.what(), "");
-    }
+void refuse_cracks_without_bonds(const CaseFile& input, const Model& model) {
+  refuse_interfaces_without_bonds(input, model.network);
+  std::vector<Index> cut(input.cracks.size(), 0);  // bonds, by entry of [[cracks]]
+  for (std::size_t c = 0; c < model.cracks.size(); ++c) {
+    cut[model.entry_of_crack[c]] += model.network.cut_by_crack[c];
+  }
+  for (std::size_t k = 0; k < cut.size(); ++k) {
+    if (cut[k] > 0) continue;
+    throw InputError(input.where(place_of_crack(input, k)), "crosses no bond of the body",
+                     "move the crack into the body, or delete it");
   }
 }
 
-void refuse_cracks_without_bonds(const CaseFile& input, const Network& network) {
-  refuse_interfaces_without_bonds(input, network);
-  for (std::size_t k = 0; k < input.cracks.size(); ++k) {
-    if (network.cut_by_crack[k] > 0) continue;
-    throw InputError(input.where(crack_key(k, dimension_of(input.body))),
-                     "crosses no bond of the body", "move the crack into the body, or delete it");
-  }
-}
-
-NetworkInput network_input(const CaseFile& input, Problem problem, double horizon,
-                           const LaidBars& bars) {
+NetworkInput network_input(const CaseFile& input, const Model& model, const LaidBars& bars) {
   NetworkInput network;
-  network.problem = problem;
+  network.problem = model.problem;
   if (input.body.model == BodyModel::micropolar) network.model = BondModel::micropolar;
   network.torsion = input.body.torsion;
-  network.horizon = horizon;
+  network.horizon = model.horizon;
   network.thickness = input.body.thickness;
   network.shell = is_shell(input.body);
   network.radius = input.body.radius.value_or(0.0);
@@ -98,8 +88,7 @@ NetworkInput network_input(const CaseFile& input, Problem problem, double horizo
                                  network.elastic ? SofteningMaterial{} : material.softening});
     network.materials.back().softening.closes = material.softening.closes;
   }
-  for (const CrackSection& crack : input.cracks)
-    network.cracks.push_back({crack.points, crack.closing});
+  network.cracks = model.cracks;
   for (const RandomSection& random : input.random) {
     if (network.elastic) break;
     network.random.push_back(
@@ -167,7 +156,7 @@ void refuse_before_calibration(const CaseFile& input, const Body& body, NetworkI
   draft.facets = draft.network.shell ? draft.network.facets : body.facets;
   draft.cells = body.cells;
   draft.groups = body.groups;
-  refuse_cracks_without_bonds(input, draft.network);
+  refuse_cracks_without_bonds(input, draft);
   refuse_unbreakable_bodies(input, draft.network);
   apply_boundary_conditions(input, draft);
   build_gauges(input, draft, draft.notes);
@@ -208,18 +197,20 @@ void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, 
   const LaidBars bars = lay_bars(input, body);
   refuse_bars_outside(input, body, bars);
   model.entry_of_bar = bars.sections;
-  NetworkInput network = network_input(input, model.problem, model.horizon, bars);
+  DrawnCracks drawn = drawn_cracks(input, body);
+  model.cracks = std::move(drawn.cracks);
+  model.entry_of_crack = std::move(drawn.entry);
+  NetworkInput network = network_input(input, model, bars);
   add_slits(body, network);
   network.on_search = options.on_search;
   network.interfaces = weak_interfaces(input, body);
   network.draft = network.estimates_cost = options.draft;
   if (body.spans.empty()) refuse_poissons_ratios(input, body, network);
   if (network.shell) refuse_impossible_shell(input, body, network);
-  refuse_impossible_cracks(input, body.particles.dim);
   model.crack_cost = count_on_the_path(input, body, network);
   if (!options.draft) refuse_before_calibration(input, body, network, model);
   model.network = build_case_network(input, body, network);
-  refuse_cracks_without_bonds(input, model.network);
+  refuse_cracks_without_bonds(input, model);
   refuse_unbreakable_bodies(input, model.network);
   for (const auto& text : {short_horizon_note(model), unmeasured_cost_note(model),
                            calibration_shortfall(model.network), lattice_note(input, model)}) {

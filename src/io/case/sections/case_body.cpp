@@ -72,7 +72,7 @@ void read_lattice(const CaseTable& table, BodySection& body) {
 
 /// Reads the mesh, which determines the particles and excludes keys of lattices.
 void read_mesh(const CaseTable& table, BodySection& body) {
-  read_mesh_file(table, body.mesh, body.mesh_size);
+  read_mesh_file(table, body);
   for (const char* key : {"pattern", "seed"}) {
     if (!table.has(key)) continue;
     table.refuse(key, "is given together with `mesh`", "delete it: the mesh places the particles");
@@ -251,7 +251,7 @@ BodySection read_body(const CaseTable& table, const BodySection& kind) {
   if (table.has("mesh")) {
     read_mesh(table, body);
   } else {
-    read_mesh_file(table, body.mesh, body.mesh_size);
+    read_mesh_file(table, body);
     read_lattice(table, body);
   }
   if (is_particles(body)) {

@@ -14,7 +14,7 @@ std::optional<ElementsSection> read_elements(const CaseTable& table) {
   ElementsSection elements;
   elements.spacings = table.integer("spacings", 2, most_spacings);
   elements.size = table.positive("size");
-  read_mesh_file(table, elements.mesh, elements.mesh_size);
+  read_mesh_file(table, elements);
   assign(elements.tied, table.texts("glued"));
   if (elements.tied.empty() || elements.mesh || elements.mesh_size) {
     table.need_one_of({"spacings", "size", "mesh"});
@@ -87,8 +87,7 @@ void write_elements(TomlWriter& out, const ElementsSection& elements) {
   out.header("[elements]");
   out.write("spacings", elements.spacings);
   out.write("size", elements.size);
-  out.write("mesh", elements.mesh);
-  out.write("mesh_size", elements.mesh_size);
+  write_mesh_file(out, elements);
   out.write("order", elements.order);
   if (!elements.regions.empty()) out.write("regions", elements.regions);
   if (!elements.particles.empty()) out.write("particles", elements.particles);

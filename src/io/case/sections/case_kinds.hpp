@@ -1,10 +1,12 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "io/case/case_file.hpp"
 #include "io/case/case_schema.hpp"
 #include "io/case/case_table.hpp"
+#include "io/text/toml_writer.hpp"
 
 /// \file Kinds of bodies, and keys that several kinds share.
 
@@ -48,9 +50,17 @@ std::string why_nothing_rotates(const BodySection& body);
 /// Returns a model whose particles have rotations, for the suggestion of a message.
 std::string what_rotates(const BodySection& body);
 
-/// Reads `mesh` and `mesh_size`, where a table has them.
-void read_mesh_file(const CaseTable& table, std::optional<std::string>& mesh,
-                    std::optional<double>& size);
+/// Reads `mesh`, `mesh_size` and `mesh_scale`, where a table has them.
+void read_mesh_file(const CaseTable& table, MeshSource& source);
+void write_mesh_file(TomlWriter& out, const MeshSource& source);
+
+/// Physical group of the mesh that a case names.
+struct NamedGroup {
+  std::string key, name;
+};
+
+/// Returns the groups that the tables of a case name.
+std::vector<NamedGroup> named_groups(const CaseFile& input);
 
 /// Word for the fracture energy of unbreakable materials.
 inline constexpr const char* infinite_energy = "infinite";

@@ -86,7 +86,7 @@ void refuse_surfaces(const CaseFile& input, const std::string& table,
 
 void read_lattice_body(const CaseTable& table, BodySection& body) {
   const int dim = dimension_of(body);
-  read_mesh_file(table, body.mesh, body.mesh_size);
+  read_mesh_file(table, body);
   body.surface = Surface::none;
   body.pattern = dim == 2 ? Pattern::hexagonal : Pattern::face_centred;
   const std::string_view only = word_of(body.pattern);
@@ -167,8 +167,7 @@ void read_explicit_analysis(const CaseTable& table, AnalysisSection& analysis) {
 }
 
 void write_lattice_body(TomlWriter& out, const BodySection& body) {
-  out.write("mesh", body.mesh);
-  out.write("mesh_size", body.mesh_size);
+  write_mesh_file(out, body);
   out.write("pattern", word_of(body.pattern));
   out.write("spacing", body.spacing);
   out.write("rotation", body.rotation);

@@ -272,12 +272,6 @@ RebarSection read_rebar(const CaseTable& table, int dim) {
 void check_rebar(const CaseFile& input) {
   for (std::size_t k = 0; k < input.rebar.size(); ++k) {
     const RebarSection& bar = input.rebar[k];
-    if (!bar.group.empty() && !input.body.mesh) {
-      throw InputError(
-          input.where(item_key("rebar", k, "group")),
-          fmt::format("is \"{}\", but the body has no mesh with physical groups", bar.group),
-          "give the `points` of the bar, or `mesh` in [body]");
-    }
     if (bar.bond == RebarBond::concrete) {
       refuse_flow_without_factor(input, k);
       continue;

@@ -149,16 +149,12 @@ void check_reference(const CaseFile& input, const std::set<std::string>& names,
 
 void check_groups(const CaseFile& input) {
   if (input.body.mesh) return;
-  for (std::size_t i = 0; i < input.regions.size(); ++i) {
-    if (input.regions[i].group.empty()) continue;
+  for (const auto& [key, name] : named_groups(input)) {
     throw InputError(
-        input.where(item_key("regions", i, "group")),
-        fmt::format("is {}, a physical group of a mesh, but the body has no mesh",
-                    quoted(input.regions[i].group)),
-        is_lattice(input.body)
-            ? "give `mesh` in [body], or the intervals of a box here"
-            : "give `mesh` in [body] instead of `spacing` or `columns`, or the intervals of a box "
-              "here");
+        input.where(key),
+        fmt::format("is {}, a physical group of a mesh, but the body has no mesh", quoted(name)),
+        fmt::format("give `mesh` in [body]{}, or the place by coordinates here",
+                    is_lattice(input.body) ? "" : " instead of `spacing` or `columns`"));
   }
 }
 

@@ -11,6 +11,7 @@
 #include "io/case/sections/case_bond_dynamics.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_lattice.hpp"
+#include "io/case/sections/laws/case_interfaces.hpp"
 
 namespace perilink {
 namespace {
@@ -111,16 +112,9 @@ LoadSection read_load(const CaseTable& table, const BodySection& body) {
 }
 
 CrackSection read_crack(const CaseTable& table, int dim) {
-  const std::string key = dim == 2 ? "points" : "corners";
   CrackSection crack;
-  crack.points = table.need(key, table.vectors(key, dim),
-                            dim == 2 ? "the points of a line: [[0, 1], [2, 1]]"
-                                     : "the corners of a plane convex polygon");
-  if (crack.points.size() < static_cast<std::size_t>(dim)) {
-    table.refuse(
-        key, fmt::format("has {}", crack.points.size()),
-        dim == 2 ? "a crack needs two points or more" : "a crack needs three corners or more");
-  }
+  table.need_one_of({dim == 2 ? "points" : "corners", "group"});
+  read_face(table, dim, crack.points, crack.group);
   crack.closing = table.boolean("closing");
   return crack;
 }

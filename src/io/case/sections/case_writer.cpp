@@ -35,8 +35,7 @@ void write_body(TomlWriter& out, const BodySection& body) {
   if (dimension_of(body) == 2) out.write("thickness", body.thickness);
   out.write("radius", body.radius);
   if (is_lattice(body)) return write_lattice_body(out, body);
-  out.write("mesh", body.mesh);
-  out.write("mesh_size", body.mesh_size);
+  write_mesh_file(out, body);
   if (!body.mesh && !is_beam(body)) out.write("pattern", word_of(body.pattern));
   if (!body.mesh && has_cells(body)) out.write("seed", body.seed);
   const bool has_horizon = bonds && !is_particles(body);
@@ -149,14 +148,6 @@ void write_more_loading(TomlWriter& out, const CaseFile& input) {
   }
 }
 
-void write_crack(TomlWriter& out, const CrackSection& crack, int dim) {
-  out.header("[[cracks]]");
-  std::vector<std::vector<double>> points;
-  for (const Vector3& point : crack.points) points.emplace_back(point.begin(), point.begin() + dim);
-  out.write(dim == 2 ? "points" : "corners", points);
-  out.write("closing", crack.closing);
-}
-
 void write_run(TomlWriter& out, const CaseFile& input) {
   out.header("[analysis]");
   out.write("type", word_of(input.analysis.type));
@@ -208,7 +199,11 @@ std::string write_case(const CaseFile& input) {
   write_solid(out, input, dim);
   write_loading(out, input, axes_of(input.body));
   write_more_loading(out, input);
-  for (const CrackSection& crack : input.cracks) write_crack(out, crack, dim);
+  for (const CrackSection& crack : input.cracks) {
+    out.header("[[cracks]]");
+    write_face(out, crack.points, crack.group, dim);
+    out.write("closing", crack.closing);
+  }
   for (const InterfaceSection& face : input.interfaces) write_interface(out, face, dim);
   for (const RandomSection& random : input.random) write_random(out, random);
   for (const RebarSection& bar : input.rebar) write_rebar(out, bar, dim);

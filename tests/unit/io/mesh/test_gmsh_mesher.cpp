@@ -9,7 +9,7 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "io/mesh/gmsh_file.hpp"
+#include "io/mesh/mesh_file.hpp"
 #include "support/temporary_directory.hpp"
 
 namespace perilink {
@@ -125,7 +125,7 @@ TEST(GmshMesher, ReadsTheMeshesOfTheFolder) {
                {"l_shape", 2, 7},
                {"hollow_sphere", 3, 6}};
   for (const auto& [name, dim, groups] : files) {
-    const Mesh mesh = read_gmsh_file(meshes + name + ".msh", dim);
+    const Mesh mesh = load_mesh(meshes + name + ".msh", dim);
     EXPECT_EQ(mesh.groups.size(), groups) << name;
     if (!has_gmsh()) continue;
     const Mesh meshed = mesh_geometry(meshes + name + ".geo", dim, {});

@@ -92,7 +92,8 @@ TEST(BarLayout, CurvesOfAMeshAreBars) {
       lay(name);
       FAIL() << name;
     } catch (const InputError& error) {
-      EXPECT_THAT(error.what(), testing::HasSubstr("has no physical curves of this name"));
+      EXPECT_THAT(error.what(),
+                  testing::HasSubstr("no Physical Curve of this name lies in the body"));
       EXPECT_THAT(error.what(), testing::HasSubstr(advice));
     }
   }

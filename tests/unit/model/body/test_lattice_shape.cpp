@@ -153,7 +153,7 @@ TEST_F(LatticeOfMesh, RefusesWhatDoesNotSuitTheMesh) {
   EXPECT_THAT(refusal(replaced(text(), "group = \"plate\"", "group = \"lower\"")),
               HasSubstr("is a group of lines, which contain no material"));
   EXPECT_THAT(refusal(replaced(text(), "group = \"plate\"", "group = \"Plate\"")),
-              HasSubstr("has no such physical group"));
+              HasSubstr("has no such group"));
   const std::string all_hole = "\n[[regions]]\nname = \"all\"\ngroup = \"plate\"\n";
   EXPECT_THAT(refusal(replaced(text() + all_hole, "region = \"strip\"",
                                "region = \"strip\"\nholes = [\"all\"]")),

@@ -142,8 +142,8 @@ TEST_F(MeshInput, NamesOfGroupsNeedToBeUniqueInTheirDimensionOnly) {
   const Model model = build_model(input);
   EXPECT_THAT(particles_of_region(input, model, "base", ""), ElementsAre(0, 1)) << "not its point";
   EXPECT_EQ(particles_of_region(input, model, "solid", "").size(), 5u) << "not its lines";
-  for (const char* group : {"\"base\" is the physical group \"lower\" of lines; ",
-                            "\"solid\" is the physical group \"plate\" of triangles; "}) {
+  for (const char* group : {"\"base\" is the group \"lower\" of lines; ",
+                            "\"solid\" is the group \"plate\" of triangles; "}) {
     EXPECT_THAT(model.notes, Contains(std::string("the region ") + group +
                                       "groups of lower dimension have the same name and are not "
                                       "used"));
@@ -195,6 +195,37 @@ type = "elastic"
     EXPECT_NEAR(table.rows[0][table.column("load")], 60.0, 1e-9);
     EXPECT_NEAR(table.rows[0][table.column("strain_energy")], 0.06, 1e-12);
   }
+}
+
+/// Coordinates of the mesh in millimetres, of the case in metres.
+TEST_F(MeshInput, ScalesTheCoordinatesOfMeshesAndScripts) {
+  const auto upper_corner = [&](const std::string& mesh) {
+    const Mesh read = read_mesh_input(parse("mesh = \"body.msh\"", mesh), 2).mesh;
+    const auto largest = std::max_element(read.positions.begin(), read.positions.end());
+    return std::pair(*largest, read.num_cells());
+  };
+  EXPECT_EQ(upper_corner("mesh = \"body.msh\"").first, 9.0);
+  EXPECT_EQ(upper_corner("mesh = \"body.msh\"\nmesh_scale = 0.5").first, 4.5);
+  if (!has_gmsh()) return;
+  test::write_text(directory_ / "body.geo",
+                   "DefineConstant[ h = 1 ]; SetFactory(\"OpenCASCADE\");\n"
+                   "Rectangle(1) = {0, 0, 0, 4, 2}; MeshSize{:} = h;\n"
+                   "Physical Surface(\"plate\") = {1}; Physical Curve(\"lower\") = {1};\n");
+  const auto plain = upper_corner("mesh = \"body.geo\"\nmesh_size = 0.5");
+  const auto scaled = upper_corner("mesh = \"body.geo\"\nmesh_size = 0.05\nmesh_scale = 0.1");
+  EXPECT_EQ(plain.first, 4.0);
+  EXPECT_EQ(scaled.first, 0.4);
+  EXPECT_EQ(scaled.second, plain.second) << "mesh_size is in the unit of the case";
+}
+
+TEST_F(MeshInput, RefusesLinesOutsideThePlaneOnlyInGroupsThatTheCaseNames) {
+  test::write_text(
+      directory_ / "body.msh",
+      replaced(replaced(test::square_mesh, "9 9 0\n", "9 9 5\n"), "3 40 10 ", "3 40 60"));
+  EXPECT_NO_THROW(read_mesh_input(parse(), 2));
+  EXPECT_THAT(refusal("group = \"lower\"", "group = \"lower and left\""),
+              HasSubstr("regions[2].group: is \"lower and left\", a group with lines outside the "
+                        "plane of the body"));
 }
 
 TEST_F(MeshInput, GeometriesSayTheirUnitAndSize) {
@@ -278,23 +309,6 @@ TEST_F(MeshInput, IsFoundFromTheFolderOfTheResults) {
   CaseFile absolute = input;
   absolute.body.mesh = (directory_ / "body.msh").string();
   EXPECT_EQ(seen_from(absolute, results).body.mesh, absolute.body.mesh);
-}
-
-/// Regions and interfaces would lose their parts outside the mesh.
-TEST_F(MeshInput, LinesBesideTheMeshAreNoneOfAGroup) {
-  const CaseFile input = parse();
-  Body body;
-  Group group{"joint", {}, {}};
-  EXPECT_NO_THROW(refuse_loose_lines(input, "interfaces[1].group", body, group));
-  group.loose = Vector3{20.0, 30.0, 0.0};
-  try {
-    refuse_loose_lines(input, "interfaces[1].group", body, group);
-    FAIL() << "accepted";
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(),
-                HasSubstr("interfaces[1].group: is \"joint\", a line of which, at (20, 30), is "
-                          "not an edge of a cell"));
-  }
 }
 
 }  // namespace

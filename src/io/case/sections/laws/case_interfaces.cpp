@@ -10,10 +10,30 @@
 
 namespace perilink {
 
-InterfaceSection read_interface(const CaseTable& table, int dim) {
+void read_face(const CaseTable& table, int dim, std::vector<Vector3>& points, std::string& group) {
   const std::string key = dim == 2 ? "points" : "corners";
+  assign(points, table.vectors(key, dim));
+  if (table.has(key) && points.size() < static_cast<std::size_t>(dim)) {
+    table.refuse(key, fmt::format("has {}", points.size()),
+                 dim == 2 ? "a line needs two points or more" : "a plane needs three corners");
+  }
+  assign(group, table.text("group"));
+  if (table.has("group") && group.empty()) {
+    table.refuse("group", "is empty", "name physical curves of the mesh, in space surfaces");
+  }
+}
+
+void write_face(TomlWriter& out, const std::vector<Vector3>& points, const std::string& group,
+                int dim) {
+  if (!group.empty()) return out.write("group", std::string_view(group));
+  std::vector<std::vector<double>> places;
+  for (const Vector3& x : points) places.emplace_back(x.begin(), x.begin() + dim);
+  out.write(dim == 2 ? "points" : "corners", places);
+}
+
+InterfaceSection read_interface(const CaseTable& table, int dim) {
   InterfaceSection section;
-  table.need_one_of({"between", key, "group"});
+  table.need_one_of({"between", dim == 2 ? "points" : "corners", "group"});
   assign(section.between, table.texts("between"));
   if (table.has("between") && section.between.size() != 2) {
     table.refuse("between", "names " + counted(section.between.size(), "region"),
@@ -22,18 +42,9 @@ InterfaceSection read_interface(const CaseTable& table, int dim) {
   if (section.between.size() == 2 && section.between[0] == section.between[1]) {
     table.refuse("between", fmt::format("names {} twice", quoted(section.between[0])),
                  "name the two on either side of the face; a face inside one region is given by "
-                 "its " +
-                     quoted(key));
+                 "its points, corners or group");
   }
-  assign(section.points, table.vectors(key, dim));
-  if (table.has(key) && section.points.size() < static_cast<std::size_t>(dim)) {
-    table.refuse(key, fmt::format("has {}", section.points.size()),
-                 dim == 2 ? "a line needs two points or more" : "a plane needs three corners");
-  }
-  assign(section.group, table.text("group"));
-  if (table.has("group") && section.group.empty()) {
-    table.refuse("group", "is empty", "name physical curves of the mesh, in space surfaces");
-  }
+  read_face(table, dim, section.points, section.group);
   if (table.choice<Softening>("softening") == Softening::concrete) {
     table.refuse("softening", "is \"concrete\", a law with crushing, which interfaces do not have",
                  "set \"brittle\", \"linear\", \"bilinear\" or \"exponential\"");
@@ -54,13 +65,6 @@ void check_interfaces(const CaseFile& input) {
                      "[[interfaces]]",
                      "set surface = \"calibrated\" or \"none\", or delete the interfaces");
   }
-  for (std::size_t k = 0; k < input.interfaces.size(); ++k) {
-    if (input.interfaces[k].group.empty() || input.body.mesh) continue;
-    throw InputError(input.where(item_key("interfaces", k, "group")),
-                     fmt::format("is {}, a physical group of a mesh, but the body has no mesh",
-                                 quoted(input.interfaces[k].group)),
-                     "give `between`, or the place of the face");
-  }
   for (std::size_t m = 0; m < input.materials.size(); ++m) {
     if (input.materials[m].softening.shape.kind != Softening::concrete) continue;
     throw InputError(
@@ -74,12 +78,8 @@ void write_interface(TomlWriter& out, const InterfaceSection& section, int dim) 
   out.header("[[interfaces]]");
   if (!section.between.empty()) {
     out.write("between", section.between);
-  } else if (!section.group.empty()) {
-    out.write("group", section.group);
   } else {
-    std::vector<std::vector<double>> points;
-    for (const Vector3& x : section.points) points.emplace_back(x.begin(), x.begin() + dim);
-    out.write(dim == 2 ? "points" : "corners", points);
+    write_face(out, section.points, section.group, dim);
   }
   if (!has_stretches(section.softening)) out.write("fracture_energy", section.fracture_energy);
   write_softening(out, section.softening);

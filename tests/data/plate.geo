@@ -1,0 +1,20 @@
+// Plate 4 x 2 of quadrilaterals, with a curve from the lower side to its centre.
+Point(1) = {0, 0, 0}; Point(2) = {2, 0, 0}; Point(3) = {4, 0, 0};
+Point(4) = {4, 2, 0}; Point(5) = {2, 2, 0}; Point(6) = {0, 2, 0};
+Point(7) = {2, 1, 0}; Point(8) = {0, 1, 0}; Point(9) = {4, 1, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 9}; Line(4) = {9, 4}; Line(5) = {4, 5};
+Line(6) = {5, 6}; Line(7) = {6, 8}; Line(8) = {8, 1}; Line(9) = {2, 7}; Line(10) = {7, 5};
+Line(11) = {8, 7}; Line(12) = {7, 9};
+Curve Loop(1) = {1, 9, -11, 8}; Plane Surface(1) = {1};
+Curve Loop(2) = {2, 3, -12, -9}; Plane Surface(2) = {2};
+Curve Loop(3) = {12, 4, 5, -10}; Plane Surface(3) = {3};
+Curve Loop(4) = {11, 10, 6, 7}; Plane Surface(4) = {4};
+Transfinite Curve{3, 4, 7, 8, 9, 10} = 3;
+Transfinite Curve{1, 2, 5, 6, 11, 12} = 4;
+Transfinite Surface{1, 2, 3, 4}; Recombine Surface{1, 2, 3, 4};
+Physical Surface("plate", 1) = {1, 2, 3, 4};
+Physical Surface("right half", 2) = {2, 3};
+Physical Curve("left", 3) = {7, 8};
+Physical Curve("right", 4) = {3, 4};
+Physical Curve("crack", 5) = {9};
+Physical Point("corner", 6) = {1};
