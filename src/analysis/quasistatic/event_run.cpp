@@ -138,7 +138,8 @@ StepState EventRun::unsolved_state() {
 
 std::vector<double> EventRun::completed(const StepState& earlier) {
   const bool is_current = staged_ != nullptr || host_release_;
-  const auto motion = is_current ? earlier.displacement : engine_->displacement(&earlier);
+  const auto motion = is_current ? earlier.displacement
+                                 : engine_->displacement(earlier.displacement, earlier.secants);
   return {motion.begin(), motion.end()};
 }
 

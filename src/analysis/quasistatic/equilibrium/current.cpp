@@ -91,26 +91,26 @@ double Equilibrium::work_of_forces() const {
 /// Observers must not change the run, so missing displacements are solved for separately. Those of
 /// an earlier state are wrong only away from elements that can fail, where the stiffness never
 /// changes. The residual of that state therefore gives the correction with any later factor.
-std::span<const double> Equilibrium::displacement(const StepState* earlier) {
-  if (earlier == nullptr && !stale_) return where_elements_fail();
+std::span<const double> Equilibrium::displacement(std::span<const double> earlier,
+                                                  Secants secants) {
+  if (earlier.empty() && !stale_) return where_elements_fail();
   std::vector<double> load;
-  if (earlier == nullptr) {
+  if (earlier.empty()) {
     load = present_load();
   } else {
     const bool may_lack = driven_elements_.empty() && !constant_ && subdomains_ == nullptr;
-    if (!may_lack) return earlier->displacement;
-    std::vector<double> forces =
-        internal_force(network_, earlier->secants, earlier->displacement).forces;
+    if (!may_lack) return earlier;
+    std::vector<double> forces = internal_force(network_, secants, earlier).forces;
     for (std::size_t slot = 0; slot < forces.size(); ++slot) {
       forces[slot] = loads_->forces[slot] - forces[slot];
     }
     load = unknowns_->restrict(forces);
-    if (norm(load) <= options_.residual_tolerance * load_norm_) return earlier->displacement;
+    if (norm(load) <= options_.residual_tolerance * load_norm_) return earlier;
   }
   factor_->solve(load, load);
   observed_ = unknowns_->expand(load);
-  for (std::size_t slot = 0; earlier != nullptr && slot < observed_.size(); ++slot) {
-    observed_[slot] += earlier->displacement[slot] - unknowns_->prescribed[slot];
+  for (std::size_t slot = 0; slot < earlier.size(); ++slot) {
+    observed_[slot] += earlier[slot] - unknowns_->prescribed[slot];
   }
   return observed_;
 }

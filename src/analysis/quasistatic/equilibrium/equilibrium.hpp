@@ -12,7 +12,6 @@
 #include "analysis/quasistatic/equilibrium/event_batch.hpp"
 #include "analysis/quasistatic/equilibrium/event_outcome.hpp"
 #include "analysis/quasistatic/equilibrium/removal.hpp"
-#include "analysis/quasistatic/observer.hpp"
 #include "analysis/quasistatic/subdomains/subdomain_factor.hpp"
 #include "assembly/internal_force.hpp"
 #include "base/error.hpp"
@@ -75,9 +74,10 @@ class Equilibrium {
   std::span<const double> where_elements_fail() const { return displacement_; }
 
   /// Returns displacements at load factor 1, current everywhere. Costs a solve if some are not.
-  /// \param earlier  if given, an earlier state with where_elements_fail(): returns its
-  ///                 displacements, current everywhere. The unknowns must be those of then.
-  std::span<const double> displacement(const StepState* earlier = nullptr);
+  /// \param earlier  if given, where_elements_fail() of an earlier state with the same unknowns:
+  ///                 returns these displacements, current everywhere
+  /// \param secants  stiffness ratios in that state
+  std::span<const double> displacement(std::span<const double> earlier = {}, Secants secants = {});
 
   LoadWork work();
 

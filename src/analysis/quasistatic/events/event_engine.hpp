@@ -45,9 +45,11 @@ class EventEngine {
 
   /// Returns the displacements of all particles in equilibrium at load factor 1, shape (particles,
   /// width). They include rotations and prescribed displacements.
-  /// \param earlier  if given, an earlier state with displacements that are current wherever an
+  /// \param earlier  if given, displacements of an earlier state that are current wherever an
   ///                 element can fail: returns these, current everywhere; not in runs by stages
-  virtual std::span<const double> displacement(const StepState* earlier = nullptr) = 0;
+  /// \param secants  stiffness ratios in that state
+  virtual std::span<const double> displacement(std::span<const double> earlier = {},
+                                               Secants secants = {}) = 0;
 
   /// Returns displacements that are current wherever an element can fail, without a solve.
   virtual std::span<const double> where_elements_fail() = 0;

@@ -24,8 +24,9 @@ class SingleEventEngine : public EventEngine {
 
   Event next_event_below(double most) override;
   EventOutcome apply(const Event& event) override;
-  std::span<const double> displacement(const StepState* earlier = nullptr) override {
-    return equilibrium_.displacement(earlier);
+  std::span<const double> displacement(std::span<const double> earlier = {},
+                                       Secants secants = {}) override {
+    return equilibrium_.displacement(earlier, secants);
   }
   std::span<const double> where_elements_fail() override {
     return equilibrium_.where_elements_fail();

@@ -139,7 +139,8 @@ void StagedEngine::move_to(double load_factor) {
   equilibrium_.move_to(load_factor);
 }
 
-std::span<const double> StagedEngine::displacement(const StepState* /*earlier*/) {
+std::span<const double> StagedEngine::displacement(std::span<const double> /*earlier*/,
+                                                   Secants /*secants*/) {
   return displacement_at(loads_.load_factor);
 }
 

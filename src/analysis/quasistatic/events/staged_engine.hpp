@@ -51,7 +51,8 @@ class StagedEngine final : public SingleEventEngine {
   Event next_event_towards(double target);
 
   EventOutcome apply(const Event& event) override;
-  std::span<const double> displacement(const StepState* earlier = nullptr) override;
+  std::span<const double> displacement(std::span<const double> earlier = {},
+                                       Secants secants = {}) override;
   LoadWork load_work() override;
   Balance check_equilibrium() override;
   Balance check_cheaply() override { return check_equilibrium(); }

@@ -33,8 +33,8 @@ std::vector<StepRecord> make_path(int events) {
 }
 
 TEST(LoadDisplacement, LeavesOutTheTailOfAFailedBody) {
-  const std::vector<CurvePoint> curve = {{1.0, 50.0}, {2.0, 100.0}, {1.5, 0.5}, {2.0, 2.0},
-                                         {1.9, 0.9},  {9000.0, 0.8},  {1.0, 0.0}};
+  const std::vector<CurvePoint> curve = {{1.0, 50.0}, {2.0, 100.0},  {1.5, 0.5}, {2.0, 2.0},
+                                         {1.9, 0.9},  {9000.0, 0.8}, {1.0, 0.0}};
   EXPECT_EQ(rows_before_tail(curve), 5u) << "a row that does not move on is no tail";
   EXPECT_EQ(rows_before_tail(std::span(curve).first(2)), 2u);
   EXPECT_EQ(rows_before_tail({}), 0u);
