@@ -47,8 +47,8 @@ std::vector<double> gauge_values(const Model& model, const ModelState& state, Cs
 double gauge_force(const Model& model, const Gauge& gauge, const ModelState& state,
                    std::span<const double> holding);
 
-/// Returns the first rule by a gauge that a row has met, "the gauge \"opening\" is 0.51, above 0.5";
-/// empty if it has met none.
+/// Returns how a row has met a rule by a gauge, "the gauge \"opening\" is 0.51, above 0.5"; empty
+/// if it has not.
 /// \param values  of all gauges of the case in this row
 std::optional<std::string> met_rule(const CaseFile& input, const StopSection& stop,
                                     std::span<const double> values);

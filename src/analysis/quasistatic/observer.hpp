@@ -73,8 +73,8 @@ class StateSource {
   /// Returns the state without a solve. Displacements may belong to an earlier row where no element
   /// can fail.
   virtual StepState unsolved_state() { return state(); }
-  /// Returns the displacements of an earlier unsolved_state(), made current everywhere, with a solve
-  /// at most.
+  /// Returns the displacements of an earlier unsolved_state(), made current everywhere. Costs a
+  /// solve at most.
   virtual std::vector<double> completed(const StepState& earlier) {
     return {earlier.displacement.begin(), earlier.displacement.end()};
   }

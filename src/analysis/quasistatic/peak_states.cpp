@@ -8,7 +8,7 @@ namespace perilink {
 namespace {
 
 /// Largest number of states. A first peak is behind one of the deepest falls.
-constexpr std::size_t most_states = 4;
+constexpr std::size_t most_states = 8;
 
 /// Returns the part of its load that remained before a larger one came [-].
 double part_left(const PeakStates::State& state) { return state.lowest / std::abs(state.row.load); }

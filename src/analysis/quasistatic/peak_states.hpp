@@ -10,16 +10,16 @@
 namespace perilink {
 
 /// Copies of the states with the largest |load| so far. Which of them is the peak is known at the
-/// end of a run only, since a later and larger load may be residual strength. A copy costs less than
-/// a hundredth of an event: it holds displacements and the stiffness of damaged elements.
+/// end of a run only, since a later and larger load may be residual strength. A copy is cheap
+/// beside an event: it holds displacements and the stiffness of damaged elements.
 class PeakStates {
  public:
   /// A row with its state.
   struct State {
     StepRecord row;
     std::vector<double> displacement;  ///< StateSource::unsolved_state()
-    /// Ratios of the first elements of the list of damaged elements; `axial` is empty if it does not
-    /// differ.
+    /// Ratios of the first elements of the list of damaged elements; `axial` is empty if it does
+    /// not differ.
     std::vector<double> secants, axial;
     std::vector<std::uint8_t> whole;  ///< StepState::whole
     double lowest = 0.0;              ///< smallest |load| of the rows since

@@ -20,9 +20,9 @@ struct PlotOptions {
   bool png = false;    ///< also as PNG, by rsvg-convert
 };
 
-/// Draws history.csv as load_displacement.svg and every file of fields.pvd as fields_<row>.svg. With
-/// columns, draws only their curve, Y_over_X.svg; with a row, field or range only the body. Title
-/// and units come from summary.json where it exists.
+/// Draws history.csv as load_displacement.svg and every file of fields.pvd as fields_<row>.svg.
+/// With columns, draws only their curve, Y_over_X.svg; with a row, field or range only the body.
+/// Title and units come from summary.json where it exists.
 /// \returns the exit status
 /// \throws FileError
 int plot_results(const PlotOptions& options);

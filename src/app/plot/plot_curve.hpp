@@ -27,8 +27,8 @@ std::vector<CurvePoint> points_of(std::span<const StepRecord> records);
 std::vector<CurvePoint> event_path_of(std::span<const StepRecord> records,
                                       const PlotLabels& labels);
 
-/// Returns the number of rows before the tail of a curve, which a body leaves that has failed: loads
-/// below a hundredth of the peak up to the end, at displacements beyond those before.
+/// Returns the number of rows before the tail of a curve, which a failed body leaves: loads below a
+/// hundredth of the peak up to the end, at displacements beyond those before.
 std::size_t rows_before_tail(std::span<const CurvePoint> curve);
 
 /// Returns the note that a picture leaves out rows of a tail; empty for none.

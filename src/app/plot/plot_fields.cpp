@@ -223,7 +223,8 @@ void draw_bond_hairlines(Svg& svg, const Scene& scene) {
                              opacity, stroke_width(0.8)));
 }
 
-/// Draws finite elements over the particles that they constrain, unless particles show values in intact parts.
+/// Draws finite elements over the particles that they constrain, unless intact particles have
+/// colours.
 void draw_elements(Svg& svg, const Scene& scene) {
   SvgPath path;
   for (Index e = 0; e < scene.body.elements.rows(); ++e) {

@@ -126,7 +126,6 @@ double add_rows(ReportedRun& run, ReportStreams& streams, const std::string& fir
   }
   const std::size_t peak = peak_of(run, records);
   rows["peak"] = {records[peak].displacement, records[peak].load};
-  // Of the rows in the page.
   rows["start"] = std::ranges::lower_bound(shown, place_of(first, records, peak)) - shown.begin();
   const int time = std::max(table.column("time"), table.column("step"));
   return time < 0 ? 0.0 : table.rows[peak][static_cast<std::size_t>(time)];

@@ -171,8 +171,8 @@ void DamageRun::tell(Summary& summary) const {
   }
   if (input.output.fields_at_peak && peak.load != 0.0 && records_.peaks.find(peak) == nullptr) {
     summary.add_note(
-        "the state at the peak was not kept, since several deeper falls of the load "
-        "came before a larger load: it has no field file");
+        "there are no fields at the peak: the load climbed on without a fall behind it, or fell "
+        "deeper behind other rows");
   }
   tell_stresses(summary, found);
   tell_quasistatic(summary, input, model_, found, seconds.analysis);

@@ -139,7 +139,6 @@ TEST(Gauges, LookPastTheRotationsOfMicropolarParticles) {
   expect_values_of_linear_displacement(input);
 }
 
-/// The internal forces of a uniform strain balance: what holds the lower end pulls against the rest.
 TEST(Gauges, MeasureForcesAndMoments) {
   CaseFile input = strip_case();
   GaugeSection pull = gauge_of("pull", 1);

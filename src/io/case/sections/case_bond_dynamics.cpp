@@ -5,7 +5,6 @@
 #include <string>
 
 #include "io/case/sections/case_kinds.hpp"
-#include "io/case/sections/case_stages.hpp"
 
 namespace perilink {
 namespace {
@@ -74,7 +73,6 @@ void write_relaxation(TomlWriter& out, const CaseFile& input) {
   out.write("tolerance", *input.analysis.tolerance);
   out.write("iterations", input.analysis.iterations);
   out.write("rigid_body_modes", word_of(input.analysis.rigid_body_modes));
-  write_gauge_rule(out, input.stop);
   if (!input.output.checkpoint_every) return;
   out.header("[output]");
   out.write("checkpoint_every", input.output.checkpoint_every);

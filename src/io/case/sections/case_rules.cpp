@@ -349,9 +349,8 @@ void check_rules(const CaseFile& input) {
                     Reserved::refused);
   }
   for (std::size_t i = 0; i < input.gauges.size(); ++i) {
-    const GaugeSection& gauge = input.gauges[i];
-    for (const auto& [key, region] :
-         {std::pair{"region", &gauge.region}, std::pair{"reaction", &gauge.reaction}}) {
+    for (const auto& [key, region] : {std::pair{"region", &input.gauges[i].region},
+                                      std::pair{"reaction", &input.gauges[i].reaction}}) {
       if (!region->empty())
         check_reference(input, names, item_key("gauges", i, key), *region, Reserved::allowed);
     }

@@ -159,7 +159,10 @@ void write_run(TomlWriter& out, const CaseFile& input) {
     out.write("checkpoint_every", input.output.checkpoint_every);
     return;
   }
-  if (input.analysis.type == AnalysisType::relaxation) return write_relaxation(out, input);
+  if (input.analysis.type == AnalysisType::relaxation) {
+    write_relaxation(out, input);
+    return write_gauge_rule(out, input.stop);
+  }
   const bool breaks = input.analysis.type == AnalysisType::damage;
   if (breaks) out.write("control", word_of(input.analysis.control));
   if (input.analysis.control == LoadControl::steps) {

@@ -14,8 +14,8 @@
 namespace perilink {
 namespace {
 
-/// A notched plate with unbreakable ends, pulled by a force or a displacement. Under the force, rows
-/// leave displacements of the ends out of date.
+/// A notched plate with unbreakable ends, pulled by a force or a displacement. Under the force,
+/// rows leave displacements of the ends out of date.
 std::string notched_plate(const std::string& more) {
   return R"(regions = [
   {name = "plate", x = [0, 60], y = [0, 80]},
