@@ -1,5 +1,7 @@
 #include "model/from_case/separated_body.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
