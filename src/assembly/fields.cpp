@@ -137,7 +137,8 @@ std::vector<double> strain_energy_density(const Network& network, Secants secant
   std::vector<double> density(network.particles.volumes.size(), 0.0);
   const auto add = [&](Index e, double energy) {
     density[network.bonds.first[e]] += energy;
-    density[network.bonds.second[e]] += energy;
+    // The point of a contact spring is no particle.
+    density[network.is_contact(e) ? network.bonds.first[e] : network.bonds.second[e]] += energy;
   };
   if (!network.carries_moments()) {
     for_each_truss_energy(network, secants, motion, add);

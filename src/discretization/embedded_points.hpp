@@ -39,7 +39,7 @@ struct EmbeddedPoints {
     const auto row = particles.row(embedded_point);
     const auto own = weights_of(embedded_point);
     const auto normal = normal_of(embedded_point, dim);
-    if (normal.empty()) {
+    if (normal.empty() || component >= dim) {
       for (std::size_t k = 0; k < row.size(); ++k) visit(row[k], component, own[k]);
       return;
     }

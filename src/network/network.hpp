@@ -164,6 +164,8 @@ struct Network {
     return state_of.empty() || (state_of[element] & end) != 0;
   }
   Index num_elements() const { return bonds.size(); }
+  /// Returns the number of particles without the points of contact springs.
+  Index num_particles() const { return particles.size() - num_contacts; }
   /// Returns the number of bonds of the solid, without the edges of cells.
   Index num_bonds() const { return first_contact() - num_edges_of_cells(); }
   Index first_contact() const { return first_slip_spring - num_contacts; }

@@ -41,6 +41,7 @@ Blocks<Dim> own_trusses(const Network& network, Strain strain) {
                      Eigen::Matrix<double, Dim, Dim>::Zero());
   const std::vector<double> stiffness = bounding_stiffness(network);
   for (Index e = 0; e < network.num_elements(); ++e) {
+    if (network.is_contact(e)) continue;
     const Eigen::Map<const Eigen::Matrix<double, Dim, 1>> n(network.bonds.direction(e).data());
     Eigen::Matrix<double, Dim, Dim> part = stiffness[e] * n * n.transpose();
     if (strain == Strain::green && network.can_break(e)) {
@@ -67,6 +68,7 @@ Blocks<FrameModes<Dim>::width> own_frames(const Network& network) {
   Blocks<width> blocks(static_cast<std::size_t>(network.particles.size()),
                        Eigen::Matrix<double, width, width>::Zero());
   for (Index e = 0; e < network.num_elements(); ++e) {
+    if (network.is_contact(e)) continue;
     const FrameModes<Dim> modes = frame_modes<Dim>(network, e);
     for (int m = 0; m < FrameModes<Dim>::count; ++m) {
       const Vector first(modes.first[m].data()), second(modes.second[m].data());
@@ -126,14 +128,50 @@ void complete_masses(const std::vector<double>& stiffness, std::vector<double>& 
   }
 }
 
-double largest_pair(const Network& network, const std::vector<double>& p) {
+/// Adds the contact springs to bounds on the squared frequency, per particle. A spring with the
+/// extension sum b_i u_i has energy k / 2 of its square, at most k / 2 sum |b_j| times
+/// sum |b_i| u_i^2.
+void add_contacts(const Network& network, std::span<const double> mass, std::vector<double>& at) {
+  const EmbeddedPoints& points = network.embedded_points;
+  const int dim = network.dim();
+  for (const Index e : network.contacts()) {
+    const Index point = network.bonds.second[e] - network.first_embedded_point();
+    const auto particles = points.particles.row(point);
+    const auto strain = points.strain_weights_of(point, dim);
+    const auto n = network.bonds.direction(e);
+    std::vector<double> sizes;
+    double sum = 1.0;  // the first end
+    for (std::size_t k = 0; k < particles.size(); ++k) {
+      double square = 0.0;
+      for (int a = 0; a < dim; ++a) {
+        square += std::pow(points.weights_of(point)[k] * n[a] + strain[k * dim + a], 2);
+      }
+      sizes.push_back(std::sqrt(square));
+      sum += sizes.back();
+    }
+    const double whole = network.stiffness[e] * sum;
+    at[network.bonds.first[e]] += whole / mass[network.bonds.first[e]];
+    for (std::size_t k = 0; k < sizes.size(); ++k) {
+      at[particles[k]] += whole * sizes[k] / mass[particles[k]];
+    }
+  }
+}
+
+double largest_pair(const Network& network, const std::vector<double>& p,
+                    std::span<const double> mass) {
   double largest = 0.0;
+  std::vector<double> at(network.num_contacts > 0 ? p.size() : 0, 0.0);  // largest sum per particle
   for (Index e = 0; e < network.num_elements(); ++e) {
+    if (network.is_contact(e)) continue;
     double sum = 0.0;
     for_each_end(network, e, [&](Index i, bool, double) { sum += p[i]; });
     largest = std::max(largest, sum);
+    if (at.empty()) continue;
+    for_each_end(network, e, [&](Index i, bool, double) { at[i] = std::max(at[i], sum); });
   }
-  return largest;
+  if (at.empty()) return largest;
+  add_contacts(network, mass, at);
+  return *std::ranges::max_element(at);
 }
 
 template <int Dim, int Width>
@@ -162,7 +200,7 @@ Inertia inertia_of(const Network& network, const Blocks<Width>& blocks,
     root = root.cwiseSqrt().cwiseInverse();
     p.push_back(largest_eigenvalue(root.asDiagonal() * blocks[i] * root.asDiagonal()));
   }
-  const double square = largest_pair(network, p);
+  const double square = largest_pair(network, p, mass);
   double springs = 0.0;
   for (std::size_t slot = 0; slot < network.support_stiffness.size(); ++slot) {
     springs = std::max(springs, network.support_stiffness[slot] / inertia.mass[slot]);

@@ -191,7 +191,7 @@ void print_sizes(const Model& model, bool damage) {
     bar_nodes += kind == ParticleKind::rebar;
   }
   fmt::print("# sizes\n");
-  fmt::print("#   particles          {} ({}, {})\n", network.particles.size(),
+  fmt::print("#   particles          {} ({}, {})\n", network.num_particles(),
              counted(ghosts, "ghost"), counted(bar_nodes, "bar node"));
   print_spacing(model);
   print_elements(model);

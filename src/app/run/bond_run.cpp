@@ -42,7 +42,7 @@ Index count_loose_pieces(const Model& model, const BondRunState& state) {
              own + static_cast<std::ptrdiff_t>(width);
     });
     const double size = static_cast<double>(piece.particles.size());
-    loose += !is_held && size >= std::max(1.0, 0.01 * network.particles.size());
+    loose += !is_held && size >= std::max(1.0, 0.01 * network.num_particles());
   }
   return loose;
 }

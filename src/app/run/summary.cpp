@@ -138,7 +138,7 @@ void tell_cracks(Summary& summary, const std::vector<ToldCrack>& cracks) {
 
 void tell_body(Summary& summary, const Model& model, const std::string& more) {
   const Network& network = model.network;
-  summary.add("particles", network.particles.size());
+  summary.add("particles", network.num_particles());
   summary.add("bonds", model.elements ? std::int64_t{0} : bonds_and_slip_springs(model));
   if (model.elements) summary.add("cells", model.elements->cells.size());
   if (network.cells) summary.add("cells", network.cells->cells.size());
@@ -151,7 +151,7 @@ void tell_body(Summary& summary, const Model& model, const std::string& more) {
 }
 
 std::string size_text(const Model& model) {
-  const Index particles = model.network.particles.size();
+  const Index particles = model.network.num_particles();
   return counted(particles, "particle") + ", " +
          (model.elements
               ? counted(model.elements->cells.size(), "linear element")

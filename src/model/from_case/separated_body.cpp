@@ -27,8 +27,10 @@ std::string loose_piece(const Model& model, const std::vector<Index>& without) {
     const bool is_solid = open.particles.kind[fragment.particles.front()] == ParticleKind::solid;
     if (fragment.free_modes == 0 || !is_solid) continue;
     const auto at = open.particles.position(fragment.particles.front());
-    return fmt::format("the piece of {} at ({})", counted(fragment.particles.size(), "particle"),
-                       joined(at));
+    const auto count = std::ranges::count_if(fragment.particles, [&](Index i) {
+      return open.particles.kind[i] != ParticleKind::embedded_point;
+    });
+    return fmt::format("the piece of {} at ({})", counted(count, "particle"), joined(at));
   }
   return "";
 }

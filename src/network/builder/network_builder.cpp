@@ -178,8 +178,9 @@ ClosingCracks cut_bonds(const Body& body, const NetworkInput& input, Network& ne
     if (cut.keep[b] != 0) continue;
     const auto* piece =
         cutter.piece_between(at(network.bonds.first[b]), at(network.bonds.second[b]));
-    if (closes(b, cracks[piece->crack]))
-      closing.bonds.push_back(cut_bond(network, b, piece->normal));
+    if (!closes(b, cracks[piece->crack])) continue;
+    const CutBond bond = cut_bond(network, b, piece->normal);
+    if (bond.stiffness > 0.0) closing.bonds.push_back(bond);
   }
   keep_elements(network, cut.keep);
   return closing;

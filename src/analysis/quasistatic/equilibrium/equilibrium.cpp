@@ -96,9 +96,11 @@ Freedom Equilibrium::change_motion(const Unknowns& unknowns) {
 
 void Equilibrium::begin_stage(const Unknowns& unknowns, const Loads& loads,
                               ConstantLoads permanent) {
-  solution_.bring_inverse_up();
-  solution_.keep_all_current();
+  // The caller may have changed the former unknowns themselves: K^-1 is of another size if particles
+  // were clamped, and made anew below.
   const bool fewer_move = static_cast<std::size_t>(unknowns.count) != body_.num_unknowns();
+  if (!fewer_move) solution_.bring_inverse_up();
+  solution_.keep_all_current();
   if (fewer_move && !body_.ground_stiffness().empty()) {
     throw SolverError("particles cannot be clamped while ground springs hold a loose part");
   }
