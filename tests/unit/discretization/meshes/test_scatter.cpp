@@ -60,7 +60,9 @@ TEST_P(Scatter, MovesInnerPointsOnly) {
       most = std::max(most, std::abs(mesh.positions[k + a] - x));
     }
     EXPECT_LE(most, amount);
-    if (fixed) EXPECT_EQ(most, 0.0);
+    if (fixed) {
+      EXPECT_EQ(most, 0.0);
+    }
     inner += fixed ? 0 : 1;
     moved += most > 0.0 ? 1 : 0;
   }
