@@ -31,6 +31,16 @@ std::optional<std::string> note_of_clamps(const Model& model, std::span<const In
       at_clamp, counted(broken.size(), "broken bond ends", "broken bonds end"));
 }
 
+std::optional<std::string> text_of_contacts(const CaseFile& input, const Model& model) {
+  constexpr Index large = 15000;  // unknowns from which conjugate gradients follow batches
+  if (model.network.num_contacts == 0 || model.network.dim() == 2) return std::nullopt;
+  if (model.unknowns.count < large || input.analysis.solver != LinearSolver::automatic) {
+    return std::nullopt;
+  }
+  return "the faces of pre-cracks may close, which needs the direct solver: closing = false in "
+         "[[cracks]], for notches that stay open, allows conjugate gradients with less memory";
+}
+
 std::optional<std::string> text_of_peaks(const PeakWatch& peaks, bool bars) {
   if (!peaks.climbed_again()) return std::nullopt;
   return fmt::format(

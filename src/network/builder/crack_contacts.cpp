@@ -30,6 +30,9 @@ struct Contact {
   double stiffness = 0.0;  ///< of the bonds to the layer [force/length]
   double arm = 0.0;        ///< sum of stiffness times distance across the crack [force]
   double share = 0.0;      ///< stiffness of the spring [force/length]
+  /// Factor on it: where one particle moves the point, no strain along the crack is known, and the
+  /// slice behind the crack is free to the sides.
+  double softer = 1.0;
   Carriers carriers = {};  ///< of its point across the crack
 
   double distance() const { return arm / stiffness; }
@@ -139,9 +142,13 @@ void find_carriers(const Body& body, const NetworkInput& input, const CrackCutte
   for (auto& [layer, contact] : contacts) {
     const auto& [lambda, mu] =
         lame_constants(input, input.materials[particles.material[contact.particle]]);
-    contact.carriers =
-        carriers_of(particles, near.row(row), point_of(points, dim, row), contact.normal,
-                    contact.distance() * lambda / (lambda + 2.0 * mu), cutter, spacing);
+    const double ratio = lambda / (lambda + 2.0 * mu);
+    contact.carriers = carriers_of(particles, near.row(row), point_of(points, dim, row),
+                                   contact.normal, contact.distance() * ratio, cutter, spacing);
+    if (contact.carriers.particles.size() == 1) {
+      contact.softer =
+          (1.0 - ratio) * (dim == 2 ? 1.0 + ratio : (1.0 + 2.0 * ratio) / (1.0 + ratio));
+    }
     ++row;
   }
 }
@@ -161,7 +168,7 @@ void append(const Contact& contact, bool elastic, Network& network) {
   network.embedded_points.append(carriers.particles, carriers.weights, carriers.strain_weights,
                                  normal);
   network.bonds.append(contact.particle, particles.size() - 1, contact.distance(), normal);
-  network.stiffness.push_back(contact.share);
+  network.stiffness.push_back(contact.softer * contact.share);
   if (!elastic) network.critical_stretch.push_back(infinity);
   ++network.num_contacts;
 }
