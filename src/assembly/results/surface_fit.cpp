@@ -1,15 +1,21 @@
 #include "assembly/results/surface_fit.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/QR>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace perilink {
 namespace {
 
-/// Smallest diagonal entry of the triangular factor over the largest. Regular neighbourhoods have
-/// more than 0.01, square lattices with horizons of two spacings or more have 0.04 at free edges.
-constexpr double smallest_fit_pivot = 0.01;
+/// Smallest pivot of the normal equations over the largest, scaled to a neighbourhood of radius one.
+/// Cubic polynomials have 1.5e-4 and more at the edges of square lattices with horizons of two
+/// spacings, 2e-3 where the edge is free.
+constexpr double smallest_fit_pivot = 1e-4;
+
+/// Below it stresses may be singular, as at the corner of a notch: a right angle has -0.7.
+constexpr double least_convexity = -0.65;
 
 double power(double x, int exponent) {
   double result = 1.0;
@@ -85,9 +91,8 @@ Eigen::MatrixXd balanced_basis(const Monomials<Dim>& monomials, int degree, doub
     }
   }
   const Eigen::HouseholderQR<Eigen::MatrixXd> factor(equations);
-  const Eigen::MatrixXd all =
-      factor.householderQ() * Eigen::MatrixXd::Identity(Dim * terms, Dim * terms);
-  return all.rightCols(Dim * terms - equations.cols());
+  return factor.householderQ() * Eigen::MatrixXd::Identity(Dim * terms, Dim * terms)
+                                     .rightCols(Dim * terms - equations.cols());
 }
 
 /// Appends a row with the traction over mu along an axis.
@@ -133,9 +138,8 @@ bool fit_balanced(std::span<const double> points, std::span<const double> marks,
   for (std::size_t k = 0; k < tractions.size(); ++k) {
     rows.row(first_traction + static_cast<Eigen::Index>(k)) = tractions[k] * basis;
   }
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factor(rows);
-  const auto triangle = factor.matrixR().topLeftCorner(unknowns, unknowns);
-  const Eigen::VectorXd pivots = triangle.diagonal().cwiseAbs();
+  const Eigen::LDLT<Eigen::MatrixXd> factor(rows.transpose() * rows);
+  const auto pivots = factor.vectorD();
   if (!(pivots.minCoeff() > smallest_fit_pivot * pivots.maxCoeff())) return false;
   Eigen::MatrixXd slopes(unknowns, Dim * Dim);  // of the unknowns in the gradient
   for (int a = 0; a < Dim; ++a) {
@@ -143,10 +147,7 @@ bool fit_balanced(std::span<const double> points, std::span<const double> marks,
       slopes.col(a * Dim + b) = basis.row(a * terms + 1 + b).transpose();
     }
   }
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows.rows(), Dim * Dim);
-  result.topRows(unknowns) = triangle.template triangularView<Eigen::Upper>().transpose().solve(
-      factor.colsPermutation().transpose() * slopes);
-  result.applyOnTheLeft(factor.householderQ());
+  const Eigen::MatrixXd result = rows.topRows(first_traction) * factor.solve(slopes);
   double* weight = weights.data();
   for (Eigen::Index k = 1; k < count; ++k) {
     for (int c = 0; c < Dim; ++c) {
@@ -156,11 +157,26 @@ bool fit_balanced(std::span<const double> points, std::span<const double> marks,
   return true;
 }
 
-/// Returns whether all bonds of a particle are intact.
+/// Returns the change of the normal along the way to another particle of the surface, positive where
+/// the body is convex: the distance over the radius of curvature, 0.7 at the end of a right angle.
+double convexity(const Particles& particles, const SurfaceConditions& surface, Index from,
+                 Index to) {
+  double change = 0.0, square = 0.0;
+  for (int a = 0; a < particles.dim; ++a) {
+    const double way = particles.position(to)[a] - particles.position(from)[a];
+    change += way * (surface.normal(to)[a] - surface.normal(from)[a]);
+    square += way * way;
+  }
+  return change / std::sqrt(square);
+}
+
+/// Returns whether all bonds of a particle are intact. Bonds across a pre-crack do not count.
 bool is_intact(const StressInput& input, Index particle) {
   if (input.secants.size() == 0) return true;
+  const std::vector<Index>& cut = input.network.cut_elements;
   for (const Index e : input.neighbourhoods.row(particle)) {
-    if (input.secants.least(e) < 1.0) return false;
+    if (!(input.secants.least(e) < 1.0)) continue;
+    if (!std::binary_search(cut.begin(), cut.end(), e)) return false;
   }
   return true;
 }
@@ -173,6 +189,8 @@ bool collect_surface_marks(const StressInput& input, Index particle,
   if (surface == nullptr || surface->normal(particle).empty()) return false;
   const HookeConstants& constants = input.materials[input.network.particles.material[particle]];
   const int every_axis = (1 << input.network.dim()) - 1;
+  const Particles& particles = input.network.particles;
+  bool held = false, free = false;
   marks.assign(1, constants.lambda / constants.mu);
   for (std::size_t k = 0; k <= neighbors.size(); ++k) {
     const Index i = k == 0 ? particle : neighbors[k - 1];
@@ -180,7 +198,11 @@ bool collect_surface_marks(const StressInput& input, Index particle,
     const std::span<const double> normal = surface->normal(i);
     const int unloaded = surface->unloaded[i];
     if (normal.empty() && unloaded != every_axis) return false;
-    if (normal.empty() || unloaded == 0) continue;
+    if (normal.empty()) continue;
+    if (k > 0 && convexity(particles, *surface, particle, i) < least_convexity) return false;
+    (unloaded == 0 ? held : free) = true;
+    if (held && free) return false;
+    if (unloaded == 0) continue;
     marks.push_back(static_cast<double>(k));
     marks.push_back(unloaded);
     marks.insert(marks.end(), normal.begin(), normal.end());

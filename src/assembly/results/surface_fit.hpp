@@ -11,7 +11,8 @@ namespace perilink {
 /// fit_surface_gradient(): lambda / mu, then for every particle at an unloaded surface its number
 /// (0: the particle itself, k: the k-th neighbour), unloaded axes and normal.
 /// \param neighbors  of the same material
-/// \return whether the particle lies on the surface and the surroundings are intact and unloaded
+/// \return whether the particle lies on the surface, its surroundings are intact and unloaded, and
+///     stresses are smooth: no re-entrant corner, and no end of a clamped or fully loaded face
 bool collect_surface_marks(const StressInput& input, Index particle,
                            std::span<const Index> neighbors, std::vector<double>& marks);
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <numeric>
 
 #include "discretization/bonds.hpp"
 #include "support/small_networks.hpp"
@@ -15,9 +16,11 @@ using namespace test;
 
 int fits = 0;  ///< so far
 
-/// Linear least squares, counted.
-bool fit(std::span<const double> offsets, std::span<double> weights) {
+/// Linear least squares, counted and multiplied with the first mark.
+bool fit(std::span<const double> offsets, std::span<const double> marks,
+         std::span<double> weights) {
   ++fits;
+  const double factor = marks.empty() ? 1.0 : marks[0];
   Eigen::Matrix2d shape = Eigen::Matrix2d::Zero();
   for (std::size_t k = 0; k < offsets.size(); k += 2) {
     const Eigen::Vector2d xi(offsets[k], offsets[k + 1]);
@@ -26,8 +29,15 @@ bool fit(std::span<const double> offsets, std::span<double> weights) {
   if (!(std::abs(shape.determinant()) > 1e-10 * std::pow(shape.trace(), 2))) return false;
   for (std::size_t k = 0; k < offsets.size(); k += 2) {
     Eigen::Map<Eigen::Vector2d>(weights.data() + k) =
-        shape.inverse() * Eigen::Vector2d(offsets[k], offsets[k + 1]);
+        factor * (shape.inverse() * Eigen::Vector2d(offsets[k], offsets[k + 1]));
   }
+  return true;
+}
+
+/// Weights 1, 2, ... in the order of their shape.
+bool count_weights(std::span<const double> /*offsets*/, std::span<const double> /*marks*/,
+                   std::span<double> weights) {
+  std::iota(weights.begin(), weights.end(), 1.0);
   return true;
 }
 
@@ -86,6 +96,30 @@ TEST(NeighborGradients, OfALineAreNotSettled) {
     EXPECT_FALSE(gradients.find(0, {}, gradient));
     EXPECT_EQ(gradient, (NeighborGradients<2>::Gradient::Constant(3.0)));
   }
+}
+
+TEST(NeighborGradients, DependOnMarks) {
+  const Square square;
+  NeighborGradients<2> gradients = square.gradients();
+  NeighborGradients<2>::Gradient one, two, again;
+  const std::vector<double> mark = {2.0};
+  ASSERT_TRUE(gradients.find(30, square.neighbors(30), one));
+  ASSERT_TRUE(gradients.find(30, square.neighbors(30), two, mark));
+  ASSERT_TRUE(gradients.find(30, square.neighbors(30), again));
+  EXPECT_LE((two - 2.0 * one).norm(), 1e-14 * two.norm());
+  EXPECT_EQ(one, again);
+}
+
+TEST(NeighborGradients, TakeAllComponentsIfCoupled) {
+  const Square square;
+  NeighborGradients<2> gradients(square.network.particles, square.motion, 2, count_weights, true);
+  NeighborGradients<2>::Gradient gradient;
+  const std::vector<Index> neighbor = {1};
+  ASSERT_TRUE(gradients.find(0, neighbor, gradient));
+  const double u = square.motion[2] - square.motion[0], v = square.motion[3] - square.motion[1];
+  const NeighborGradients<2>::Gradient exact{{u + 5.0 * v, 2.0 * u + 6.0 * v},
+                                             {3.0 * u + 7.0 * v, 4.0 * u + 8.0 * v}};
+  EXPECT_LE((gradient - exact).norm(), 1e-14 * exact.norm());
 }
 
 }  // namespace
