@@ -170,15 +170,12 @@ double convexity(const Particles& particles, const SurfaceConditions& surface, I
   return change / std::sqrt(square);
 }
 
-/// Returns whether all bonds of a particle are intact. Bonds across a pre-crack do not count.
+/// Returns whether all bonds of a particle are intact. Contact springs do not count.
 bool is_intact(const StressInput& input, Index particle) {
   if (input.secants.size() == 0) return true;
-  const std::vector<Index>& cut = input.network.cut_elements;
-  for (const Index e : input.neighbourhoods.row(particle)) {
-    if (!(input.secants.least(e) < 1.0)) continue;
-    if (!std::binary_search(cut.begin(), cut.end(), e)) return false;
-  }
-  return true;
+  return std::ranges::all_of(input.neighbourhoods.row(particle), [&](Index e) {
+    return input.network.is_contact(e) || !(input.secants.least(e) < 1.0);
+  });
 }
 
 }  // namespace
