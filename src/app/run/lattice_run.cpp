@@ -4,6 +4,7 @@
 #include "app/run/run_kind.hpp"
 #include "app/run/run_warnings.hpp"
 #include "base/plain_text.hpp"
+#include "io/checkpoint/checkpoint.hpp"
 #include "io/checkpoint/pack.hpp"
 #include "model/from_case/lattice_case.hpp"
 #include "model/gauges.hpp"
