@@ -1,4 +1,5 @@
-// Closed pre-cracks press along their normal and slide freely (docs/theory/softening.md, section 8).
+// Closed pre-cracks press along their normal and slide freely (docs/theory/softening.md, section
+// 8).
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -84,8 +85,8 @@ std::vector<CutBlock> blocks() {
   return all;
 }
 
-/// Two halves under pressure are as stiff as one block. What remains comes from the bonds across the
-/// crack, which no longer resist strains along it.
+/// Two halves under pressure are as stiff as one block. What remains comes from the bonds across
+/// the crack, which no longer resist strains along it.
 TEST(ClosedCracks, CarryPressureAsTheIntactBody) {
   const std::string pressed =
       "[[supports]]\nregion = \"foot\"\nfix = [\"x\"]\n[[supports]]\nregion = \"head\"\nfix = "

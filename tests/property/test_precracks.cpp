@@ -129,8 +129,8 @@ std::vector<double> damaged(const Network& network, const std::vector<double>& p
   return secants;
 }
 
-/// In one motion the stress near a crack equals the stress in a body whose crack cannot close, a sum
-/// of about thirty equal terms.
+/// In one motion the stress near a crack equals the stress in a body whose crack cannot close, a
+/// sum of about thirty equal terms.
 TEST(StressBesidePreCracks, DoesNotCountContactSprings) {
   double open = 0.0;
   for (int body = 0; body < num_bodies; ++body) {

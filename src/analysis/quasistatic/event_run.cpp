@@ -139,10 +139,10 @@ StepState EventRun::unsolved_state() {
 }
 
 std::vector<double> EventRun::completed(const StepState& earlier) {
-  if (staged_ == nullptr && !host_release_) {
-    return engine_->completed(earlier.displacement, earlier.secants);
-  }
-  return {earlier.displacement.begin(), earlier.displacement.end()};
+  const bool is_current = staged_ != nullptr || host_release_;
+  const auto motion = is_current ? earlier.displacement
+                                 : engine_->displacement(earlier.displacement, earlier.secants);
+  return {motion.begin(), motion.end()};
 }
 
 void EventRun::adopt(const Unknowns& unknowns) {

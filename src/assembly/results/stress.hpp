@@ -3,31 +3,12 @@
 #include <span>
 #include <vector>
 
-#include "assembly/results/surface_conditions.hpp"
-#include "base/csr.hpp"
-#include "material/elasticity.hpp"
-#include "material/j2_plasticity.hpp"
-#include "network/network.hpp"
+#include "assembly/results/stress_input.hpp"
 
 /// \file
 /// Stresses at the particles of an intact or damaged body.
 
 namespace perilink {
-
-/// Stress [force/length^2], in the order of VTK's symmetric tensors.
-using Stress = SymmetricTensor;
-
-/// Input of the stress computation.
-struct StressInput {
-  const Network& network;
-  const Csr& neighbourhoods;  ///< bonds of each particle (bonds_of_particles)
-  Problem problem = Problem::plane_stress;
-  std::span<const HookeConstants> materials;  ///< by Particles::material
-  /// Include neighbours of neighbours: the edges of linear elements are too few.
-  bool second_neighbors = false;
-  Secants secants = {};                        ///< one per element; empty: undamaged
-  const SurfaceConditions* surface = nullptr;  ///< nothing: unknown
-};
 
 /// Returns the stress at a particle by Hooke's law for its strain [force/length^2]
 /// (docs/theory/stress.md).

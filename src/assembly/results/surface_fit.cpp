@@ -9,9 +9,9 @@
 namespace perilink {
 namespace {
 
-/// Smallest pivot of the normal equations over the largest, scaled to a neighbourhood of radius one.
-/// Cubic polynomials have 1.5e-4 and more at the edges of square lattices with horizons of two
-/// spacings, 2e-3 where the edge is free.
+/// Smallest pivot of the normal equations over the largest, scaled to a neighbourhood of radius
+/// one. Cubic polynomials have 1.5e-4 and more at the edges of square lattices with horizons of
+/// two spacings, 2e-3 where the edge is free.
 constexpr double smallest_fit_pivot = 1e-4;
 
 /// Below it stresses may be singular, as at the corner of a notch: a right angle has -0.7.
@@ -68,8 +68,8 @@ class Monomials {
   std::vector<Exponents> exponents_;
 };
 
-/// Returns an orthonormal basis of the coefficients, shape (Dim * terms, unknowns), of displacements
-/// in equilibrium, (lambda + mu) grad div u + mu div grad u = 0.
+/// Returns an orthonormal basis of the coefficients, shape (Dim * terms, unknowns), of
+/// displacements in equilibrium, (lambda + mu) grad div u + mu div grad u = 0.
 /// \param ratio  lambda / mu
 template <int Dim>
 Eigen::MatrixXd balanced_basis(const Monomials<Dim>& monomials, int degree, double ratio) {
@@ -157,8 +157,9 @@ bool fit_balanced(std::span<const double> points, std::span<const double> marks,
   return true;
 }
 
-/// Returns the change of the normal along the way to another particle of the surface, positive where
-/// the body is convex: the distance over the radius of curvature, 0.7 at the end of a right angle.
+/// Returns the change of the normal along the way to another particle of the surface, positive
+/// where the body is convex: the distance over the radius of curvature, 0.7 at the end of a right
+/// angle.
 double convexity(const Particles& particles, const SurfaceConditions& surface, Index from,
                  Index to) {
   double change = 0.0, square = 0.0;

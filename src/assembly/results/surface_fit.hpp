@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "assembly/results/stress.hpp"
+#include "assembly/results/stress_input.hpp"
 
 namespace perilink {
 

@@ -55,7 +55,8 @@ class CrackCutter {
   /// Returns whether the bond between two particles is cut.
   /// \param count  cut bonds per crack, incremented; empty: no count
   bool cuts(const Vector3& first, const Vector3& second, std::span<Index> count = {}) const;
-  /// Returns the piece that cuts the bond between two particles, the one most across it; null: none.
+  /// Returns the piece that cuts the bond between two particles, the one most across it; null:
+  /// none.
   const Piece* piece_between(const Vector3& first, const Vector3& second) const;
   /// Corners of the box around all cracks; infinite with lower above upper if there are no cracks.
   const Vector3& lower() const { return lower_; }

@@ -305,12 +305,10 @@ std::vector<KeySchema> plain(std::string_view words, const std::vector<KeySchema
 }
 
 const std::vector<KeySchema> rebar_keys = plain(
-    "from to points inside group along cover face number spacing copies steps "
-    "across_gaps youngs_modulus area yield_strength yields stress_strain "
-    "hardening_modulus rupture_strain bond bond_stiffness bond_strength bond_curve "
-    "concrete_strength rib_spacing bond_failure bond_conditions megapascal millimetre "
-    "ties_break perimeter hooks bends prestrain stage");
-
+    "from to points inside group along cover face number spacing copies steps across_gaps "
+    "youngs_modulus area yield_strength yields stress_strain hardening_modulus rupture_strain "
+    "bond bond_stiffness bond_strength bond_curve concrete_strength rib_spacing bond_failure "
+    "bond_conditions megapascal millimetre ties_break perimeter hooks bends prestrain stage");
 const std::vector<KeySchema> stage_keys =
     plain("name loads to to_load broken_bonds load_fraction displacement gauge above below");
 const std::vector<KeySchema> stop_keys =
@@ -323,7 +321,6 @@ const std::vector<KeySchema> gauge_keys =
               "give `axis`"}}}});
 const std::vector<KeySchema> random_keys =
     plain("property materials distribution variation correlation_length seed");
-
 constexpr const char* a_line = "give the `points` of a line: [[0, 1], [2, 1]]";
 const std::vector<KeySchema> crack_keys = {
     {"points", {{space, "is given, but the body has 3 dimensions", "give `corners` of a polygon"}}},
@@ -332,7 +329,6 @@ const std::vector<KeySchema> crack_keys = {
       {shell, "is given, but cracks of a shell are lines on its mid-surface", a_line}}},
     "group",
     {"closing", {{shell, "is given, but cracks of a shell do not close", delete_it}}}};
-
 const std::vector<KeySchema> interface_keys = {
     "between",     crack_keys[0],       crack_keys[1],
     crack_keys[2], "fracture_energy",   "tensile_strength",

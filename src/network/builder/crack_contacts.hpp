@@ -14,7 +14,7 @@ struct CutBond {
   double stiffness;  ///< resistance of the intact bond to motion along the normal [force/length]
 };
 
-/// What pre-cracks that close have cut.
+/// Pre-cracks whose faces press on each other, and the bonds that they cut.
 struct ClosingCracks {
   std::vector<Crack> cracks;  ///< all pre-cracks, oriented as they cut the bonds
   std::vector<CutBond> bonds;

@@ -96,8 +96,8 @@ Freedom Equilibrium::change_motion(const Unknowns& unknowns) {
 
 void Equilibrium::begin_stage(const Unknowns& unknowns, const Loads& loads,
                               ConstantLoads permanent) {
-  // The caller may have changed the former unknowns themselves: K^-1 is of another size if particles
-  // were clamped, and made anew below.
+  // The caller may have changed the former unknowns themselves: K^-1 is of another size if
+  // particles were clamped, and made anew below.
   const bool fewer_move = static_cast<std::size_t>(unknowns.count) != body_.num_unknowns();
   if (!fewer_move) solution_.bring_inverse_up();
   solution_.keep_all_current();
@@ -127,29 +127,12 @@ void Equilibrium::restore(std::span<const Index> elements) {
   restored_ = restored_ || !elements.empty();
 }
 
-/// Displacements of an earlier state are wrong only away from elements that can fail, where the
-/// stiffness never changes. The residual of that state therefore gives the correction with any
-/// later K^-1.
-std::vector<double> Equilibrium::completed(std::span<const double> earlier, Secants secants) {
-  std::vector<double> motion(earlier.begin(), earlier.end());
+std::span<const double> Equilibrium::displacement(std::span<const double> earlier,
+                                                  Secants secants) {
+  if (earlier.empty()) return solution_.growing().displacement();
   const bool may_lack =
       update_->can_follow_a_part() && !work_.is_driven() && solution_.permanent() == nullptr;
-  if (!may_lack) return motion;
-  const Unknowns& unknowns = body_.unknowns();
-  std::vector<double> forces = internal_force(body_.network(), secants, motion).forces;
-  const Loads& loads = solution_.growing().loads();
-  for (std::size_t slot = 0; slot < forces.size(); ++slot) {
-    forces[slot] = loads.forces[slot] - forces[slot];
-  }
-  std::vector<double> residual = unknowns.restrict(forces);
-  const double size = std::sqrt(scalar_product(residual, residual));
-  if (size <= tolerance_ * solution_.growing().field().load_norm) return motion;
-  update_->inverse().solve(residual, residual);
-  const std::vector<double> correction = unknowns.expand(residual);
-  for (std::size_t slot = 0; slot < motion.size(); ++slot) {
-    motion[slot] += correction[slot] - unknowns.prescribed[slot];
-  }
-  return motion;
+  return may_lack ? solution_.growing().completed(earlier, secants, tolerance_) : earlier;
 }
 
 LoadWork Equilibrium::work() {

@@ -51,11 +51,10 @@ class Equilibrium {
   }
 
   /// Returns displacements at load factor 1, current everywhere. Costs a solve if some are not.
-  std::span<const double> displacement() { return solution_.growing().displacement(); }
-
-  /// Returns where_elements_fail() of an earlier state with these unknowns, current everywhere. Costs
-  /// a solve at most.
-  std::vector<double> completed(std::span<const double> earlier, Secants secants);
+  /// \param earlier  where_elements_fail() of an earlier state with these unknowns, which is then
+  ///                 made current; empty: the present state
+  /// \param secants  of the earlier state
+  std::span<const double> displacement(std::span<const double> earlier = {}, Secants secants = {});
 
   LoadWork work();
 

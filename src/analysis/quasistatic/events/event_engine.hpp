@@ -45,11 +45,11 @@ class EventEngine {
 
   /// Returns the displacements of all particles in equilibrium at load factor 1, shape (particles,
   /// width). They include rotations and prescribed displacements.
-  virtual std::span<const double> displacement() = 0;
-
-  /// Returns the displacements of an earlier state, which were current wherever an element can
-  /// fail, current everywhere; not in runs by stages.
-  virtual std::vector<double> completed(std::span<const double> earlier, Secants secants) = 0;
+  /// \param earlier  displacements of an earlier state that were current wherever an element can
+  ///                 fail: these, current everywhere; not in runs by stages. Empty: the present state
+  /// \param secants  of the earlier state
+  virtual std::span<const double> displacement(std::span<const double> earlier = {},
+                                               Secants secants = {}) = 0;
 
   /// Returns displacements that are current wherever an element can fail, without a solve.
   virtual std::span<const double> where_elements_fail() = 0;

@@ -24,9 +24,9 @@ class SingleEventEngine : public EventEngine {
 
   Event next_event_below(double most) override;
   EventOutcome apply(const Event& event) override;
-  std::span<const double> displacement() override { return equilibrium_.displacement(); }
-  std::vector<double> completed(std::span<const double> earlier, Secants secants) override {
-    return equilibrium_.completed(earlier, secants);
+  std::span<const double> displacement(std::span<const double> earlier = {},
+                                       Secants secants = {}) override {
+    return equilibrium_.displacement(earlier, secants);
   }
   std::span<const double> where_elements_fail() override {
     return equilibrium_.where_elements_fail();

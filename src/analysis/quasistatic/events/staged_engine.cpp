@@ -139,7 +139,10 @@ void StagedEngine::move_to(double load_factor) {
   equilibrium_.move_to(load_factor);
 }
 
-std::span<const double> StagedEngine::displacement() { return displacement_at(loads_.load_factor); }
+std::span<const double> StagedEngine::displacement(std::span<const double> /*earlier*/,
+                                                   Secants /*secants*/) {
+  return displacement_at(loads_.load_factor);
+}
 
 std::span<const double> StagedEngine::displacement_at(double load_factor) {
   const std::span<const double> growing = equilibrium_.where_elements_fail();

@@ -51,7 +51,8 @@ class StagedEngine final : public SingleEventEngine {
   Event next_event_towards(double target);
 
   EventOutcome apply(const Event& event) override;
-  std::span<const double> displacement() override;
+  std::span<const double> displacement(std::span<const double> earlier = {},
+                                       Secants secants = {}) override;
   Freedom change_motion(const Unknowns& unknowns) override;
   void set_release_threshold(std::span<const Index> elements, double fraction) override;
   BodyState state() const override { return {equilibrium_.state(), progress_, loads_}; }

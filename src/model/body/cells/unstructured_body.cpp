@@ -1,4 +1,4 @@
-#include "model/body/unstructured_body.hpp"
+#include "model/body/cells/unstructured_body.hpp"
 
 #include <fmt/format.h>
 

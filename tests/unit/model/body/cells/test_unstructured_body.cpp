@@ -1,4 +1,4 @@
-#include "model/body/unstructured_body.hpp"
+#include "model/body/cells/unstructured_body.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -131,8 +131,7 @@ TEST_F(UnstructuredBody, FillsThePlateUpToItsFaces) {
   const Body body = body_of(plate_text);
   const Particles& particles = body.particles;
   EXPECT_EQ(body.lattice.pattern, Pattern::irregular);
-  // The mean edge is that of a plate of 800 particles: half of them are nearer to a boundary.
-  EXPECT_NEAR(body.lattice.spacing, 0.05, 0.04 * 0.05);
+  EXPECT_NEAR(body.lattice.spacing, 0.05, 0.06 * 0.05);  // sizes at corners vary by 5 %
   const Index corners = count_at(particles, {0.5, 0.5}, 0.2);
   EXPECT_NEAR(corners, 2.0 * std::numbers::pi * 0.2 / 0.05, 2.0);
   EXPECT_NEAR(volume(body), 2.0 * (2.0 - polygon(0.2, corners)), 1e-6);  // gmsh's kernel: 1e-7
