@@ -29,7 +29,7 @@ case $target in
     options="-max_len=8192 -dict=$root/tests/fuzz/case.dict" ;;
   mesh)
     sources="$(ls "$src"/io/text/toml_*.cpp "$src"/discretization/meshes/mesh_*.cpp)
-             $src/io/mesh/gmsh_file.cpp $src/io/mesh/gmsh_sections.cpp $src/io/mesh/gmsh_cursor.cpp"
+             $(ls "$src"/io/mesh/*.cpp | grep -v gmsh_mesher)"
     for name in mesh_faces facet_geometry facets region neighbor_search; do
       sources="$sources $src/discretization/$name.cpp"
     done

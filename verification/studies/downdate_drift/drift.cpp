@@ -10,6 +10,7 @@
 #include "assembly/element_vector.hpp"
 #include "assembly/internal_force.hpp"
 #include "assembly/stiffness.hpp"
+#include "solver/factor_routes.hpp"
 
 namespace perilink::verification {
 namespace {

@@ -18,9 +18,8 @@ class Recorder final : public StepObserver {
   void on_end(const StepRecord&, StateSource& source) override {
     const StepState state = source.state();
     const Network& network = state.network;
-    const auto& cut = network.cut_elements;
     for (Index b = 0; b < network.bonds.size(); ++b) {
-      if (state.secants[b] > 0.0 || std::binary_search(cut.begin(), cut.end(), b)) continue;
+      if (state.secants[b] > 0.0 || network.is_contact(b)) continue;
       const auto x = network.particles.position(network.bonds.first[b]);
       const auto y = network.particles.position(network.bonds.second[b]);
       broken.push_back({0.5 * (x[0] + y[0]), 0.5 * (x[1] + y[1])});

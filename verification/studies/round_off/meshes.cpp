@@ -14,7 +14,7 @@
 
 #include "analysis/quasistatic/damage_analysis.hpp"
 #include "io/case/case_file.hpp"
-#include "io/mesh/gmsh_file.hpp"
+#include "io/mesh/mesh_file.hpp"
 #include "model/from_case/analysis_options.hpp"
 #include "model/from_case/configure.hpp"
 
@@ -140,7 +140,7 @@ class Quiet : public StepObserver {
 }  // namespace
 
 Mesh read_body(const std::string& name, int dim) {
-  const Mesh mesh = read_gmsh_file(PERILINK_SOURCE_DIR "/meshes/" + name + ".msh", dim);
+  const Mesh mesh = load_mesh(PERILINK_SOURCE_DIR "/meshes/" + name + ".msh", dim);
   Mesh result;
   result.dim = dim;
   std::vector<Index> number(static_cast<std::size_t>(mesh.num_points()), no_index);
