@@ -66,8 +66,6 @@ const Without torsion = {
 const Without lattices = {{bonds | particles | elements, "is given, but model is \"{model}\"",
                            "delete it, or set model = \"lattice\""}};
 
-const Without seeds = {of_beams, on_lattice};
-
 /// Methods, models and types of analysis that a kind of body excludes.
 const Without methods = {
     {elements | shell | beam, "is \"linear_elements\", but shells and beams are made of bonds",
@@ -227,7 +225,7 @@ const std::vector<KeySchema> body_keys = {
     {"mesh", in_beams},
     {"mesh_size", in_beams},
     {"pattern", in_beams},
-    {"seed", seeds},
+    {"seed", {of_beams, on_lattice}},
     {"surface", neighbourhoods},
     {"columns", {on_lattice}},
     "spacing",

@@ -82,8 +82,8 @@ NetworkInput network_input(const CaseFile& input, Problem problem, double horizo
   network.radius = input.body.radius.value_or(0.0);
   network.micromodulus = input.body.micromodulus;
   const CriticalStretch rule = input.body.critical_stretch;
-  const bool on_lattice =
-      rule == CriticalStretch::lattice || (rule == CriticalStretch::dissipated && !has_cells(input.body));
+  const bool on_lattice = rule == CriticalStretch::lattice ||
+                          (rule == CriticalStretch::dissipated && !has_cells(input.body));
   network.critical_stretch = on_lattice ? Constants::lattice : Constants::continuum;
   network.elastic = input.analysis.type == AnalysisType::elastic;
   for (std::size_t m = 0; m < input.materials.size() && !has_cells(input.body); ++m) {

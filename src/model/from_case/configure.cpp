@@ -18,9 +18,9 @@
 #include "model/body/mesh_input.hpp"
 #include "model/body/particle_model.hpp"
 #include "model/body/solid_boxes.hpp"
-#include "model/body/unstructured_body.hpp"
 #include "model/conditions/boundary_conditions.hpp"
 #include "model/from_case/case_bonds.hpp"
+#include "model/from_case/unstructured_body.hpp"
 #include "model/gauges.hpp"
 
 namespace perilink {
