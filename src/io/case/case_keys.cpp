@@ -20,7 +20,6 @@ constexpr std::string_view only_lattices =
     "is given, but only bodies with model = \"lattice\" have it";
 
 constexpr std::string_view flat_instead = "delete it, or choose another problem in [body]";
-
 constexpr std::string_view damage_instead = "delete it, or set type = \"damage\" in [analysis]";
 
 constexpr Kinds bonds = bond_based | micropolar;
