@@ -133,6 +133,7 @@ const CLI::App* add_scan_command(CLI::App& app, ScanOptions& options) {
       "--force", [&options] { options.run.old_results = OldResults::removed; },
       "Run every member anew, overwrite its results");
   add_trust_option(*command, options.run.trust_geometry);
+  add_set_option(*command, options.run);
   return command;
 }
 

@@ -101,8 +101,7 @@ std::vector<double> particle_damage(const Network& network, const Csr& neighbour
     double all = 0.0;
     double lost = 0.0;
     for (const Index e : neighbourhoods.row(i)) {
-      const std::vector<Index>& cut = network.cut_elements;
-      if (std::binary_search(cut.begin(), cut.end(), e)) continue;
+      if (network.is_contact(e)) continue;
       const double volume = network.particles.volumes[network.bonds.other_end(e, i)];
       all += volume;
       if (!network.law(e).endless()) lost += (1.0 - secants.least(e)) * volume;

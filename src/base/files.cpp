@@ -171,7 +171,9 @@ LineFile::LineFile(std::string path, std::size_t size) : path_(std::move(path)),
     return;
   }
   ::close(descriptor_);
-  throw FileError(path_ + ": is shorter than when the state of its run was saved");
+  throw FileError(path_ +
+                  ": is shorter than when the state of its run was saved\n"
+                  "  begin the run again with --force");
 }
 
 LineFile::~LineFile() {

@@ -59,6 +59,12 @@ std::string printable(std::string_view text) {
   return result;
 }
 
+std::string counted(std::int64_t number, std::string_view noun, std::string_view plural) {
+  if (number == 1 || plural.empty())
+    return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
+  return fmt::format("{} {}", number, plural);
+}
+
 std::string joined(std::span<const double> numbers) {
   std::vector<std::string> texts;
   for (const double number : numbers) texts.push_back(fmt::format("{:.6g}", number));

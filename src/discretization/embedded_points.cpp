@@ -26,7 +26,7 @@ double kernel(const Basis<Dim>& basis, double reach) {
 }
 
 template <int Dim>
-std::vector<double> weights_of(std::span<const double> arms, double spacing) {
+std::vector<double> weights_of(std::span<const double> arms, double spacing, int derivative) {
   std::vector<Basis<Dim>> bases;
   for (std::size_t k = 0; k < arms.size(); k += Dim) {
     bases.emplace_back()[0] = 1.0;
@@ -40,7 +40,8 @@ std::vector<double> weights_of(std::span<const double> arms, double spacing) {
     }
     const Eigen::SelfAdjointEigenSolver<Moments> solver(moments);
     if (!(solver.eigenvalues()[0] > least_spread * solver.eigenvalues()[Dim])) continue;
-    const Basis<Dim> factors = moments.ldlt().solve(Basis<Dim>::Unit(0));
+    const Basis<Dim> factors =
+        moments.ldlt().solve(Basis<Dim>::Unit(derivative)) * (derivative > 0 ? 1.0 / spacing : 1.0);
     std::vector<double> weights;
     for (const auto& basis : bases) {
       weights.push_back(kernel<Dim>(basis, reach) * factors.dot(basis));
@@ -52,8 +53,10 @@ std::vector<double> weights_of(std::span<const double> arms, double spacing) {
 
 }  // namespace
 
-std::vector<double> linear_weights(std::span<const double> arms, int dim, double spacing) {
-  return dim == 2 ? weights_of<2>(arms, spacing) : weights_of<3>(arms, spacing);
+std::vector<double> linear_weights(std::span<const double> arms, int dim, double spacing,
+                                   int derivative) {
+  return dim == 2 ? weights_of<2>(arms, spacing, derivative)
+                  : weights_of<3>(arms, spacing, derivative);
 }
 
 }  // namespace perilink

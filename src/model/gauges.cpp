@@ -46,11 +46,10 @@ std::vector<Index> neighbors_of(const Model& model, Index particle, const Vector
     const bool fits = !same_material || particles.material[i] == particles.material[particle];
     if (particles.kind[i] == ParticleKind::solid && fits) neighbors.push_back(i);
   };
-  const std::vector<Index>& cut = network.cut_elements;
-  for (Index e = 0; e < network.first_slip_spring; ++e) {
+  for (Index e = 0; e < network.first_contact(); ++e) {
     const Index i = network.bonds.first[e], j = network.bonds.second[e];
     if (i != particle && j != particle) continue;
-    if (!std::binary_search(cut.begin(), cut.end(), e)) add(i == particle ? j : i);
+    add(i == particle ? j : i);
   }
   const auto away = [&](Index i) {
     double square = 0.0;

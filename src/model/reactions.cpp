@@ -109,15 +109,29 @@ void pass_to_held(const Model& model, std::span<const std::uint8_t> whole,
   pass_to_held(body.hosts, body.free, whole.empty() ? body.whole : whole, loads, forces);
 }
 
-std::vector<double> holding_forces(const Model& model, const ModelState& state) {
-  const Network& network = model.network;
+namespace {
+
+/// Returns the displacements under the present loads.
+std::vector<double> present_motion(const ModelState& state) {
   std::vector<double> motion(state.motion.begin(), state.motion.end());
   for (double& u : motion) u *= state.scale;
-  std::vector<double> forces(state.internal.begin(), state.internal.end());
-  if (forces.empty()) {
-    forces = model.elements ? internal_force(*model.elements, motion).forces
-                            : internal_force(network, state.secants, motion).forces;
-  }
+  return motion;
+}
+
+/// Returns the forces of all elements, with those on embedded points.
+std::vector<double> internal_forces(const Model& model, const ModelState& state) {
+  if (!state.internal.empty()) return {state.internal.begin(), state.internal.end()};
+  const std::vector<double> motion = present_motion(state);
+  return model.elements ? internal_force(*model.elements, motion).forces
+                        : internal_force(model.network, state.secants, motion).forces;
+}
+
+/// Returns the reactions, see holding_forces().
+/// \param forces  internal_forces()
+std::vector<double> reactions_from(const Model& model, const ModelState& state,
+                                   std::vector<double> forces) {
+  const Network& network = model.network;
+  const std::vector<double> motion = present_motion(state);
   load_particles(network, forces);
   const std::vector<double> loads = present_loads(model, state);
   pass_to_held(model, state.whole, loads, forces);
@@ -128,6 +142,22 @@ std::vector<double> holding_forces(const Model& model, const ModelState& state) 
     forces[slot] = held[slot] != 0 ? forces[slot] - spring - loads[slot] : 0.0;
   }
   return forces;
+}
+
+/// Returns the sum of the magnitudes of forces on embedded points [force].
+double size_on_bars(const Network& network, std::span<const double> forces) {
+  const auto width = static_cast<std::size_t>(network.width());
+  double size = 0.0;
+  for (std::size_t slot = network.first_embedded_point() * width; slot < forces.size(); ++slot) {
+    if (static_cast<int>(slot % width) < network.dim()) size += std::abs(forces[slot]);
+  }
+  return size;
+}
+
+}  // namespace
+
+std::vector<double> holding_forces(const Model& model, const ModelState& state) {
+  return reactions_from(model, state, internal_forces(model, state));
 }
 
 Reaction reaction_on(const Model& model, std::span<const Index> particles,
@@ -201,7 +231,12 @@ ReactionTable reaction_table(const std::vector<SupportRegion>& places, const Mod
   const int dim = model.network.dim();
   std::string text = dim == 2 ? "place,x,y,force_x,force_y,moment\n"
                               : "place,x,y,z,force_x,force_y,force_z,moment_x,moment_y,moment_z\n";
-  if (forces.empty()) forces = holding_forces(model, state);
+  double on_bars = 0.0;
+  if (forces.empty()) {
+    forces = internal_forces(model, state);
+    on_bars = size_on_bars(model.network, forces);
+    forces = reactions_from(model, state, std::move(forces));
+  }
   std::vector<Index> everything(static_cast<std::size_t>(model.network.particles.size()));
   std::iota(everything.begin(), everything.end(), 0);
   const Reaction all = reaction_on(model, everything, present_loads(model, state));
@@ -218,7 +253,10 @@ ReactionTable reaction_table(const std::vector<SupportRegion>& places, const Mod
     sum.force_size += moved.force_size;
     sum.moment_size += moved.moment_size;
   }
-  return {text + loads + row_of("sum", sum, dim), about(all.middle, sum)};
+  text += loads + row_of("sum", sum, dim);
+  sum = about(all.middle, sum);
+  sum.force_size += on_bars;
+  return {std::move(text), sum};
 }
 
 void ReactionBalance::add(Index row, const Reaction& sum, double length, double tolerance) {

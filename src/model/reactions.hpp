@@ -54,7 +54,9 @@ struct ReactionTable {
   /// CSV text: a row for each region, one for all loads and one for the sum. Moments of the last
   /// two rows are about the origin.
   std::string text;
-  Reaction sum;  ///< sum of loads and reactions, about the middle of all particles
+  /// Sum of loads and reactions, about the middle of all particles. Its magnitudes include the
+  /// forces of bars, which a prestrain gives to bodies without loads and reactions.
+  Reaction sum;
 };
 /// \param forces  holding_forces() where they are known, as for bodies in motion
 ReactionTable reaction_table(const std::vector<SupportRegion>& places, const Model& model,

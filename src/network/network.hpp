@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <vector>
@@ -71,7 +72,7 @@ struct Shell {
 };
 
 /// Particles with truss or frame elements. Elements are numbered in this order: bonds of the solid,
-/// slip springs between bars and solid, bar elements.
+/// contact springs of pre-cracks, slip springs between bars and solid, bar elements.
 struct Network {
   Particles particles;
   Bonds bonds;
@@ -113,6 +114,10 @@ struct Network {
   /// Stiffness of elastic supports between the components of particles and the ground
   /// [force/length], shape (particles, width); empty: no supports.
   std::vector<double> support_stiffness;
+  /// Contact springs between the faces of pre-cracks, the last elements before slip springs. They
+  /// act in compression only. Their second ends are embedded points (docs/theory/softening.md,
+  /// section 8).
+  Index num_contacts = 0;
   Index first_slip_spring = 0;  ///< number of the first slip spring
   /// Number of the first slip spring between a bar node and its embedded point. Each node has one
   /// along the bar, then those across it.
@@ -123,9 +128,6 @@ struct Network {
   Facets facets;  ///< surface and interfaces, with the nodal area fractions that the bonds balance
   std::optional<CalibrationReport> calibration;  ///< present if bonds were calibrated
 
-  /// Bonds broken by pre-cracks that close in compression, ascending; other bonds across pre-cracks
-  /// are removed.
-  std::vector<Index> cut_elements;
   std::vector<Index> cut_by_crack;         ///< number of bonds removed by each pre-crack
   std::vector<InterfaceBonds> interfaces;  ///< bonds of each weak interface
 
@@ -163,7 +165,17 @@ struct Network {
   }
   Index num_elements() const { return bonds.size(); }
   /// Returns the number of bonds of the solid, without the edges of cells.
-  Index num_bonds() const { return first_slip_spring - num_edges_of_cells(); }
+  Index num_bonds() const { return first_contact() - num_edges_of_cells(); }
+  Index first_contact() const { return first_slip_spring - num_contacts; }
+  /// Returns the numbers of the contact springs, ascending.
+  std::vector<Index> contacts() const {
+    std::vector<Index> numbers(static_cast<std::size_t>(num_contacts));
+    std::iota(numbers.begin(), numbers.end(), first_contact());
+    return numbers;
+  }
+  bool is_contact(Index element) const {
+    return element >= first_contact() && element < first_slip_spring;
+  }
   Index num_edges_of_cells() const { return cells ? cells->num_edges : 0; }
   const BondLaw& law(Index element) const { return laws[law_of.empty() ? 0 : law_of[element]]; }
   /// Returns whether some elements have crack closure.

@@ -77,6 +77,16 @@ int following(const Network& network, Index embedded_point) {
                                                                            : network.dim();
 }
 
+/// Calls visit(slot, weight) for the slots that move a component of an embedded point.
+template <class Visit>
+void for_each_weight(const Network& network, Index embedded_point, int component, Visit visit) {
+  const auto width = static_cast<std::size_t>(network.width());
+  network.embedded_points.for_each_weight(
+      embedded_point, component, network.dim(), [&](Index particle, int own, double weight) {
+        visit(static_cast<std::size_t>(particle) * width + own, weight);
+      });
+}
+
 template <class Visit>
 void for_each_embedded_slot(const Network& network, Visit visit) {
   const auto width = static_cast<std::size_t>(network.width());
@@ -98,37 +108,26 @@ void carry_embedded_points(const Network& network, Unknowns& unknowns) {
   std::vector<Unknowns::Share> shares;
   for_each_embedded_slot(network, [&](Index k, std::size_t slot, int component) {
     shares.clear();
-    const auto particles = network.embedded_points.particles.row(k);
-    const auto weights = network.embedded_points.weights_of(k);
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-      const std::size_t own = static_cast<std::size_t>(particles[p]) * unknowns.width + component;
-      if (unknowns.number[own] >= 0) shares.push_back({unknowns.number[own], weights[p]});
-      unknowns.prescribed[slot] += weights[p] * unknowns.prescribed[own];
-    }
+    for_each_weight(network, k, component, [&](std::size_t own, double weight) {
+      if (unknowns.number[own] >= 0) shares.push_back({unknowns.number[own], weight});
+      unknowns.prescribed[slot] += weight * unknowns.prescribed[own];
+    });
     if (!shares.empty()) unknowns.carry(slot, shares);
   });
 }
 
 void follow_particles(const Network& network, std::span<double> motion) {
-  const auto width = static_cast<std::size_t>(network.width());
   for_each_embedded_slot(network, [&](Index k, std::size_t slot, int component) {
-    const auto particles = network.embedded_points.particles.row(k);
-    const auto weights = network.embedded_points.weights_of(k);
     motion[slot] = 0.0;
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-      motion[slot] += weights[p] * motion[particles[p] * width + component];
-    }
+    for_each_weight(network, k, component,
+                    [&](std::size_t own, double weight) { motion[slot] += weight * motion[own]; });
   });
 }
 
 void load_particles(const Network& network, std::span<double> forces) {
-  const auto width = static_cast<std::size_t>(network.width());
   for_each_embedded_slot(network, [&](Index k, std::size_t slot, int component) {
-    const auto particles = network.embedded_points.particles.row(k);
-    const auto weights = network.embedded_points.weights_of(k);
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-      forces[particles[p] * width + component] += weights[p] * forces[slot];
-    }
+    for_each_weight(network, k, component,
+                    [&](std::size_t own, double weight) { forces[own] += weight * forces[slot]; });
     forces[slot] = 0.0;
   });
 }

@@ -48,8 +48,7 @@ std::vector<Index> crossing_bonds(const Body& body, const WeakInterface& face, s
     const bool crosses = face.side.empty()
                              ? keep[e] == 0
                              : side(network.bonds.first[e]) + side(network.bonds.second[e]) == 3;
-    const std::vector<Index>& cut = network.cut_elements;
-    if (crosses && !std::binary_search(cut.begin(), cut.end(), e)) crossing.push_back(e);
+    if (crosses) crossing.push_back(e);
   }
   return crossing;
 }

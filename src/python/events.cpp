@@ -31,6 +31,7 @@ class Stepper {
     const ThreadScope scope;
     threads_ = set_threads(threads);
     options_ = damage_options(input, threads_);
+    options_.begins_again = true;
     options_.stop_requested = [this] { return caller_.stop_requested(); };
     note_of_separated_body(input, built.model, threads_);  // refuses pieces without support
     if (saved) {
@@ -40,7 +41,7 @@ class Stepper {
     }
   }
 
-  /// Returns the next row; empty at the end.
+  /// Returns the next row; empty at the end. After a missed release it is the first row again.
   std::optional<StepRecord> next() {
     const StepRecord* row = nullptr;
     {
@@ -48,6 +49,10 @@ class Stepper {
       ThreadScope scope;
       scope.use(threads_);
       row = run_->next();
+      while (run_->missed_release()) {
+        begin_again();
+        row = run_->next();
+      }
     }
     caller_.raise();
     if (run_->has_failed()) throw SolverError(run_->result().reason);
@@ -75,6 +80,7 @@ class Stepper {
 
   const BuiltCase& built() const { return built_; }
   const Network& network() const { return built_.model.network; }
+  Index restarts() const { return restarts_; }
   const Csr& neighbourhoods() {
     if (neighbourhoods_.rows() == 0) {
       neighbourhoods_ = bonds_of_particles(network().bonds, network().particles.size());
@@ -89,7 +95,19 @@ class Stepper {
   EventRun& run() { return *run_; }
 
  private:
+  /// Starts again with the hosts that are active after a missed release, as `perilink run` does.
+  void begin_again() {
+    const std::vector<std::uint8_t> whole = *run_->missed_release();
+    run_.reset();
+    if (!model_) model_ = built_.model;
+    begin_with_hosts(*model_, whole);
+    ++restarts_;
+    run_.emplace(*model_, options_);
+  }
+
   const BuiltCase& built_;
+  std::optional<Model> model_;  ///< with other active hosts, after a missed release
+  Index restarts_ = 0;
   PythonCaller caller_;
   int threads_ = 1;
   DamageOptions options_;
@@ -148,7 +166,7 @@ py::dict result_of(Stepper& stepper) {
   result["broken_bonds"] = found.broken_bonds;
   result["energy_error"] = found.energy_error;
   result["largest_residual"] = found.largest_residual;
-  result["missed_releases"] = found.missed_releases;
+  result["missed_releases"] = stepper.restarts();
   return result;
 }
 

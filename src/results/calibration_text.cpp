@@ -16,10 +16,10 @@ constexpr double harmful = 1e-2;
 
 std::string calibration_line(const CalibrationReport& report) {
   if (report.free_bonds == 0) return "no bond had to change";
-  std::string line = fmt::format(
-      "{} bonds, forces out of balance {:.2g} before, {:.1e} after, weights {:.3g} to {:.3g}",
-      report.free_bonds, report.residual_before, report.residual_after, report.smallest_weight,
-      report.largest_weight);
+  std::string line =
+      fmt::format("{}, forces out of balance {:.2g} before, {:.1e} after, weights {:.3g} to {:.3g}",
+                  counted(report.free_bonds, "bond"), report.residual_before, report.residual_after,
+                  report.smallest_weight, report.largest_weight);
   if (report.at_least_weight > 0) line += fmt::format(", {} at the floor", report.at_least_weight);
   if (report.dropped > 0) line += fmt::format(", {} left out", report.dropped);
   return line;
@@ -30,9 +30,10 @@ std::optional<std::string> calibration_shortfall(const Network& network) {
   const CalibrationReport& report = *network.calibration;
   const double worst = std::max(report.residual_after, report.moment_after);
   std::string text = fmt::format(
-      "uniform strains leave {} particles out of balance, most (by {:.1e} of the force on a face "
+      "uniform strains leave {} out of balance, most (by {:.1e} of the force on a face "
       "of its cell) the one at ({})",
-      report.unmet, worst, joined(network.particles.position(report.worst_particle)));
+      counted(report.unmet, "particle"), worst,
+      joined(network.particles.position(report.worst_particle)));
   if (worst > harmful) {
     text +=
         "; WARNING: strains around it have about this relative error; mesh "

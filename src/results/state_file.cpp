@@ -13,10 +13,10 @@ std::string fingerprint_of(const LoadedNetwork& problem) {
   const Network& network = problem.network;
   // With hosts the motion changes as they release their particles.
   const Unknowns& motion = problem.embedded ? problem.embedded->free : problem.unknowns;
-  std::string text = fingerprint(
-      network.particles.positions, network.particles.volumes, network.bonds.first,
-      network.bonds.second, network.stiffness, network.critical_stretch, network.support_stiffness,
-      network.cut_elements, problem.loads.forces, motion.number, motion.prescribed);
+  std::string text = fingerprint(network.particles.positions, network.particles.volumes,
+                                 network.bonds.first, network.bonds.second, network.stiffness,
+                                 network.critical_stretch, network.support_stiffness,
+                                 problem.loads.forces, motion.number, motion.prescribed);
   for (const LoadCase& loads : problem.sets) {
     text += fingerprint(loads.loads.forces, loads.unknowns.number, loads.unknowns.prescribed);
   }

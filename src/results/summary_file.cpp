@@ -32,19 +32,22 @@ std::string text_of(const nlohmann::ordered_json& summary) {
 
 }  // namespace
 
-nlohmann::ordered_json summary_head(const CaseFile& input, const std::string& status,
-                                    const std::string& reason) {
-  return {{"title", input.title},
-          {"units", input.units},
-          {"analysis", word_of(input.analysis.type)},
-          {"model", word_of(input.body.model)},
-          {"status", status},
-          {"reason", reason}};
+nlohmann::ordered_json summary_head(const CaseFile& input, const std::string& meshes,
+                                    const std::string& status, const std::string& reason) {
+  nlohmann::ordered_json head = {{"title", input.title},
+                                 {"units", input.units},
+                                 {"analysis", word_of(input.analysis.type)},
+                                 {"model", word_of(input.body.model)},
+                                 {"status", status},
+                                 {"reason", reason}};
+  if (!meshes.empty()) head["mesh_checksum"] = meshes;
+  return head;
 }
 
-void write_running_summary(const fs::path& directory, const CaseFile& input) {
+void write_running_summary(const fs::path& directory, const CaseFile& input,
+                           const std::string& meshes) {
   std::string text =
-      text_of(summary_head(input, "running",
+      text_of(summary_head(input, meshes, "running",
                            "the run is not finished, or it was killed; at its end it replaces "
                            "this file"));
   text.insert(text.size() - 1, reserve - text.size() % reserve, ' ');
@@ -52,8 +55,8 @@ void write_running_summary(const fs::path& directory, const CaseFile& input) {
 }
 
 void write_failed_summary(const fs::path& directory, const CaseFile& input,
-                          const std::string& reason) {
-  write_summary_file(directory, summary_head(input, "failed", reason));
+                          const std::string& meshes, const std::string& reason) {
+  write_summary_file(directory, summary_head(input, meshes, "failed", reason));
 }
 
 void write_summary_file(const fs::path& directory, const nlohmann::ordered_json& summary) {

@@ -14,16 +14,18 @@
 namespace perilink {
 
 /// Returns the common beginning of summaries: case, analysis type, status and reason.
-nlohmann::ordered_json summary_head(const CaseFile& input, const std::string& status,
-                                    const std::string& reason);
+/// \param meshes  mesh_checksum(); empty without a mesh
+nlohmann::ordered_json summary_head(const CaseFile& input, const std::string& meshes,
+                                    const std::string& status, const std::string& reason);
 
 /// Writes a summary with status "running", padded to reserve space for the final summary.
 /// \throws FileError
-void write_running_summary(const std::filesystem::path& directory, const CaseFile& input);
+void write_running_summary(const std::filesystem::path& directory, const CaseFile& input,
+                           const std::string& meshes);
 
 /// Writes the summary of a run that failed before its analysis. \throws FileError
 void write_failed_summary(const std::filesystem::path& directory, const CaseFile& input,
-                          const std::string& reason);
+                          const std::string& meshes, const std::string& reason);
 
 /// Replaces the summary; on a full disk the reserve of write_running_summary() is used.
 /// \throws FileError

@@ -16,6 +16,7 @@ struct FactorStatistics {
   Index size = 0;
   double entries = 0.0;      ///< stored numbers of L
   double bytes = 0.0;        ///< memory of L
+  double most_bytes = 0.0;   ///< largest memory so far of what replaces L: cached columns
   double flops = 0.0;        ///< for one factorisation
   double event_bytes = 0.0;  ///< part of L that the last downdate read (in place only)
   int factorizations = 0;    ///< number of factorisations

@@ -211,8 +211,9 @@ TEST_F(Program, CheckTellsSizesAndMakesNothing) {
   EXPECT_EQ(end.exit_status, 0) << end.err;
   for (const char* part :
        {"[body]", "particles          336", "bonds              2345", "unknowns           669",
-        "memory", "per broken bond", " for 30 of them; it reads the factor twice\n",
-        "spacing            ", " spacings\n", "load               upper cap: (0, 100)"}) {
+        "memory", "time               at least ", "per broken bond",
+        " for 30 of them; it reads the factor twice\n", "spacing            ", " spacings\n",
+        "load               upper cap: (0, 100)"}) {
     EXPECT_THAT(end.out, HasSubstr(part));
   }
   EXPECT_EQ(names(), std::set<std::string>{"small.toml"});

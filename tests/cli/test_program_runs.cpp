@@ -235,7 +235,7 @@ TEST_F(ProgramRuns, NotesAndDoubtsOfALatticeStandInItsLog) {
   ASSERT_EQ(run({"run", "strip.toml", "--out", "r"}).exit_status, 0);
   const std::string log = read_text(work() / "r/log.txt");
   EXPECT_THAT(log, testing::HasSubstr("note: 1 particle was in the hole \"hole\""));
-  EXPECT_THAT(log, testing::HasSubstr("doubt: the peaks of load and reaction differ by"));
+  EXPECT_THAT(log, testing::HasSubstr("warning: the peaks of load and reaction differ by"));
 }
 
 struct BarCase {
@@ -339,11 +339,11 @@ TEST_F(ProgramRuns, DoubtResultsThatRoundOffHasReached) {
   EXPECT_EQ(end.exit_status, 0) << end.err;
   const nlohmann::json result = summary("r");
   EXPECT_GT(result["largest_residual"].get<double>(), 1e-6);
-  ASSERT_EQ(result["doubts"].size(), 1u);
-  const std::string warning = result["doubts"][0];
+  ASSERT_EQ(result["warnings"].size(), 1u);
+  const std::string warning = result["warnings"][0];
   EXPECT_THAT(warning, testing::HasSubstr("of the load is out of balance"));
   EXPECT_THAT(end.out, testing::HasSubstr(warning));
-  EXPECT_THAT(read_text(work() / "r/log.txt"), testing::HasSubstr("doubt: " + warning));
+  EXPECT_THAT(read_text(work() / "r/log.txt"), testing::HasSubstr("warning: " + warning));
 }
 
 /// Ten and twenty thousand times as long as high: the factor's answers are 0.2 and some 10 % off,
@@ -358,7 +358,7 @@ TEST_F(ProgramRuns, AnEquilibriumThatRoundOffHasLostIsAFailure) {
   // Out of balance by 2e-4 to 5e-4 with three kernels of OpenBLAS; 20000 long by 7e-5 to 3e-2.
   EXPECT_EQ(solve(12000).exit_status, 0);
   EXPECT_GT(summary("r")["energy_error"].get<double>(), 1e-6);
-  EXPECT_EQ(summary("r")["doubts"].size(), 2u);
+  EXPECT_EQ(summary("r")["warnings"].size(), 2u);
   const ProcessEnd end = solve(40000);
   EXPECT_EQ(end.exit_status, 3);
   EXPECT_THAT(end.err, testing::HasSubstr("work and energy are out of balance by 0."));
@@ -373,7 +373,7 @@ TEST_F(ProgramRuns, ASeparatedBodyBearsNoLoad) {
   ASSERT_EQ(run({"run", "driven.toml", "--out", "r"}).exit_status, 0);
   const nlohmann::json result = summary("r");
   EXPECT_EQ(result["status"], "collapsed");
-  EXPECT_EQ(result["doubts"].size(), 0u);
+  EXPECT_EQ(result["warnings"].size(), 0u);
   const std::string text = history("r");
   const std::string last = text.substr(text.rfind('\n', text.size() - 2) + 1);
   std::istringstream cells(last);

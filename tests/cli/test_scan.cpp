@@ -8,6 +8,7 @@
 #include <sstream>
 #include <thread>
 
+#include "app/report/report_assets.hpp"
 #include "support/process.hpp"
 #include "support/program_cases.hpp"
 #include "support/replaced.hpp"
@@ -18,6 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 /// The larger energies are four times the smaller ones, so the loads are twice as large.
 constexpr const char* grid_scan = R"(case = "block.toml"
@@ -81,6 +83,29 @@ TEST_F(Scan, RunsEveryMemberAsRunWouldWithItsValues) {
   for (const char* name : {"/history.csv", "/case.toml"}) {
     EXPECT_EQ(file(std::string("results/scan/0003") + name), file(std::string("single") + name));
   }
+}
+
+TEST_F(Scan, SetIsForEveryMember) {
+  const std::string energies = replaced(grid_scan, "\"stop.broken_bonds\" = [10, 20]\n", "");
+  ASSERT_EQ(scan(energies, {"--set", "stop.broken_bonds=15"}).exit_status, 0);
+  EXPECT_EQ(number("results/scan", 1, 12), 15.0);
+  EXPECT_EQ(number("results/scan", 2, 12), 15.0);
+  ProcessEnd end = scan(grid_scan, {"--set", "stop.broken_bonds=15", "--force"});
+  EXPECT_EQ(end.exit_status, 2);
+  EXPECT_THAT(end.err, HasSubstr("--set stop.broken_bonds: has other values in the scan"));
+  end = scan(energies, {"--set", "stop.broken_bonds=-1", "--force"});
+  EXPECT_EQ(end.exit_status, 2);
+  EXPECT_THAT(end.err, AllOf(HasSubstr("--set"), HasSubstr("stop.broken_bonds"),
+                             Not(HasSubstr("refuses member"))));
+}
+
+TEST_F(Scan, ReportsNameTheValues) {
+  ASSERT_EQ(scan(grid_scan, {"--quiet"}).exit_status, 0);
+  const ProcessEnd end = run_program(work(), {"report", "results/scan/0001", "results/scan/0004"});
+  if (report_assets().dygraphs.empty()) GTEST_SKIP() << "built without dygraphs";
+  ASSERT_EQ(end.exit_status, 0) << end.err;
+  EXPECT_THAT(file("report.html"), AllOf(HasSubstr("fracture_energy = 0.001, broken_bonds = 10"),
+                                         HasSubstr("fracture_energy = 0.004, broken_bonds = 20")));
 }
 
 TEST_F(Scan, ResultsDoNotDependOnJobs) {

@@ -92,6 +92,8 @@ broken_bonds = 10
 """)
 case("strip_iterative_brittle", "strip", "iterative", "broken")
 case("strip_iterative_softening_batches", "strip", "exponential iterative", "yield batches", """
+[[cracks]] 1
+closing = false
 [stop]
 displacement = 0.008
 """)

@@ -7,7 +7,7 @@ import re
 import struct
 import zlib
 
-# Entries of summary.json that describe the clock, the memory, the threads and the program.
+# Entries of summary.json that describe the clock, the memory, the threads, the program and files.
 NOT_COMPARED = {
     "seconds",
     "particle_steps_per_second",
@@ -15,9 +15,10 @@ NOT_COMPARED = {
     "threads",
     "version",
     "commit",
+    "mesh_checksum",
 }
 # Texts of summary.json that the program prints too: they are compared as messages.
-TEXTS = {"reason", "notes", "doubts"}
+TEXTS = {"reason", "notes", "doubts", "warnings"}
 # Files that hold wall time or messages, or the state of a run with its times.
 SKIPPED = {"timing.csv", "log.txt", "checkpoint.bin"}
 # Numbers that are round-off themselves or count steps to a tolerance. A tolerance passes over them,

@@ -10,6 +10,8 @@ case("block_softening_batches", "block", "bilinear", "yield batches", """
 broken_bonds = 20
 """)
 case("block_iterative_softening_batches", "block", "linear iterative", "yield batches", """
+[[cracks]] 1
+closing = false
 [stop]
 displacement = 0.01
 """)

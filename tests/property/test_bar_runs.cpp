@@ -90,6 +90,21 @@ TEST(BarRuns, PrestrainAloneStressesTheBar) {
   EXPECT_NEAR(stress, uniform, 0.1 * uniform);
 }
 
+/// On determinate supports, the reactions to a prestrain are round-off of the bar's forces.
+TEST(BarRuns, PrestrainOnDeterminateSupportsIsInBalance) {
+  const std::string corners =
+      "[[regions]]\nname = \"corner\"\nx = [0, 0]\ny = [0, 0]\n"
+      "[[regions]]\nname = \"roller\"\nx = [200, 200]\ny = [0, 0]\n"
+      "[[supports]]\nregion = \"roller\"\nfix = [\"y\"]\n";
+  for (const char* analysis : {"type = \"elastic\"", "control = \"steps\"\nload_factors = [1]"}) {
+    const WholeRun run(replaced(beam(false, straight + "prestrain = 1e-4\n",
+                                     corners + fmt::format("[analysis]\n{}\n", analysis)),
+                                "[[supports]]\nregion = \"left\"",
+                                "[[supports]]\nregion = \"corner\""));
+    EXPECT_EQ(run.summary.warnings, std::vector<std::string>()) << analysis;
+  }
+}
+
 /// Plastic strain stays between stages, as segments with shifted origins.
 TEST(BarRuns, BarsYieldInStages) {
   const WholeRun run(

@@ -43,7 +43,7 @@ TEST(CrushedBodies, EndBeforeStrainsAreLarge) {
   EXPECT_LT(std::abs(told.at("peak_load").get<double>()), 0.1 * block_modulus * height);
   EXPECT_LT(std::abs(told.at("peak_displacement").get<double>()), 0.1 * 100.0);
   EXPECT_LT(told.at("energy_error").get<double>(), 1e-9);
-  EXPECT_THAT(told.at("doubts").dump(), testing::HasSubstr("is not the strength of the body"));
+  EXPECT_THAT(told.at("warnings").dump(), testing::HasSubstr("is not the strength of the body"));
 }
 
 /// Prescribed load steps are carried, and the run warns about the peak.
@@ -56,7 +56,7 @@ TEST(CrushedBodies, AskedForByStepsAreInDoubt) {
                       "[analysis]\ncontrol = \"steps\"\nload_factors = " +
                           load_factors + "\n"));
     EXPECT_EQ(run.summary.json.at("status"), "completed");
-    return run.summary.json.at("doubts").dump();
+    return run.summary.json.at("warnings").dump();
   };
   EXPECT_THAT(warnings("[0.1, 0.2]"), testing::Not(testing::HasSubstr("small strains")));
   EXPECT_THAT(warnings("[10, 200]"), testing::HasSubstr("is not the strength of the body"));
@@ -73,7 +73,7 @@ TEST(CrushedBodies, AStageEndsAtItsLoadInDoubt) {
                      "[[stages]]\nname = \"press\"\nto = 30\n");
   EXPECT_EQ(run.summary.json.at("status"), "completed");
   EXPECT_EQ(run.history().rows.size(), 1u);
-  EXPECT_THAT(run.summary.json.at("doubts").dump(), testing::HasSubstr("small strains"));
+  EXPECT_THAT(run.summary.json.at("warnings").dump(), testing::HasSubstr("small strains"));
 }
 
 /// A constant load under which bonds break until the body moves far away is not carried. The run
@@ -86,7 +86,7 @@ TEST(CrushedBodies, TornByALoadThatStaysHaveCollapsed) {
                       "force = [1000, 0]\nstage = \"pull\"\n"
                       "[[stages]]\nname = \"pull\"\nto = 1\n"));
     EXPECT_EQ(run.summary.json.at("status"), "collapsed");
-    EXPECT_THAT(run.summary.json.at("doubts").dump(),
+    EXPECT_THAT(run.summary.json.at("warnings").dump(),
                 testing::Not(testing::HasSubstr("small strains")));
     return run.summary.json.at("reason").get<std::string>();
   };

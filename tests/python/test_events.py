@@ -16,6 +16,26 @@ def strip_with_gauge() -> perilink.Case:
     return case
 
 
+def late_beam() -> perilink.Case:
+    """A notched beam in elements that release a bond beyond its limit too late."""
+    def box(name, x, y):
+        return {"name": name, "x": x, "y": y}
+    return perilink.Case(
+        body={"pattern": "rectangular", "spacing": 2.0, "horizon_ratio": 3},
+        regions=[box("beam", [0, 160], [0, 40]), box("left", [10, 14], [0, 0]),
+                 box("right", [146, 150], [0, 0]), box("load", [78, 82], [40, 40]),
+                 box("pads", [0, 60], [0, 40]), box("other pads", [100, 160], [0, 40]),
+                 box("top", [60, 100], [32, 40])],
+        materials=[{"region": "beam", "youngs_modulus": 30e3, "fracture_energy": 0.1},
+                   {"regions": ["pads", "other pads", "top"], "youngs_modulus": 30e3,
+                    "fracture_energy": "infinite"}],
+        cracks=[{"points": [[81, -1], [81, 13]]}],
+        supports=[{"region": "left", "fix": ["x", "y"]}, {"region": "right", "fix": ["y"]}],
+        loads=[{"region": "load", "force": [0, -100]}],
+        elements={"spacings": 4, "alert": 0.99, "halo": 0.01},
+        stop={"broken_bonds": 120})
+
+
 class Events(unittest.TestCase):
     def test_rows_are_those_of_a_run(self):
         case = strip_with_gauge()
@@ -71,6 +91,22 @@ class Events(unittest.TestCase):
             case["loads"][0]["force"] = [0, 13]
             with self.assertRaisesRegex(perilink.FileError, "another problem"):
                 perilink.EventRun(perilink.build(case), path)
+
+    def test_missed_releases_start_the_run_again(self):
+        case = late_beam()
+        problem = perilink.build(case)
+        result = perilink.run(case, threads=1)
+        self.assertGreater(result.summary["late_conversions"], 0)
+        run = perilink.EventRun(problem, threads=1)
+        rows = []
+        for row in run:
+            if row.step == 1:
+                rows = []
+            rows.append(row)
+        self.assertEqual(run.result["missed_releases"], result.summary["late_conversions"])
+        for column in ("step", "load", "broken_bonds", "element"):
+            self.assertEqual([getattr(row, column) for row in rows],
+                             list(result.history[column]), column)
 
     def test_problems_outlive_their_name(self):
         run = perilink.EventRun(perilink.build(strip_with_gauge()))

@@ -44,7 +44,7 @@ ReferenceEngine::ReferenceEngine(const LoadedNetwork& body, double tolerance)
       network_.has_states() || network_.cells || network_.has_sections()) {
     throw std::invalid_argument("the reference has no such bonds");
   }
-  for (const Index element : network_.cut_elements) secants_[element] = 0.0;  // closed at first
+  for (const Index element : network_.contacts()) secants_[element] = 0.0;  // closed at first
   constant_loads_ = {std::vector<double>(gripped_at_.size(), 0.0), gripped_at_};
   growing_ = constant_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(gripped_at_.size()));
   if (body.sets.empty()) {

@@ -8,6 +8,7 @@
 
 #include "analysis/quasistatic/event_run.hpp"
 #include "base/error.hpp"
+#include "base/plain_text.hpp"
 
 namespace perilink {
 namespace {
@@ -67,7 +68,8 @@ bool is_stopped(PathState& path, const DamageOptions& options) {
 
 bool has_broken_enough(PathState& path, const StopRules& stop) {
   if (!stop.broken_bonds || path.broken_bonds < *stop.broken_bonds) return false;
-  path.end(Termination::completed, fmt::format("{} bonds are broken", path.broken_bonds));
+  path.end(Termination::completed,
+           counted(path.broken_bonds, "bond is broken", "bonds are broken"));
   return true;
 }
 

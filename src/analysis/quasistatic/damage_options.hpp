@@ -95,7 +95,7 @@ struct DamageResult {
     archive(termination, reason, stages, last, broken_bonds, peak_load, peak_displacement, peaks,
             broken_as_gave_way, smoothed_peak_load, initial_stiffness, largest_residual,
             conversions, missed_releases, elements, unknowns, energy_error, beyond_small_strains,
-            factor.factorizations, factor.iterations);
+            factor.factorizations, factor.iterations, factor.most_bytes);
   }
 };
 

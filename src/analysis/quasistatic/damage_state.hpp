@@ -52,7 +52,7 @@ struct PathState {
   void begin_work(const LoadWork& work) {
     const double sum = work.forces + work.supports;
     compliance = work.compliance();
-    if (!(sum > 0.0)) throw SolverError("the loads do no work on the body");
+    if (!(sum > 0.0) && !work.separated) throw SolverError("the loads do no work on the body");
     if (!std::isfinite(sum)) throw SolverError("the elastic solution is not finite");
   }
   void end(Termination termination, std::string reason) {

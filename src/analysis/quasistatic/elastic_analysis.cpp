@@ -206,7 +206,7 @@ ElasticResult run_elastic_analysis(const LoadedNetwork& problem, const ElasticOp
   const Network& network = problem.network;
   const Unknowns& unknowns = problem.unknowns;
   std::pair<std::vector<double>, std::vector<double>> closed;
-  if (!network.cut_elements.empty()) closed = find_closed_cracks(problem, options);
+  if (network.num_contacts > 0) closed = find_closed_cracks(problem, options);
   const Secants secants(closed.first, closed.second);
   const InternalForceOf internal_of = [&](std::span<const double> u) {
     return internal_force(network, secants, u);

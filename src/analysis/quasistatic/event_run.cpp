@@ -1,5 +1,6 @@
 #include "analysis/quasistatic/event_run.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -121,6 +122,7 @@ FactorStatistics EventRun::factor_statistics() const {
   FactorStatistics factor = engine_->factor_statistics();
   factor.factorizations += path_.result.factor.factorizations;
   factor.iterations += path_.result.factor.iterations;
+  factor.most_bytes = std::max({factor.bytes, factor.most_bytes, path_.result.factor.most_bytes});
   return factor;
 }
 

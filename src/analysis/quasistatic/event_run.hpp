@@ -111,4 +111,9 @@ class EventRun final : public StateSource {
   std::optional<std::vector<std::uint8_t>> missed_;
 };
 
+/// Makes a body begin with other active hosts, as an analysis that starts again after a missed
+/// release.
+/// \param whole  EventRun::missed_release()
+void begin_with_hosts(LoadedNetwork& problem, const std::vector<std::uint8_t>& whole);
+
 }  // namespace perilink

@@ -77,4 +77,10 @@ void EventRun::note_missed_releases(const Event& event, double sense) {
   path_.freed.clear();
 }
 
+void begin_with_hosts(LoadedNetwork& problem, const std::vector<std::uint8_t>& whole) {
+  EmbeddedBody& body = *problem.embedded;
+  body.whole = whole;
+  problem.unknowns = embedded_motion(body.hosts, body.free, whole);
+}
+
 }  // namespace perilink

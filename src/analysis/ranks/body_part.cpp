@@ -29,12 +29,13 @@ void for_each_member(Part& part, Visit visit) {
   visit(network.law_of);
   visit(network.critical_stretch);
   visit(network.support_stiffness);
-  visit(network.cut_elements);
   visit(network.first_embedded_slip_spring);
   visit(network.first_bar_element);
   visit(network.embedded_points.particles.offsets);
   visit(network.embedded_points.particles.values);
   visit(network.embedded_points.weights);
+  visit(network.embedded_points.strain_weights);
+  visit(network.embedded_points.normals);
   visit(part.body.unknowns.width);
   visit(part.body.unknowns.number);
   visit(part.body.unknowns.prescribed);
@@ -69,7 +70,14 @@ EmbeddedPoints cut_embedded_points(const Network& network, Index first, Index pa
     for (const Index p : network.embedded_points.particles.row(embedded_point - embedded_points)) {
       particles.push_back(p - first);
     }
-    own.append(particles, network.embedded_points.weights_of(embedded_point - embedded_points));
+    const EmbeddedPoints& all = network.embedded_points;
+    const Index k = embedded_point - embedded_points;
+    const auto normal = all.normal_of(k, network.dim());
+    if (normal.empty()) {
+      own.append(particles, all.weights_of(k));
+    } else {
+      own.append(particles, all.weights_of(k), all.strain_weights_of(k, network.dim()), normal);
+    }
   }
   return own;
 }
@@ -110,7 +118,6 @@ Network cut_network(const Network& network, const std::vector<Index>& elements, 
   pick(network.hinged, own.hinged);
   pick(network.law_of, own.law_of);
   pick(network.critical_stretch, own.critical_stretch);
-  own.cut_elements = in_part(network.cut_elements, elements);
   const auto count_before = [&](Index element) {
     return static_cast<Index>(std::ranges::lower_bound(elements, element) - elements.begin());
   };

@@ -14,6 +14,7 @@
 #include "app/run/summary.hpp"
 #include "assembly/stiffness.hpp"
 #include "base/error.hpp"
+#include "base/plain_text.hpp"
 #include "base/timer.hpp"
 #include "io/case/case_settings.hpp"
 #include "io/case/sections/case_kinds.hpp"
@@ -58,11 +59,12 @@ double memory_without_factor(const Network& network, bool events) {
   return boxes + 8.0 * unknowns * static_cast<double>(columns);
 }
 
-/// Prints the time per event. An event, or a batch of events, reads the factor twice.
+/// Prints the least time per event. An event, or a batch of events, reads the factor twice;
+/// searches and sums over bonds come on top.
 void print_time_of_events(const CaseFile& input, const Network& network, double factor_bytes) {
   const bool many = softens(network), batches = many && event_tolerance_of(input) > 0.0;
   const double seconds = 2.0 * factor_bytes / read_bytes_per_second;
-  fmt::print("#   time               {:.3g} ms per {}{}", 1e3 * seconds,
+  fmt::print("#   time               at least {:.3g} ms per {}{}", 1e3 * seconds,
              batches ? "batch of events"
              : many  ? "event"
                      : "broken bond",
@@ -140,8 +142,8 @@ void print_steps(double critical_time_step, ExplicitOptions options, const char*
   fmt::print("#   critical time step {:.6g}{}\n", critical_time_step, remark);
   fmt::print("#   time step          {:.6g}\n", options.time_step);
   const Index steps = options.steps();
-  fmt::print("#   steps              {}, about {} rows of history\n", steps,
-             std::min<Index>(steps, options.rows));
+  fmt::print("#   steps              {}, about {} of history\n", steps,
+             counted(std::min<Index>(steps, options.rows), "row"));
   const auto seconds = [&](Index count) {
     options.duration = options.time_step * static_cast<double>(count);
     options.rows = options.threads = 1;
@@ -179,12 +181,12 @@ int check_explicit(const std::string& case_path, const CaseFile& input) {
   };
   print_case(case_path, input);
   fmt::print("# sizes\n");
-  fmt::print("#   particles          {} in {} rows\n", model.lattice.particles(),
-             model.lattice.rows.size());
+  fmt::print("#   particles          {} in {}\n", model.lattice.particles(),
+             counted(model.lattice.rows.size(), "row"));
   fmt::print("#   spacing            {:.6g}\n", model.lattice.spacing);
   print_extents(model.lattice);
   fmt::print("#   bonds              {}\n", built.bonds);
-  fmt::print("#   prescribed         {} displacements\n", count(model.prescribed));
+  fmt::print("#   prescribed         {}\n", counted(count(model.prescribed), "displacement"));
   if (model.material.breakable) {
     const CrackOpeningLaw& law = model.material.softening;
     fmt::print("#   softening          fracture energy {:.6g}, critical opening {:.6g}\n",

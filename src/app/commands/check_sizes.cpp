@@ -86,10 +86,9 @@ void print_strengths(const std::vector<MaterialStrength>& strengths) {
 void print_interfaces(const std::vector<InterfaceBonds>& interfaces) {
   for (std::size_t k = 0; k < interfaces.size(); ++k) {
     const auto& [count, area, strength] = interfaces[k];
-    fmt::print(
-        "#   interface {}        {} bonds cross about {:.2g} of area, tensile strength {:.5g}{}\n",
-        k + 1, count, area, strength.tensile_strength,
-        strength.segments > 1 ? "" : " from the horizon");
+    fmt::print("#   interface {}        {} about {:.2g} of area, tensile strength {:.5g}{}\n",
+               k + 1, counted(count, "bond crosses", "bonds cross"), area,
+               strength.tensile_strength, strength.segments > 1 ? "" : " from the horizon");
     if (strength.segments > 1) print_softening(strength);
   }
 }
@@ -100,18 +99,18 @@ void print_elements(const Model& model) {
     return;
   }
   const Network& network = model.network;
-  fmt::print("#   bonds              {} and {} bond-slip springs of {} bar{}\n",
-             network.num_bonds(), network.first_bar_element - network.first_slip_spring,
-             model.entry_of_bar.size(), model.entry_of_bar.size() == 1 ? "" : "s");
+  fmt::print("#   bonds              {} and {} of {}\n", network.num_bonds(),
+             counted(network.first_bar_element - network.first_slip_spring, "bond-slip spring"),
+             counted(model.entry_of_bar.size(), "bar"));
   if (network.cells) {
     fmt::print("#   linear elements    {} tied to the bonds\n", network.cells->cells.size());
   }
   if (network.calibration) {
-    fmt::print("#   calibration        of {} bonds, at the start of the run\n",
-               network.calibration->free_bonds);
+    fmt::print("#   calibration        of {}, at the start of the run\n",
+               counted(network.calibration->free_bonds, "bond"));
   }
   for (std::size_t k = 0; k < network.cut_by_crack.size(); ++k) {
-    fmt::print("#   crack {}            {} bonds cut\n", k + 1, network.cut_by_crack[k]);
+    fmt::print("#   crack {}            {} cut\n", k + 1, counted(network.cut_by_crack[k], "bond"));
   }
   print_interfaces(network.interfaces);
   print_breakable(network, model.crack_cost);
@@ -192,14 +191,15 @@ void print_sizes(const Model& model, bool damage) {
     bar_nodes += kind == ParticleKind::rebar;
   }
   fmt::print("# sizes\n");
-  fmt::print("#   particles          {} ({} ghosts, {} bar nodes)\n", network.particles.size(),
-             ghosts, bar_nodes);
+  fmt::print("#   particles          {} ({}, {})\n", network.particles.size(),
+             counted(ghosts, "ghost"), counted(bar_nodes, "bar node"));
   print_spacing(model);
   print_elements(model);
   if (model.embedded) {
     const std::vector<std::uint8_t>& whole = model.embedded->whole;
-    fmt::print("#   finite elements    {} of {} constrain particles with {} unknowns\n",
-               std::count(whole.begin(), whole.end(), 1), whole.size(), model.embedded->free.count);
+    fmt::print("#   finite elements    {} of {} constrain particles with {}\n",
+               std::count(whole.begin(), whole.end(), 1), whole.size(),
+               counted(model.embedded->free.count, "unknown"));
     if (damage) {
       fmt::print(
           "#                      time and memory refer to the first unknowns "
@@ -208,8 +208,8 @@ void print_sizes(const Model& model, bool damage) {
   }
   fmt::print("#   unknowns           {}\n", model.unknowns.count);
   for (const Group& group : model.groups) {
-    fmt::print("#   group              {}: {} particles, {} facets of the surface\n", group.name,
-               group.particles.size(), group.facets.size());
+    fmt::print("#   group              {}: {}, {} of the surface\n", group.name,
+               counted(group.particles.size(), "particle"), counted(group.facets.size(), "facet"));
   }
   print_places(model);
   for (const Gauge& gauge : model.gauges) {

@@ -30,6 +30,7 @@ namespace fs = std::filesystem;
 /// A scan, its results so far and the members to run.
 struct ScanRun {
   ScanFile scan;
+  std::vector<CaseSetting> common;  ///< values of --set, for all members
   fs::path directory;
   std::vector<ScanResult> results;
   std::vector<std::size_t> to_run;
@@ -37,20 +38,47 @@ struct ScanRun {
   fs::path place(std::size_t member) const { return directory / member_name(member); }
 };
 
-/// Reads and checks the case of every member. \throws InputError at the member's values
-std::vector<CaseFile> read_members(ScanFile& scan) {
+/// Refuses common values of keys that the scan varies. \throws InputError
+void refuse_scanned_keys(const ScanRun& run) {
+  for (const CaseSetting& setting : run.common) {
+    const bool varies =
+        std::any_of(run.scan.members.begin(), run.scan.members.end(),
+                    [&](const ScanMember& member) { return member.find(setting.key) != nullptr; });
+    if (!varies) continue;
+    throw InputError({run.scan.path, from_option, setting.key}, "has other values in the scan",
+                     "delete it here or in the scan");
+  }
+}
+
+/// Returns the values of --set and those of a member.
+std::vector<CaseSetting> settings_of(const ScanRun& run, std::size_t member) {
+  std::vector<CaseSetting> settings = run.common;
+  const std::vector<CaseSetting>& own = run.scan.members[member].settings;
+  settings.insert(settings.end(), own.begin(), own.end());
+  return settings;
+}
+
+/// Reads and checks the case of every member.
+/// \throws InputError at the member's values, or at those of --set
+std::vector<CaseFile> read_members(ScanRun& run) {
+  ScanFile& scan = run.scan;
   const std::string text = read_input_text(scan.case_path);
   if (!scan.seeds.empty()) {
     refuse_large_input(text, scan.case_path);
     give_seeds(scan, parse_toml(text, scan.case_path));
   }
+  refuse_scanned_keys(run);
   std::vector<CaseFile> cases;
   for (std::size_t k = 0; k < scan.members.size(); ++k) {
     const ScanMember& member = scan.members[k];
     try {
-      cases.push_back(parse_case(text, scan.case_path, member.settings, {}));
+      cases.push_back(parse_case(text, scan.case_path, settings_of(run, k), {}));
     } catch (const InputError& error) {
       const TomlValue* value = member.find(error.where().key);
+      const bool is_common =
+          std::any_of(run.common.begin(), run.common.end(),
+                      [&](const CaseSetting& setting) { return setting.key == error.where().key; });
+      if (value == nullptr && is_common) throw;
       throw InputError({scan.path, value != nullptr ? value->line : member.line, ""},
                        fmt::format("the case refuses member {} ({})", member_name(k),
                                    member_text(member.settings)),
@@ -83,7 +111,7 @@ std::vector<std::string> words_of_member(const ScanRun& run, std::size_t member,
       "--threads", std::to_string(std::max(options.threads, 1)),
       "--quiet",   options.old_results == OldResults::removed ? "--force" : "--resume"};
   if (options.trust_geometry) words.emplace_back("--trust-geometry");
-  for (const CaseSetting& setting : run.scan.members[member].settings) {
+  for (const CaseSetting& setting : settings_of(run, member)) {
     words.push_back("--set");
     words.push_back(setting_text(setting));
   }
@@ -127,7 +155,7 @@ void run_members_of_scan(ScanRun& run, const RunOptions& options, std::size_t jo
       pool.stop();
     }
     if (!progress.is_due()) continue;
-    progress.draw(fmt::format("{} of {} members", done, run.to_run.size()),
+    progress.draw(fmt::format("{} of {}", done, counted(run.to_run.size(), "member")),
                   static_cast<double>(done) / static_cast<double>(run.to_run.size()));
   }
   progress.finish();
@@ -155,7 +183,8 @@ int scan(const ScanOptions& options) {
     throw InputError({path, 0, ""}, "is a scan, which starts processes of its own",
                      "start it without mpiexec; --jobs gives the number of processes");
   }
-  const std::vector<CaseFile> cases = read_members(run.scan);
+  run.common = parse_settings(options.run.settings);
+  const std::vector<CaseFile> cases = read_members(run);
   if (run.scan.title.empty()) run.scan.title = cases.front().title;
   run.directory =
       options.run.directory ? fs::path(*options.run.directory) : default_result_directory(path);

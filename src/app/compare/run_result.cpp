@@ -40,10 +40,10 @@ void read_summary(const fs::path& directory, RunResult& result) {
     result.notes.push_back(
         fmt::format("{} ({}); the rows so far are compared", result.status, result.reason));
   }
-  if (const auto warnings = json->find("doubts"); warnings != json->end()) {
+  if (const auto warnings = json->find("warnings"); warnings != json->end()) {
     for (const auto& warning : *warnings) {
       if (warning.is_string())
-        result.notes.push_back("doubt: " + printable(warning.get<std::string>()));
+        result.notes.push_back("warning: " + printable(warning.get<std::string>()));
     }
   }
   for (const auto& [name, value] : json->items()) {

@@ -125,7 +125,7 @@ void draw_legend(Svg& svg, const Area& area) {
   }
   svg.path(smooth, envelope_style);
   svg.path(events, many_events_style);
-  svg.text({x + 40, y + 4.5}, "envelope of equal energy", "start", note_style);
+  svg.text({x + 40, y + 4.5}, "smoothed curve of equal energy", "start", note_style);
   svg.text({x + 40, y + 24.5}, "events", "start", note_style);
 }
 

@@ -13,6 +13,7 @@
 #include "app/plot/color_map.hpp"
 #include "app/plot/plot_axes.hpp"
 #include "app/plot/plot_page.hpp"
+#include "base/plain_text.hpp"
 
 namespace perilink {
 namespace {
@@ -304,8 +305,7 @@ std::string caption_text(const FieldsCaption& caption, const PlotBody& body,
   if (caption.time) {
     begin = fmt::format("time {} · ", short_number(*caption.time));
   } else if (body.stress.empty()) {
-    begin = fmt::format("{} broken bond{} · ", caption.broken_bonds,
-                        caption.broken_bonds == 1 ? "" : "s");
+    begin = counted(caption.broken_bonds, "broken bond") + " · ";
   }
   return fmt::format("{}load factor {} · load {} · displacements × {}", begin,
                      short_number(caption.load_factor),

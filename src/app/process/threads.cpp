@@ -14,6 +14,7 @@
 
 #include "app/process/console.hpp"
 #include "base/memory.hpp"
+#include "base/plain_text.hpp"
 #include "base/types.hpp"
 #include "solver/dense/blas_kernels.hpp"
 
@@ -87,7 +88,7 @@ int set_threads(int wanted) {
   const int threads = threads_that_start(threads_with_room(std::min(wanted, most)));
   if (threads < wanted) {
     complain(fmt::format(
-        "{} of {} threads are used: {}; the results do not depend on it", threads, wanted,
+        "uses {} of {}: {}; the results do not depend on it", threads, counted(wanted, "thread"),
         threads < most ? "the limits on the process (ulimit -v, -d, -u) leave no room for more"
                        : "the program and its linear algebra library (OpenBLAS) support no more"));
   }

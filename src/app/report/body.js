@@ -234,7 +234,7 @@ class Panel {
     c.fillRect(0, 0, picture.width, picture.height);
     c.drawImage(this.canvas, 0, 0, picture.width, picture.height);
     c.drawImage(this.over, 0, 0);
-    picture.toBlob((blob) => save(`${this.run.name}_body.png`, blob));
+    picture.toBlob((blob) => save(`${this.run.directory}_body.png`, blob));
   }
   // Places and all fields of the particles, in the steps of the report.
   saveCsv() {
@@ -244,7 +244,7 @@ class Panel {
     for (let i = 0; i < this.body.particles; ++i) {
       lines.push(columns.map((column) => Number(column[i].toPrecision(7))).join(","));
     }
-    save(`${this.run.name}_fields_${this.body.frames[this.number].step}.csv`, lines.join("\n") + "\n",
+    save(`${this.run.directory}_fields_${this.body.frames[this.number].step}.csv`, lines.join("\n") + "\n",
       "text/csv");
   }
 }

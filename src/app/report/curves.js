@@ -21,7 +21,7 @@ class Chart {
     tools.append(button("Whole curve", () => this.graph.resetZoom()),
       button("PNG", () => this.savePng()), button("SVG", () => this.saveSvg()),
       button("CSV", () => this.runs.forEach((run) =>
-        save(run.name + "_history.csv", run.history.text, "text/csv"))));
+        save(run.directory + "_history.csv", run.history.text, "text/csv"))));
     this.element = make("figure", {}, tools, this.legend, this.box, this.says);
     charts.push(this);
   }
@@ -71,7 +71,7 @@ class Chart {
         curve.points.push([x[row], y[row], row]);
       }
       if (!envelope) return;
-      list.push({ run, label: (of ? of + ", " : "") + "envelope of equal energy", color: color(r),
+      list.push({ run, label: (of ? of + ", " : "") + "smoothed curve of equal energy", color: color(r),
         points: envelope.map(([u, p]) => [u, p, -1]), dash: null, pale: false, width: 2.6 });
     }));
     list.forEach((curve, k) => (curve.key = k + " " + curve.label));

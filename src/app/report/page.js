@@ -72,7 +72,7 @@ class BarChart {
     this.element = make("figure", {}, this.head, make("div", { class: "tools" },
       make("label", {}, "vertical ", this.select),
       make("button", { type: "button", onclick: () =>
-        save(`${this.run.name}_bars_${this.file.step}.csv`, this.text, "text/csv") }, "CSV")), this.box);
+        save(`${this.run.directory}_bars_${this.file.step}.csv`, this.text, "text/csv") }, "CSV")), this.box);
     panel.onFrame = (file) => this.load(file);
     charts.push(this);
   }
@@ -115,7 +115,7 @@ function wordsOf(run) {
     ...run.tables.map((table) => tableOf([table.heading, ""], table.entries)));
   return make("article", {}, runs.length > 1 ? make("h3", {}, run.title) : null,
     make("p", {}, run.sentences.join(" ")), list("notes", run.notes),
-    list("warnings", listOf(run.summary.doubts).map((text) => "Warning: " + text)),
+    list("warnings", listOf(run.summary.warnings).map((text) => "Warning: " + text)),
     list("notes", listOf(run.summary.notes).map((text) => "Note: " + text)), tables);
 }
 
@@ -171,7 +171,7 @@ function applyAddress() {
 
 async function showPage() {
   const page = make("main");
-  document.title = runs.map((run) => run.title).join(" · ");
+  document.title = [...new Set(runs.map((run) => run.title))].join(" · ");
   document.body.append(make("header", {}, make("h1", {}, document.title),
     make("p", {}, ...runs.map((run) => make("span", { class: "status " + run.status },
       (runs.length > 1 ? run.name + ": " : "") + run.status)))), page);

@@ -10,6 +10,7 @@
 #include "app/report/report_body.hpp"
 #include "app/report/report_rows.hpp"
 #include "app/report/report_words.hpp"
+#include "app/scan/scan_table.hpp"
 #include "base/error.hpp"
 #include "base/files.hpp"
 #include "base/plain_text.hpp"
@@ -56,7 +57,9 @@ void read_summary(ReportedRun& run) {
   run.labels = read_labels(run.directory);
   run.units = UnitNames::of(summary ? summary_text(*summary, "units", run.directory) : "");
   const std::string status = summary ? summary_text(*summary, "status", run.directory) : "unknown";
-  run.json["name"] = printable(directory_name(run.directory));
+  const std::string values = scanned_values(run.directory);
+  run.json["directory"] = printable(directory_name(run.directory));
+  run.json["name"] = values.empty() ? run.json["directory"].get<std::string>() : printable(values);
   run.json["title"] = printable(run.labels.title);
   run.json["analysis"] = run.labels.analysis;
   run.json["status"] = status;

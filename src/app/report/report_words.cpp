@@ -111,8 +111,8 @@ struct Figures {
   std::string operator()(const char* key) const {
     return in_unit(short_number(number_in(summary, key)), unit_of_quantity(key, units));
   }
-  std::string count(const char* key) const {
-    return fmt::format("{:.0f}", number_in(summary, key));
+  std::string count(const char* key, const char* noun) const {
+    return counted(static_cast<std::int64_t>(number_in(summary, key)), noun);
   }
 };
 
@@ -123,9 +123,9 @@ std::string sentence_of_body(const Figures& figure, const TomlValue& root) {
     text += fmt::format(" ({}{})", in_words(problem), model.empty() ? "" : ", " + in_words(model));
   }
   if (!figure.has("particles")) return problem.empty() ? "" : text + " is given below.";
-  text += " has " + figure.count("particles") + " particles";
+  text += " has " + figure.count("particles", "particle");
   if (figure.has("spacing")) text += ", " + figure("spacing") + " apart";
-  if (number_in(figure.summary, "bonds") > 0.0) text += ", and " + figure.count("bonds") + " bonds";
+  if (number_in(figure.summary, "bonds") > 0.0) text += ", and " + figure.count("bonds", "bond");
   if (number_in(figure.summary, "horizon") > 0.0) {
     text += " within a horizon of " + figure("horizon");
   }
@@ -141,7 +141,7 @@ std::string sentence_of_peak(const Figures& figure) {
   std::string text = fmt::format("Peak load {} at displacement {}", figure("peak_load"),
                                  figure("peak_displacement"));
   if (figure.has("smoothed_peak_load")) {
-    text += fmt::format(" (smoothed {})", figure("smoothed_peak_load"));
+    text += fmt::format(" (smoothed peak load {})", figure("smoothed_peak_load"));
   }
   return text + ".";
 }
@@ -150,7 +150,7 @@ std::string sentence_of_energy(const Figures& figure) {
   if (!figure.has("dissipated_energy")) return "";
   std::string text = "Dissipated energy " + figure("dissipated_energy");
   if (figure.has("broken_bonds")) {
-    text += fmt::format("; {} broken bonds", figure.count("broken_bonds"));
+    text += "; " + figure.count("broken_bonds", "broken bond");
   }
   if (!figure.has("energy_error")) return text + ".";
   return fmt::format("{}; largest energy error {} of the work.", text, figure("energy_error"));

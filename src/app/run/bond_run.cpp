@@ -8,6 +8,7 @@
 
 #include "app/run/run_warnings.hpp"
 #include "base/error.hpp"
+#include "base/plain_text.hpp"
 #include "discretization/bonds.hpp"
 #include "io/checkpoint/pack.hpp"
 #include "model/body/particle_model.hpp"
@@ -156,8 +157,8 @@ class BondRun final : public MovingBondsRun {
     steps_ = built_.options.steps();
     checkpoint_rows_ = rows_of_time(model_.network.num_elements(), model_.network.particles.size(),
                                     static_cast<double>(steps_) / built_.options.rows);
-    plan += fmt::format(", {} steps of {:.4g} (critical {:.4g})", steps_, built_.options.time_step,
-                        built_.inertia.critical_time_step());
+    plan += fmt::format(", {} of {:.4g} (critical {:.4g})", counted(steps_, "step"),
+                        built_.options.time_step, built_.inertia.critical_time_step());
   }
 
   void analyse() override {

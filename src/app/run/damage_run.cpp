@@ -11,6 +11,7 @@
 #include "app/run/run_warnings.hpp"
 #include "base/error.hpp"
 #include "base/memory.hpp"
+#include "base/plain_text.hpp"
 #include "discretization/bonds.hpp"
 #include "io/checkpoint/pack.hpp"
 #include "model/from_case/separated_body.hpp"
@@ -45,7 +46,7 @@ DamageRun::DamageRun(const CaseFile& of_case, int on_threads, const RunCallbacks
   options_.stop_requested = callbacks.stop_requested;
   mark_broken();
   if (const auto note = note_of_separated_body(input, model_, threads)) notes.push_back(*note);
-  plan += fmt::format(", {} unknowns", model_.unknowns.count);
+  plan += ", " + counted(model_.unknowns.count, "unknown");
   places_held_ = support_regions(input, model_);
   for (const StageSection& stage : input.stages) {
     const auto earlier =
@@ -112,28 +113,22 @@ void DamageRun::go_on_from_checkpoint() {
 void DamageRun::restore(const std::string& saved) {
   DamageState state;
   unpack(saved, records_, state);
-  if (model_.embedded && !records_.whole.empty()) {
-    EmbeddedBody& body = *model_.embedded;
-    body.whole = records_.whole;
-    model_.unknowns = embedded_motion(body.hosts, body.free, body.whole);
-  }
+  if (model_.embedded && !records_.whole.empty()) begin_with_hosts(model_, records_.whole);
   mark_broken();
   run_ = std::make_unique<EventRun>(model_, options_, std::move(state));
 }
 
-/// Marks the broken elements, and those that pre-cracks cut.
+/// Marks the broken elements, and the contact springs of pre-cracks.
 void DamageRun::mark_broken() {
   is_broken_.assign(static_cast<std::size_t>(model_.network.num_elements()), 0);
-  for (const Index element : model_.network.cut_elements) is_broken_[element] = 1;
+  for (const Index element : model_.network.contacts()) is_broken_[element] = 1;
   for (const Index element : records_.broken) is_broken_[element] = 1;
 }
 
 /// Restarts the run with the elements released so far.
 void DamageRun::begin_again(const std::vector<std::uint8_t>& whole) {
   std::filesystem::remove(directory_ / checkpoint_name);  // before the files that it refers to
-  EmbeddedBody& body = *model_.embedded;
-  body.whole = whole;
-  model_.unknowns = embedded_motion(body.hosts, body.free, body.whole);
+  begin_with_hosts(model_, whole);
   files_->begin_again();
   Records anew;
   anew.missed_releases = records_.missed_releases + 1;
@@ -158,11 +153,11 @@ void DamageRun::tell(Summary& summary) const {
   if (auto warning = records_.balance.warning()) found.warnings.push_back(std::move(*warning));
   if (records_.missed_releases > 0) {
     summary.add_note(
-        fmt::format("{} missed releases: a bond was past its limit before its host element "
+        fmt::format("{}: a bond was past its limit before its host element "
                     "released it. Each time the run was restarted with these elements "
                     "released from the beginning. A smaller `alert` in [elements] avoids "
                     "restarts",
-                    records_.missed_releases));
+                    counted(records_.missed_releases, "missed release")));
   }
   summary.add_note(note_of_clamps(model_, records_.broken));
   if (const auto text = text_of_peaks(result_, model_, records_.broken)) {
@@ -200,9 +195,9 @@ void DamageRun::tell_elements(Summary& summary) const {
   summary.add("unknowns_at_end", result_.unknowns);
   summary.add("freed_energy", result_.last.constraint_energy);
   const double work = std::abs(result_.last.external_work);
-  summary.line("conversions",
-               "{}: {} elements at the end, with {} unknowns; freed {:.2g} of the work",
-               result_.conversions, result_.elements, result_.unknowns,
+  summary.line("conversions", "{}: {} at the end, with {}; freed {:.2g} of the work",
+               result_.conversions, counted(result_.elements, "element"),
+               counted(result_.unknowns, "unknown"),
                work > 0.0 ? result_.last.constraint_energy / work : 0.0);
 }
 
@@ -335,16 +330,16 @@ void DamageRun::show_progress(const StepRecord& record) {
     done = std::max(done.value_or(0.0), std::abs(record.displacement) / *stop.displacement);
   }
   if (done) done = std::clamp(*done, 0.0, 1.0);
-  std::string state = fmt::format("{} broken bonds", record.broken_bonds);
+  std::string state = counted(record.broken_bonds, "broken bond");
   if (record.yield_events > 0) {
-    state += fmt::format(", {} yield or softening events", record.yield_events);
+    state += ", " + counted(record.yield_events, "yield or softening event");
   }
   state += fmt::format(", load factor {:.4g}", record.load_factor);
   if (record.stage > 0) {
     const std::string& name = input.stages[static_cast<std::size_t>(record.stage - 1)].name;
     state = fmt::format("{}: {}", name, state);
   }
-  if (model_.embedded) state += fmt::format(", {} elements", record.elements);
+  if (model_.embedded) state += ", " + counted(record.elements, "element");
   files_->bar().draw(state, done);
 }
 

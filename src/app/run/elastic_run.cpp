@@ -4,6 +4,7 @@
 #include "app/run/quasistatic.hpp"
 #include "app/run/run_kind.hpp"
 #include "app/run/run_warnings.hpp"
+#include "base/plain_text.hpp"
 #include "discretization/bonds.hpp"
 #include "model/from_case/separated_body.hpp"
 #include "model/gauges.hpp"
@@ -60,7 +61,7 @@ class ElasticRun final : public NetworkRun {
   ElasticRun(const CaseFile& of_case, int on_threads, const RunCallbacks& calls)
       : NetworkRun(of_case, on_threads, calls) {
     refuse_pieces_on_bars(input, model_, threads);
-    plan += fmt::format(", {} unknowns", model_.unknowns.count);
+    plan += ", " + counted(model_.unknowns.count, "unknown");
     if (auto note = note_of_separated_body(input, model_, threads)) notes.push_back(*note);
   }
 

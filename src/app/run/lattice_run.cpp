@@ -3,6 +3,7 @@
 #include "analysis/dynamics/time_state.hpp"
 #include "app/run/run_kind.hpp"
 #include "app/run/run_warnings.hpp"
+#include "base/plain_text.hpp"
 #include "io/checkpoint/pack.hpp"
 #include "model/from_case/lattice_case.hpp"
 #include "model/gauges.hpp"
@@ -22,8 +23,9 @@ class LatticeRun final : public RunKind, private ExplicitObserver {
         rows_of_time(static_cast<double>(built_.bonds), built_.model.lattice.particles(),
                      static_cast<double>(built_.options.steps()) / built_.options.rows);
     notes = built_.notes;
-    plan = fmt::format("{} particles, {} bonds, {} steps of {:.4g} (critical {:.4g})",
-                       built_.model.lattice.particles(), built_.bonds, built_.options.steps(),
+    plan = fmt::format("{}, {}, {} of {:.4g} (critical {:.4g})",
+                       counted(built_.model.lattice.particles(), "particle"),
+                       counted(built_.bonds, "bond"), counted(built_.options.steps(), "step"),
                        built_.options.time_step, built_.critical_time_step);
   }
 
@@ -58,7 +60,8 @@ class LatticeRun final : public RunKind, private ExplicitObserver {
                 {built_.fundamental_period, built_.model.material.yields});
     summary.add("particles", lattice.particles());
     summary.add("bonds", built_.bonds);
-    summary.line("size", "{} particles, {} bonds", lattice.particles(), built_.bonds);
+    summary.line("size", "{}, {}", counted(lattice.particles(), "particle"),
+                 counted(built_.bonds, "bond"));
     summary.add("spacing", lattice.spacing);
     summary.add("particle_steps_per_second",
                 seconds.analysis > 0.0 ? steps / seconds.analysis : 0.0);

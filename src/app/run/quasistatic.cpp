@@ -75,13 +75,12 @@ std::string text_of_ranks(const FactorStatistics& factor) {
 }
 
 std::string solver_text(const FactorStatistics& factor) {
-  std::string work =
-      factor.subdomains > 0
-          ? fmt::format("conjugate gradients, {} subdomains, preconditioner made {} time{}",
-                        factor.subdomains, factor.factorizations,
-                        factor.factorizations == 1 ? "" : "s")
-          : fmt::format("{} factorisations", factor.factorizations);
-  if (factor.iterations > 0) work += fmt::format(", {} iterations", factor.iterations);
+  std::string work = factor.subdomains > 0
+                         ? fmt::format("conjugate gradients, {}, preconditioner made {}",
+                                       counted(factor.subdomains, "subdomain"),
+                                       counted(factor.factorizations, "time"))
+                         : counted(factor.factorizations, "factorisation");
+  if (factor.iterations > 0) work += ", " + counted(factor.iterations, "iteration");
   return work + text_of_ranks(factor);
 }
 
@@ -105,9 +104,10 @@ std::string solver_text(const ElasticResult& solution) {
   if (solution.displacement.empty()) return "no equilibrium found";
   if (solution.subdomains == 0) return "1 factorisation";
   return fmt::format(
-      "{} iterations of conjugate gradients with {} subdomains{}, error "
+      "{} of conjugate gradients with {}{}, error "
       "{:.1e}",
-      solution.iterations, solution.subdomains, text_of_ranks(solution.factor), solution.error);
+      counted(solution.iterations, "iteration"), counted(solution.subdomains, "subdomain"),
+      text_of_ranks(solution.factor), solution.error);
 }
 
 }  // namespace
@@ -129,7 +129,7 @@ void tell_equilibria(Summary& summary, const CaseFile& input, const Equilibria& 
   tell_peaks(summary, input, found.peaks);
   if (found.smoothed_peak_load) {
     summary.add("smoothed_peak_load", *found.smoothed_peak_load);
-    summary.line("", "{:.6g} of the smooth curve through the events", *found.smoothed_peak_load);
+    summary.line("", "{:.6g} is the smoothed peak load", *found.smoothed_peak_load);
   }
   for (const RegionForce& place : found.places) {
     summary.json["places"].push_back({{"name", place.name}, {"force", place.force}});
@@ -140,8 +140,8 @@ void tell_equilibria(Summary& summary, const CaseFile& input, const Equilibria& 
   summary.add("broken_bonds", found.broken_bonds);
   summary.add("yield_events", last.yield_events);
   if (found.has_events) {
-    summary.line("events", "{} broken bonds, {} yield or softening events, {} rows",
-                 found.broken_bonds, last.yield_events, last.step);
+    summary.line("events", "{}, {}, {}", counted(found.broken_bonds, "broken bond"),
+                 counted(last.yield_events, "yield or softening event"), counted(last.step, "row"));
   }
   summary.add("external_work", last.external_work);
   summary.add("strain_energy", last.strain_energy);
@@ -182,9 +182,9 @@ void tell_stages(Summary& summary, const CaseFile& input, const std::vector<Stag
                       "{:.6g}; the later peak is the residual strength after failure",
                       name, stage.peak.load, stage.largest.load));
     }
-    summary.line(k == 0 ? "stages" : "", "{}: {}, load factor {:.6g}, load {:.6g}, {} broken bonds",
-                 name, stage.reason, stage.last.load_factor, stage.last.load,
-                 stage.last.broken_bonds);
+    summary.line(k == 0 ? "stages" : "", "{}: {}, load factor {:.6g}, load {:.6g}, {}", name,
+                 stage.reason, stage.last.load_factor, stage.last.load,
+                 counted(stage.last.broken_bonds, "broken bond"));
   }
 }
 
@@ -195,22 +195,22 @@ void tell_quasistatic(Summary& summary, const CaseFile& input, const Model& mode
   summary.add_warnings(
       warnings_of_balance(found.energy_error, found.largest_residual, found.unsolved));
   summary.add_warnings(found.warnings);
-  summary.add("doubts", summary.warnings);
-  tell_body(summary, model, fmt::format(", {} unknowns", model.unknowns.count));
+  summary.add("warnings", summary.warnings);
+  tell_body(summary, model, ", " + counted(model.unknowns.count, "unknown"));
   if (model.embedded) {
     const std::vector<std::uint8_t>& whole = model.embedded->whole;
     const auto carrying = std::count(whole.begin(), whole.end(), 1);
     summary.add("elements", carrying);
-    summary.line("elements", "{} constrain particles with {} unknowns", carrying,
-                 model.embedded->free.count);
+    summary.line("elements", "{} particles with {}", counted(carrying, "constrains", "constrain"),
+                 counted(model.embedded->free.count, "unknown"));
   }
   summary.add("notes", summary.notes);
   summary.add("factorizations", found.factor.factorizations);
   if (found.factor.iterations > 0) summary.add("iterations", found.factor.iterations);
-  summary.add("factor_bytes", found.factor.bytes);
+  summary.add("factor_bytes", std::max(found.factor.bytes, found.factor.most_bytes));
   if (found.factor.ranks > 1) summary.add("ranks", found.factor.ranks);
   summary.line("solver", "{}, largest residual {:.1e}", found.solver, found.largest_residual);
-  if (found.has_events) summary.outcome = fmt::format("{} broken bonds, ", found.broken_bonds);
+  if (found.has_events) summary.outcome = counted(found.broken_bonds, "broken bond") + ", ";
   summary.outcome +=
       fmt::format("{}, largest residual {:.2e}", found.solver, found.largest_residual);
   if (rows > 1) summary.rate = fmt::format("{:.3g} ms per row", 1e3 * seconds / rows);

@@ -9,6 +9,7 @@
 #include "app/run/bond_run.hpp"
 #include "app/run/run_notes.hpp"
 #include "app/run/run_warnings.hpp"
+#include "base/plain_text.hpp"
 
 namespace perilink {
 
@@ -33,7 +34,7 @@ class RelaxationRun final : public MovingBondsRun {
     constexpr double usual_iterations = 3000.0;  // of a load step
     checkpoint_rows_ = rows_of_time(model_.network.num_elements(), model_.network.particles.size(),
                                     usual_iterations);
-    plan += fmt::format(", {} load steps", steps_);
+    plan += ", " + counted(steps_, "load step");
   }
 
   void analyse() override {
@@ -56,14 +57,16 @@ class RelaxationRun final : public MovingBondsRun {
     summary.add("rows", files().rows());
     summary.add("broken_bonds", broken);
     tell_energies(summary, energy);
-    summary.line("energy", "{:.6g} work, {:.6g} dissipated by {} broken bonds, {:.6g} damped",
-                 energy.external_work, energy.fractured, broken, energy.external_damping);
+    summary.line("energy", "{:.6g} work, {:.6g} dissipated by {}, {:.6g} damped",
+                 energy.external_work, energy.fractured, counted(broken, "broken bond"),
+                 energy.external_damping);
     tell_cracks(summary, cracks_);
     tell_body(summary, model_);
     summary.add_warnings(warnings_at_rest(energy));
     summary.rate = bond_rate(result_.iterations);
-    summary.outcome = fmt::format("{} iterations, {} broken bonds, residual {:.2e}",
-                                  result_.iterations, broken, result_.residual);
+    summary.outcome =
+        fmt::format("{}, {}, residual {:.2e}", counted(result_.iterations, "iteration"),
+                    counted(broken, "broken bond"), result_.residual);
   }
 
  private:

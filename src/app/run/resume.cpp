@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "base/error.hpp"
-#include "base/files.hpp"
 #include "io/case/case_file.hpp"
 #include "model/body/mesh_input.hpp"
 #include "results/result_directory.hpp"
@@ -52,12 +51,37 @@ void require_raised(const StopSection& there, const StopSection& here, const std
   }
 }
 
-bool has_ended(const std::filesystem::path& directory) {
+/// State of earlier results in their summary; empty where it is damaged, as it is written anew.
+struct Earlier {
+  bool has_ended = false;
+  std::string meshes;  ///< mesh_checksum() of the run
+};
+
+Earlier read_earlier(const std::filesystem::path& directory) {
   try {
     const auto summary = read_summary_file(directory);
-    return summary && is_end(summary_text(*summary, "status", directory));
-  } catch (const FileError&) {  // a damaged summary is written anew
-    return false;
+    if (!summary) return {};
+    return {is_end(summary_text(*summary, "status", directory)),
+            summary_text(*summary, "mesh_checksum", directory)};
+  } catch (const FileError&) {
+    return {};
+  }
+}
+
+/// Returns a case with a checksum in place of mesh paths, which may have changed.
+CaseFile with_checksum(CaseFile input, const std::string& meshes) {
+  const std::string name = meshes.empty() ? "cannot be read" : "checksum " + meshes;
+  if (input.body.mesh) input.body.mesh = name;
+  if (input.elements && input.elements->mesh) input.elements->mesh = name;
+  return input;
+}
+
+/// Refuses results without the files that a run goes on with.
+void require_history(const std::filesystem::path& directory) {
+  for (const char* name : {"history.csv", "timing.csv"}) {
+    if (std::filesystem::exists(directory / name)) continue;
+    throw FileError(fmt::format("{}: is missing, so its run cannot go on{}",
+                                (directory / name).string(), other_ways));
   }
 }
 
@@ -78,11 +102,11 @@ bool holds_a_run(const std::filesystem::path& directory) {
       });
 }
 
-std::string resumable_case(const CaseFile& input, const std::filesystem::path& directory) {
-  CaseFile seen = seen_from(input, directory);
-  seen.stop = {};
-  if (!seen.stages.empty()) seen.stages.back().stop = {};
-  return write_case(seen);
+std::string resumable_case(const CaseFile& input, const std::string& meshes) {
+  CaseFile kept = with_checksum(input, meshes);
+  kept.stop = {};
+  if (!kept.stages.empty()) kept.stages.back().stop = {};
+  return write_case(kept);
 }
 
 Resumed find_results(const CaseFile& input, const std::filesystem::path& directory) {
@@ -90,8 +114,11 @@ Resumed find_results(const CaseFile& input, const std::filesystem::path& directo
   if (!std::filesystem::exists(old)) return {};
   CaseFile there = read_case_file(old.string());
   there.trust_geometry = input.trust_geometry;
-  const std::string before = resumable_case(there, directory);
-  const std::string now = resumable_case(input, directory);
+  Earlier earlier = read_earlier(directory);
+  if (earlier.meshes.empty()) earlier.meshes = mesh_checksum(there);
+  const std::string meshes = mesh_checksum(input);
+  const std::string before = resumable_case(there, earlier.meshes);
+  const std::string now = resumable_case(input, meshes);
   if (before != now) {
     throw FileError(fmt::format("{}: holds the results of another case: {}{}", directory.string(),
                                 first_difference(before, now), other_ways));
@@ -102,9 +129,9 @@ Resumed find_results(const CaseFile& input, const std::filesystem::path& directo
                    fmt::format("stages[{}]", input.stages.size()), directory);
   }
   const bool same_rules =
-      read_regular_file(old.string()) == write_case(seen_from(input, directory));
+      write_case(with_checksum(there, meshes)) == write_case(with_checksum(input, meshes));
   Resumed found;
-  found.is_finished = same_rules && has_ended(directory);
+  found.is_finished = same_rules && earlier.has_ended;
   if (!found.is_finished) {
     found.checkpoint = read_checkpoint((directory / checkpoint_name).string());
   }
@@ -113,6 +140,7 @@ Resumed find_results(const CaseFile& input, const std::filesystem::path& directo
                                 (directory / checkpoint_name).string(),
                                 first_difference(found.checkpoint->run, now), other_ways));
   }
+  if (found.is_finished || found.checkpoint) require_history(directory);
   return found;
 }
 

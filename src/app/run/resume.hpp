@@ -22,9 +22,10 @@ inline constexpr const char* checkpoint_name = "checkpoint.bin";
 /// \param row         estimated time of a row [s]
 Index rows_between_checkpoints(double checkpoint, double row);
 
-/// Returns the text of a case as its result directory sees it, without the rules that may change
-/// before a run is taken up again: its stop rules, or those of the last stage.
-std::string resumable_case(const CaseFile& input, const std::filesystem::path& directory);
+/// Returns the text of a case with a checksum in place of mesh paths. It lacks the rules that may
+/// change before a run is taken up again: its stop rules, or those of the last stage.
+/// \param meshes  mesh_checksum()
+std::string resumable_case(const CaseFile& input, const std::string& meshes);
 
 /// Returns whether results in a directory, if there are any, are of a run, which may have been
 /// killed as it began.
@@ -37,7 +38,7 @@ struct Resumed {
 };
 
 /// Looks for results of a case to go on with. \throws FileError if the directory holds results of
-/// another case, or the checkpoint cannot be used
+/// another case or mesh, lacks a history, or the checkpoint cannot be used
 Resumed find_results(const CaseFile& input, const std::filesystem::path& directory);
 
 /// Refuses a state that was saved with another model of the case. \throws FileError

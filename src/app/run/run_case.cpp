@@ -57,10 +57,9 @@ std::shared_ptr<spdlog::logger> open_log(const fs::path& directory, const RunCal
 
 /// Writes a summary with the status "failed". Errors of this write are ignored, because the first
 /// failure is reported.
-void tell_of_failure(const fs::path& directory, const CaseFile& input,
-                     const std::exception& error) {
+void tell_of_failure(const fs::path& directory, const RunKind& run, const std::exception& error) {
   try {
-    write_failed_summary(directory, input, failure_text(error));
+    write_failed_summary(directory, run.input, run.meshes, failure_text(error));
   } catch (const std::exception&) {
   }
 }
@@ -88,17 +87,17 @@ std::shared_ptr<spdlog::logger> open_files(RunKind& run, const fs::path& directo
                                            const std::optional<Checkpoint>& checkpoint) {
   try {
     const CaseFile seen = seen_from(run.input, directory);
-    write_running_summary(directory, seen);
+    write_running_summary(directory, seen, run.meshes);
     write_whole_file((directory / "case.toml").string(), write_case(seen));
     const auto log = open_log(directory, run.callbacks, checkpoint.has_value());
-    log->info("{} : {}, {} threads", run.input.path, run.plan, run.threads);
+    log->info("{} : {}, {}", run.input.path, run.plan, counted(run.threads, "thread"));
     if (run.calibration) log->info("calibration: {}", *run.calibration);
     for (const std::string& note : run.notes) log->info("note: {}", note);
     run.open(directory, run.callbacks, checkpoint ? checkpoint->state : "");
     if (checkpoint) log->info("goes on after row {}", run.files().rows());
     return log;
   } catch (const std::exception& error) {
-    tell_of_failure(directory, run.input, error);
+    tell_of_failure(directory, run, error);
     throw;
   }
 }
@@ -115,7 +114,7 @@ void write_summary(RunKind& run, const fs::path& directory, RunEnd& end) {
   } catch (const std::exception& error) {
     if (run.callbacks.on_fault) run.callbacks.on_fault(failure_text(error));
     fail(run_outcome, end, error);
-    tell_of_failure(directory, run.input, error);  // kept if the full summary cannot be written
+    tell_of_failure(directory, run, error);  // kept if the full summary cannot be written
     attempt(run_outcome, end, sum_up);
   }
 }
@@ -170,7 +169,7 @@ RunEnd run_case(const CaseFile& input, const fs::path& directory, const RunSetti
     log->info("note: {}", summary.notes[k]);
   }
   log->info("{}: {}; {}", to_string(run_outcome.termination), run_outcome.reason, summary.outcome);
-  for (const std::string& warning : summary.warnings) log->info("doubt: {}", warning);
+  for (const std::string& warning : summary.warnings) log->info("warning: {}", warning);
   if (!end.error) end.error = run->failure;
   end.termination = run_outcome.termination;
   end.reason = run_outcome.reason;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/files.hpp"
+#include "base/plain_text.hpp"
 #include "base/timer.hpp"
 #include "io/case/sections/case_kinds.hpp"
 
@@ -27,8 +28,8 @@ bool is_relaxation(const CaseFile& input) {
 
 std::string cracks_text(const CaseFile& input, const ExplicitRecord& record) {
   return has_state_based_particles(input.body)
-             ? fmt::format("{} cracked particles", record.cracked_particles)
-             : fmt::format("{} broken bonds", record.broken_bonds);
+             ? counted(record.cracked_particles, "cracked particle")
+             : counted(record.broken_bonds, "broken bond");
 }
 
 RunFiles::RunFiles(const CaseFile& input, std::filesystem::path directory, RunCallbacks calls)

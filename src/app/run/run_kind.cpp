@@ -33,7 +33,7 @@ void RunKind::open(const std::filesystem::path& directory, const RunCallbacks& c
 
 void RunKind::save(const std::string& state) {
   write_checkpoint((directory_ / checkpoint_name).string(),
-                   {resumable_case(input, directory_), model_fingerprint(),
+                   {resumable_case(input, meshes), model_fingerprint(),
                     pack(files_->save(), seconds.analysis + since_opened_.seconds(), state)});
 }
 
@@ -81,13 +81,13 @@ Summary summary_of(RunKind& run, const std::filesystem::path& directory) {
   const std::string status = to_string(run_outcome.termination);
   Summary summary;
   summary.notes = run.notes;
-  summary.json = summary_head(run.input, status, run_outcome.reason);
+  summary.json = summary_head(run.input, run.meshes, status, run_outcome.reason);
   summary.text = (run.input.title.empty() ? run.input.path : run.input.title) + "\n";
   summary.line("ended", "{} ({})", status, run_outcome.reason);
   run.tell(summary);
 
   summary.add("notes", summary.notes);
-  summary.add("doubts", summary.warnings);
+  summary.add("warnings", summary.warnings);
   nlohmann::ordered_json phases = {
       {"set_up", seconds.set_up}, {"analysis", seconds.analysis}, {"output", seconds.output}};
   for (const auto& [part, time] : seconds.parts) phases[part] = time;
@@ -100,7 +100,7 @@ Summary summary_of(RunKind& run, const std::filesystem::path& directory) {
   summary.add("version", program_version());
   summary.add("commit", program_commit());
   for (const std::string& note : summary.notes) summary.line("note", "{}", note);
-  for (const std::string& warning : summary.warnings) summary.line("doubt", "{}", warning);
+  for (const std::string& warning : summary.warnings) summary.line("warning", "{}", warning);
   summary.line("results", "{}", directory.string());
   return summary;
 }

@@ -12,6 +12,7 @@
 #include "app/run/run_files.hpp"
 #include "app/run/summary.hpp"
 #include "base/timer.hpp"
+#include "model/body/mesh_input.hpp"
 #include "model/from_case/configure.hpp"
 #include "model/reactions.hpp"
 
@@ -37,7 +38,10 @@ class RunKind {
  public:
   /// \param of_case  must outlive the run
   RunKind(const CaseFile& of_case, int on_threads, RunCallbacks to_call = {})
-      : input(of_case), threads(on_threads), callbacks(std::move(to_call)) {}
+      : input(of_case),
+        meshes(mesh_checksum(of_case)),
+        threads(on_threads),
+        callbacks(std::move(to_call)) {}
   virtual ~RunKind() = default;
 
   /// Opens the files in the directory of the run.
@@ -55,6 +59,7 @@ class RunKind {
   virtual void tell(Summary& summary) const = 0;
 
   const CaseFile& input;
+  const std::string meshes;  ///< mesh_checksum() before the model is built
   const int threads;
   const RunCallbacks callbacks;
   std::string plan;                        ///< sizes and steps to come, for the log

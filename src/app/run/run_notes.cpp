@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "base/plain_text.hpp"
+
 namespace perilink {
 namespace {
 
@@ -22,11 +24,11 @@ std::optional<std::string> note_of_clamps(const Model& model, std::span<const In
   const std::size_t at_clamp = count_at_clamps(model, broken);
   if (at_clamp == 0) return std::nullopt;
   return fmt::format(
-      "{} of {} broken bonds end at particles of [[supports]] or "
+      "{} of {} at particles of [[supports]] or "
       "[[displacements]]; if the clamps caused these breaks, give the "
       "clamped regions a material with fracture_energy = \"infinite\"; model "
       "planes of symmetry by [[symmetry]], which this note ignores",
-      at_clamp, broken.size());
+      at_clamp, counted(broken.size(), "broken bond ends", "broken bonds end"));
 }
 
 std::optional<std::string> text_of_peaks(const PeakWatch& peaks, bool bars) {
@@ -53,9 +55,11 @@ std::optional<std::string> text_of_peaks(const DamageResult& result, const Model
   const auto at_clamps = count_at_clamps(model, later);
   if (at_clamps == 0) return text;
   return fmt::format(
-      "{}; {} of the {} bonds that broke after the first peak end at "
+      "{}; {} of the {} at "
       "particles of [[supports]] or [[displacements]]",
-      *text, at_clamps, later.size());
+      *text, at_clamps,
+      counted(later.size(), "bond that broke after the first peak ends",
+              "bonds that broke after the first peak end"));
 }
 
 }  // namespace perilink

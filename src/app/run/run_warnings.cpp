@@ -183,23 +183,24 @@ double energy_until(const BondLaw& law, double secant) {
 SoftenedEnergy softened_energy(const Network& network, Secants secants) {
   constexpr double of_crack = 0.1;  // bonds of an intact body at its strength have lost 3 to 5 %
   SoftenedEnergy energy;
-  for (Index e = 0; e < network.first_slip_spring; ++e) {
+  for (Index e = 0; e < network.first_contact(); ++e) {
     const double left = secants.least(e);
     const BondLaw& law = network.law(e);
     if (left == 1.0 || !network.can_break(e) || law.is_brittle() || law.crushes()) continue;
-    if (std::ranges::binary_search(network.cut_elements, e)) continue;
-    const double lost = energy_until(law, left);
-    const bool cracked = lost >= of_crack * energy_until(law, 0.0);
+    const double lost = energy_until(law, left), all = energy_until(law, 0.0);
     const double extension = network.critical_stretch[e] * network.bonds.length(e);
-    (cracked ? energy.cracks : energy.diffuse) +=
-        0.5 * network.stiffness[e] * extension * extension * lost;
+    const double scale = 0.5 * network.stiffness[e] * extension * extension;
+    const bool cracked = lost >= of_crack * all;
+    (cracked ? energy.cracks : energy.diffuse) += scale * lost;
+    if (cracked) energy.fracture += scale * all;
   }
   return energy;
 }
 
 std::optional<std::string> warning_about_diffuse_softening(const SoftenedEnergy& energy) {
-  constexpr double most = 0.1;
-  if (!(energy.cracks > 0.0) || energy.diffuse <= most * energy.cracks) return std::nullopt;
+  constexpr double most = 0.1, of_open_crack = 0.5;
+  if (!(energy.cracks > of_open_crack * energy.fracture)) return std::nullopt;
+  if (energy.diffuse <= most * energy.cracks) return std::nullopt;
   return fmt::format(
       "diffuse softening: bonds that softened outside the cracks dissipated "
       "{:.4g}, {:.0f} % of the energy of the cracks: the body dissipates "

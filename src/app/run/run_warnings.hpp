@@ -88,12 +88,14 @@ std::optional<std::string> warning_about_compression(const Compression& at_large
 
 /// Energy dissipated by softening bonds in tension [force length].
 struct SoftenedEnergy {
-  double cracks = 0.0;   ///< by bonds that have lost at least a tenth of their fracture energy
-  double diffuse = 0.0;  ///< by other bonds, outside cracks
+  double cracks = 0.0;    ///< by bonds that have lost at least a tenth of their fracture energy
+  double diffuse = 0.0;   ///< by other bonds, outside cracks
+  double fracture = 0.0;  ///< fracture energy of the bonds of `cracks`
 };
 SoftenedEnergy softened_energy(const Network& network, Secants secants);
 
-/// Returns a warning about diffuse softening above a tenth of the energy of the cracks.
+/// Returns a warning about diffuse softening above a tenth of the energy of the cracks. A process
+/// zone that is still without a crack has lost less than half of its fracture energy: no warning.
 std::optional<std::string> warning_about_diffuse_softening(const SoftenedEnergy& energy);
 
 /// Returns a warning about the largest load of a run with bonds compressed beyond small strains.

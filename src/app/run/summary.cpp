@@ -63,8 +63,8 @@ void tell_motion(Summary& summary, const CaseFile& input, const RunFiles& files,
   summary.add("time_step", result.time_step);
   summary.add("critical_time_step", result.critical_time_step);
   if (result.ranks > 1) summary.add("ranks", result.ranks);
-  summary.line("steps", "{} of {:.4g} (critical {:.4g}), {} rows{}", result.steps, result.time_step,
-               result.critical_time_step, files.rows(),
+  summary.line("steps", "{} of {:.4g} (critical {:.4g}), {}{}", result.steps, result.time_step,
+               result.critical_time_step, counted(files.rows(), "row"),
                result.ranks > 1 ? fmt::format(" by {} ranks", result.ranks) : "");
   if (extras.fundamental_period > 0.0) {
     summary.add("fundamental_period", extras.fundamental_period);
@@ -81,7 +81,8 @@ void tell_motion(Summary& summary, const CaseFile& input, const RunFiles& files,
   if (extras.yields) {
     summary.add("yielded_particles", last.yielded_particles);
     summary.add("plastic_energy", last.energy.plastic);
-    flow = fmt::format(", {:.6g} by {} yielded ones", last.energy.plastic, last.yielded_particles);
+    flow = fmt::format(", {:.6g} by {}", last.energy.plastic,
+                       counted(last.yielded_particles, "yielded one"));
   }
   summary.add("energy_error", result.largest_surplus);
   summary.line("energy",
@@ -89,8 +90,8 @@ void tell_motion(Summary& summary, const CaseFile& input, const RunFiles& files,
                "error {:.1e}",
                last.energy.external_work, last.energy.kinetic, last.energy.fractured, cracks, flow,
                result.largest_surplus);
-  summary.outcome = fmt::format("{} steps, {}, energy error {:.2e} of the work", result.steps,
-                                cracks, result.largest_surplus);
+  summary.outcome = fmt::format("{}, {}, energy error {:.2e} of the work",
+                                counted(result.steps, "step"), cracks, result.largest_surplus);
 }
 
 namespace {
@@ -101,7 +102,7 @@ std::int64_t bonds_and_slip_springs(const Model& model) {
 
 std::string cells_text(const Network& network) {
   if (!network.cells) return "";
-  return fmt::format(", {} linear elements tied to them", network.cells->cells.size());
+  return ", " + counted(network.cells->cells.size(), "linear element") + " tied to them";
 }
 
 }  // namespace
@@ -130,10 +131,9 @@ void tell_cracks(Summary& summary, const std::vector<ToldCrack>& cracks) {
   if (cracks.empty()) return;
   const ToldCrack& first = cracks.front();
   summary.line("cracks",
-               "the largest has {} damaged bond{} and a largest opening of {:.4g}, at "
+               "the largest has {} and a largest opening of {:.4g}, at "
                "({})",
-               first.state.bonds, first.state.bonds == 1 ? "" : "s", first.state.largest,
-               joined(first.at));
+               counted(first.state.bonds, "damaged bond"), first.state.largest, joined(first.at));
 }
 
 void tell_body(Summary& summary, const Model& model, const std::string& more) {
@@ -152,10 +152,10 @@ void tell_body(Summary& summary, const Model& model, const std::string& more) {
 
 std::string size_text(const Model& model) {
   const Index particles = model.network.particles.size();
-  return model.elements ? fmt::format("{} particles, {} linear elements", particles,
-                                      model.elements->cells.size())
-                        : fmt::format("{} particles, {} bonds{}", particles,
-                                      bonds_and_slip_springs(model), cells_text(model.network));
+  return counted(particles, "particle") + ", " +
+         (model.elements
+              ? counted(model.elements->cells.size(), "linear element")
+              : counted(bonds_and_slip_springs(model), "bond") + cells_text(model.network));
 }
 
 double peak_memory_bytes() {

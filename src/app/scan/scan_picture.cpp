@@ -15,6 +15,9 @@
 namespace perilink {
 namespace {
 
+/// Most members with a line each, where no key has several numbers.
+constexpr std::size_t most_named = 12;
+
 constexpr double scan_left = 92.0, scan_right = 640.0;
 constexpr double scan_top = 62.0, scan_height = 560.0;
 
@@ -111,7 +114,8 @@ ScanPlot scan_plot(const ScanFile& scan, std::span<const ScanResult> results,
     const double value = number_of(results[k].numbers, quantity);
     std::vector<CaseSetting> others = scan.members[k].settings;
     std::erase_if(others, [&](const CaseSetting& other) { return other.key == key; });
-    ScanPlot::Line& line = line_of(plot, key.empty() ? "" : member_text(others));
+    const bool is_named = !key.empty() || results.size() <= most_named;
+    ScanPlot::Line& line = line_of(plot, is_named ? member_text(others) : "");
     if (!std::isfinite(value)) continue;
     line.points.push_back(
         {key.empty() ? static_cast<double>(k + 1) : scan.members[k].find(key)->number, value});

@@ -8,6 +8,7 @@
 #include <map>
 #include <numeric>
 
+#include "base/plain_text.hpp"
 #include "io/text/csv.hpp"
 
 namespace perilink {
@@ -69,6 +70,32 @@ std::string range_of(std::span<const ScanResult> results, const std::string& qua
 
 std::string member_name(std::size_t member) { return fmt::format("{:04}", member + 1); }
 
+std::string scanned_values(const std::filesystem::path& directory) {
+  std::filesystem::path place = std::filesystem::weakly_canonical(directory);
+  if (!place.has_filename()) place = place.parent_path();  // "0001/"
+  const std::filesystem::path table = place.parent_path() / "scan.csv";
+  if (!std::filesystem::exists(table)) return "";
+  const std::vector<std::vector<std::string>> rows = read_texts(table.string());
+  const auto own = std::find_if(rows.begin(), rows.end(), [&](const auto& row) {
+    return row.front() == place.filename().string() && row.size() == rows.front().size();
+  });
+  if (own == rows.end()) return "";
+  const auto first = rows.front().begin() + 1;
+  const std::vector<std::string> keys(first, std::find(first, rows.front().end(), "status"));
+  const auto last_name = [](const std::string& key) { return key.substr(key.rfind('.') + 1); };
+  std::string text;
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    const std::string& value = (*own)[k + 1];
+    if (value.empty()) continue;  // the case's own value
+    const std::string name = last_name(keys[k]);
+    const auto same = std::count_if(keys.begin(), keys.end(), [&](const std::string& other) {
+      return last_name(other) == name;
+    });
+    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", same > 1 ? keys[k] : name, value);
+  }
+  return text;
+}
+
 double ScanSample::mean() const {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
@@ -99,9 +126,10 @@ std::string sample_text(const ScanSample& sample) {
   const std::string name = sample.name.empty() ? "" : sample.name + ", ";
   if (sample.values.empty()) return name + "no seed with a result";
   const double mean = sample.mean(), deviation = sample.deviation();
-  if (std::isnan(deviation)) return fmt::format("{}1 seed: {:.6g}", name, mean);
-  return fmt::format("{}{} seeds: mean {:.6g}, standard deviation {:.4g} ({:.3g} %)", name,
-                     sample.values.size(), mean, deviation, 100.0 * deviation / std::abs(mean));
+  const std::string seeds = counted(sample.values.size(), "seed");
+  if (std::isnan(deviation)) return fmt::format("{}{}: {:.6g}", name, seeds, mean);
+  return fmt::format("{}{}: mean {:.6g}, standard deviation {:.4g} ({:.3g} %)", name, seeds, mean,
+                     deviation, 100.0 * deviation / std::abs(mean));
 }
 
 std::string scan_table(const ScanFile& scan, std::span<const ScanResult> results) {
@@ -165,8 +193,8 @@ std::string scan_report(const ScanFile& scan, std::span<const ScanResult> result
   for (const ScanSample& sample : samples_of(scan, results, "peak_load")) {
     below += fmt::format("  peak_load over {}\n", sample_text(sample));
   }
-  return fmt::format("{}{}{} members: {}{}{}; {:.3g} s of runs\n", in_columns(rows), below,
-                     results.size(), counts_of(results),
+  return fmt::format("{}{}{}: {}{}{}; {:.3g} s of runs\n", in_columns(rows), below,
+                     counted(results.size(), "member"), counts_of(results),
                      kept > 0 ? fmt::format(" ({} kept from an earlier scan)", kept) : "",
                      range_of(results, "peak_load"), seconds);
 }

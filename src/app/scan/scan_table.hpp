@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,5 +37,9 @@ std::string scan_report(const ScanFile& scan, std::span<const ScanResult> result
 
 /// Returns the name of the directory of a member, "0001" for the first.
 std::string member_name(std::size_t member);
+
+/// Returns the values with which the run in a directory differs from others of its scan,
+/// "spacing = 0.5, surface = none", from the scan.csv beside it; empty: it is of no scan.
+std::string scanned_values(const std::filesystem::path& directory);
 
 }  // namespace perilink

@@ -278,8 +278,8 @@ void check_study(const StudyFile& study, const CaseFile& input) {
     const SourceLocation where = where_of_field(error);
     if (static_cast<int>(error.displacement.size()) != dim) {
       throw InputError(where,
-                       fmt::format("has {} formulas, but the case has {} dimensions",
-                                   error.displacement.size(), dim),
+                       fmt::format("has {}, but the case has {} dimensions",
+                                   counted(error.displacement.size(), "formula"), dim),
                        "give one for each axis");
     }
     if (input.analysis.type != AnalysisType::elastic) {

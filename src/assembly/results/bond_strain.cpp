@@ -69,29 +69,26 @@ void add_bond(const Network& network, Secants secants, std::span<const double> m
   const auto width = static_cast<std::size_t>(network.width());
   const Vector n = Eigen::Map<const Vector>(network.bonds.direction(e).data());
   const double length = network.bonds.length(e), stiffness = network.stiffness[e];
-  // The intact body does not contain open bonds across a pre-crack.
-  const bool cut = is_cut(network, e);
-  const double whole = cut ? secants.axial(e) : 1.0, whole_shear = cut ? secants[e] : 1.0;
   const double* first = motion.data() + network.bonds.first[e] * width;
   const double* second = motion.data() + network.bonds.second[e] * width;
   const auto force = [&](double extension) { return stiffness * secants.axial(e) * extension; };
   if (!network.carries_moments()) {
     double extension = 0.0;
     for (int a = 0; a < Dim; ++a) extension += n[a] * (second[a] - first[a]);
-    virial.add_axial(n, length, whole * stiffness, force(extension));
+    virial.add_axial(n, length, stiffness, force(extension));
     return;
   }
   const double inflection = network.inflection_of(e), bending = network.bending[e];
   const FrameDeformation<Dim> deformed(n.data(), inflection * length, (1.0 - inflection) * length,
                                        first, second);
-  virial.add_axial(n, length, whole * stiffness, force(deformed.extension));
+  virial.add_axial(n, length, stiffness, force(deformed.extension));
   Vector shear;
   if constexpr (Dim == 2) {
     shear = deformed.shear[0] * Vector(-n[1], n[0]);
   } else {
     shear = Vector(deformed.shear[0], deformed.shear[1], deformed.shear[2]);
   }
-  virial.add_shear(n, length, whole_shear * bending, bending * secants[e] * shear);
+  virial.add_shear(n, length, bending, bending * secants[e] * shear);
 }
 
 template <int Dim>
@@ -99,7 +96,7 @@ SymmetricTensor strain_in(const Network& network, const Csr& neighbourhoods, Sec
                           std::span<const double> motion, Index particle) {
   Virial<Dim> virial;
   for (const Index e : neighbourhoods.row(particle)) {
-    if (e < network.first_slip_spring) add_bond<Dim>(network, secants, motion, e, virial);
+    if (e < network.first_contact()) add_bond<Dim>(network, secants, motion, e, virial);
   }
   const Eigen::LDLT<decltype(virial.intact)> factor(virial.intact);
   const auto pivots = factor.vectorD();

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <span>
 
 #include "base/csr.hpp"
@@ -9,16 +8,11 @@
 
 namespace perilink {
 
-/// Returns whether a pre-crack has broken a bond. Such a bond closes in compression.
-inline bool is_cut(const Network& network, Index element) {
-  return std::ranges::binary_search(network.cut_elements, element);
-}
-
 /// Returns the strain at a particle [-] from the virial of its bonds, the sum of force times bond
 /// vector. It is the uniform strain in which intact bonds would have that virial. In a uniform
 /// strain it is exact for intact bonds, anywhere in the body and for any stiffnesses. If all bonds
 /// have the secant a, it is a times that strain. Zero where the bonds do not resist every strain.
-/// Slip springs, bars and open bonds across a pre-crack do not count.
+/// Contact springs, slip springs and bars do not count.
 /// \param neighbourhoods  bonds of each particle (bonds_of_particles)
 /// \param motion          shape (particles, width)
 SymmetricTensor bond_strain(const Network& network, const Csr& neighbourhoods, Secants secants,

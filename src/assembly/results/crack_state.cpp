@@ -16,7 +16,7 @@ SymmetricTensor lost_at(const Network& network, const Csr& neighbourhoods, Secan
                         Index particle) {
   SymmetricTensor sum{};
   for (const Index e : neighbourhoods.row(particle)) {
-    if (e >= network.first_slip_spring || secants.axial(e) > half_of_stiffness) continue;
+    if (e >= network.first_contact() || secants.axial(e) > half_of_stiffness) continue;
     const auto direction = network.bonds.direction(e);
     Vector3 n{};
     std::copy(direction.begin(), direction.end(), n.begin());
@@ -81,7 +81,7 @@ CrackState summed_up(const CrackOpenings& openings, std::span<const std::size_t>
 CrackOpenings crack_openings(const Network& network, const Csr& neighbourhoods, Secants secants,
                              std::span<const double> motion) {
   CrackOpenings openings;
-  for (Index e = 0; e < network.first_slip_spring; ++e) {
+  for (Index e = 0; e < network.first_contact(); ++e) {
     if (secants.axial(e) > half_of_stiffness) continue;
     openings.bonds.push_back(e);
     openings.opening.push_back(opening_of(network, neighbourhoods, secants, motion, e));

@@ -16,20 +16,15 @@ namespace {
 /// the neighbours do not determine the polynomial; regular neighbourhoods have more than 1e-3.
 constexpr double smallest_stress_pivot = 1e-7;
 
-/// Returns whether a bond is cut by a pre-crack and open.
-bool is_open(const StressInput& input, Index element) {
-  return input.secants.axial(element) == 0.0 && is_cut(input.network, element);
-}
-
 /// Finds the solid particles of the same material bonded to a particle, and optionally their
-/// neighbours, ascending. Bonds across an open pre-crack do not count.
+/// neighbours, ascending.
 void find_neighbors(const StressInput& input, Index particle, std::vector<Index>& found) {
   const Network& network = input.network;
   const Particles& particles = network.particles;
   found.clear();
   const auto append = [&](Index i) {
     for (const Index e : input.neighbourhoods.row(i)) {
-      if (e >= network.first_slip_spring || is_open(input, e)) continue;
+      if (e >= network.first_contact()) continue;
       const Index j = network.bonds.other_end(e, i);
       if (j == particle || particles.kind[j] != ParticleKind::solid) continue;
       if (particles.material[j] == particles.material[particle]) found.push_back(j);
@@ -101,17 +96,11 @@ bool fit_gradient(std::span<const double> offsets, std::span<double> weights) {
          fit_polynomial<Dim, Dim>(offsets, size, weights);
 }
 
-/// Open bonds across a pre-crack damage a particle only where other such bonds are closed: then
-/// only forces show the load across the crack. Closed bonds that carry moments do not shear.
 bool is_damaged(const StressInput& input, Index particle) {
   if (input.secants.size() == 0) return false;
-  bool open = false, closed = false;
-  for (const Index e : input.neighbourhoods.row(particle)) {
-    if (e >= input.network.first_slip_spring || !(input.secants.least(e) < 1.0)) continue;
-    if (!is_cut(input.network, e)) return true;
-    (input.secants.axial(e) > 0.0 ? closed : open) = true;
-  }
-  return closed && (open || input.network.carries_moments());
+  return std::ranges::any_of(input.neighbourhoods.row(particle), [&](Index e) {
+    return e < input.network.first_contact() && input.secants.least(e) < 1.0;
+  });
 }
 
 template <int Dim>

@@ -181,6 +181,19 @@ bool CrackCutter::cuts(const Vector3& first, const Vector3& second, std::span<In
   return last != no_index;
 }
 
+const CrackCutter::Piece* CrackCutter::piece_between(const Vector3& first,
+                                                     const Vector3& second) const {
+  const Vector3 from = shifted(first), to = shifted(second);
+  const Vector3 way = minus(to, from);
+  const Piece* steepest = nullptr;
+  const auto along = [&](const Piece& piece) { return std::abs(dot(piece.normal, way)); };
+  for (const Piece& piece : pieces_) {
+    if (!crosses(piece, from, to, tolerance_)) continue;
+    if (steepest == nullptr || along(piece) > along(*steepest)) steepest = &piece;
+  }
+  return steepest;
+}
+
 void check_crack(const Crack& crack, int dim) { pieces_of({&crack, 1}, dim); }
 
 CutBonds find_cut_bonds(const Particles& particles, const Bonds& bonds,

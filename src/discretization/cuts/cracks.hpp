@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct Crack {
   /// Two dimensions: points of a polyline [length]. Three dimensions: corners of a plane convex
   /// polygon, in order [length].
   std::vector<Vector3> points;
+  std::optional<bool> closes = {};  ///< its faces press on each other; empty: as the materials
 };
 
 /// A particle this close to a crack lies on it [spacings].
@@ -53,6 +55,8 @@ class CrackCutter {
   /// Returns whether the bond between two particles is cut.
   /// \param count  cut bonds per crack, incremented; empty: no count
   bool cuts(const Vector3& first, const Vector3& second, std::span<Index> count = {}) const;
+  /// Returns the piece that cuts the bond between two particles, the one most across it; null: none.
+  const Piece* piece_between(const Vector3& first, const Vector3& second) const;
   /// Corners of the box around all cracks; infinite with lower above upper if there are no cracks.
   const Vector3& lower() const { return lower_; }
   const Vector3& upper() const { return upper_; }

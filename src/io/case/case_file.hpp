@@ -145,6 +145,7 @@ struct SpringSection {
 struct CrackSection {
   /// Corners of a line (2D) or of a plane convex polygon (3D) [length].
   std::vector<Vector3> points;
+  std::optional<bool> closing = {};  ///< its faces press on each other; empty: as the materials
 };
 
 /// [[interfaces]]: bonds across a face between two regions, or across a line or plane, have their

@@ -319,7 +319,8 @@ const std::vector<KeySchema> crack_keys = {
      {{plane, "is given, but the body has 2 dimensions",
        "give the `points` of a line: [[0, 1], [2, 1]]"},
       {shell, "is given, but cracks of a shell are lines on its mid-surface",
-       "give the `points` of a line: [[0, 1], [2, 1]]"}}}};
+       "give the `points` of a line: [[0, 1], [2, 1]]"}}},
+    {"closing", {{shell, "is given, but cracks of a shell do not close", delete_it}}}};
 
 const std::vector<KeySchema> interface_keys = {
     "between",   crack_keys[0],       crack_keys[1],

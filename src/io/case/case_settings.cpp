@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/plain_text.hpp"
 #include "io/case/case_keys.hpp"
 #include "io/case/case_overrides.hpp"
 #include "io/text/input_text.hpp"
@@ -102,8 +103,8 @@ TomlValue& entry_of(TomlValue& list, const KeyPart& part, const std::string& key
   if (part.number > 0) {
     if (part.number <= count) return list.items[part.number - 1];
     refuse_setting(key,
-                   fmt::format("there is no {}[{}]: the list has {} entr{}", list_key, part.number,
-                               count, count == 1 ? "y" : "ies"),
+                   fmt::format("there is no {}[{}]: the list has {}", list_key, part.number,
+                               counted(count, "entry", "entries")),
                    count == 0   ? "add it to the case"
                    : count == 1 ? only
                                 : fmt::format("give a number from 1 to {}", count));

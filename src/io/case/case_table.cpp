@@ -188,7 +188,8 @@ std::optional<std::vector<double>> CaseTable::numbers(const std::string& key) co
 Vector3 CaseTable::checked_vector(const std::string& key, const TomlValue& list, int dim) const {
   if (list.items.size() != static_cast<std::size_t>(dim)) {
     refuse(key,
-           fmt::format("has {} components, but the body has {} dimensions", list.items.size(), dim),
+           fmt::format("has {}, but the body has {} dimensions",
+                       counted(list.items.size(), "component"), dim),
            dim == 2 ? "write [x, y]" : "write [x, y, z]");
   }
   Vector3 result{};
@@ -250,10 +251,10 @@ std::optional<ExpressionVector> CaseTable::expressions(const std::string& key, i
   const TomlValue* list = array(key, "numbers or formulas");
   if (list == nullptr) return std::nullopt;
   if (list->items.size() != static_cast<std::size_t>(axes)) {
-    refuse(
-        key,
-        fmt::format("has {} components, but the body has {} dimensions", list->items.size(), axes),
-        axes == 2 ? "write [x, y]" : "write [x, y, z]");
+    refuse(key,
+           fmt::format("has {}, but the body has {} dimensions",
+                       counted(list->items.size(), "component"), axes),
+           axes == 2 ? "write [x, y]" : "write [x, y, z]");
   }
   ExpressionVector result;
   for (std::size_t k = 0; k < list->items.size(); ++k) {

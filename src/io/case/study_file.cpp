@@ -7,6 +7,7 @@
 #include <set>
 #include <string_view>
 
+#include "base/plain_text.hpp"
 #include "io/case/case_overrides.hpp"
 #include "io/case/case_schema.hpp"
 #include "io/case/case_table.hpp"
@@ -145,7 +146,7 @@ void read_reference(const CaseTable& table, ErrorSection& error, std::size_t mem
   error.reference = *table.choice<Reference>("reference");
   if (error.reference == Reference::extrapolated && members < 3) {
     table.refuse("reference",
-                 fmt::format("is \"extrapolated\", but [vary] has {} refinements", members),
+                 "is \"extrapolated\", but [vary] has " + counted(members, "refinement"),
                  "extrapolation needs three; add one, or write \"finest\"");
   }
 }
@@ -154,7 +155,7 @@ void read_reference(const CaseTable& table, ErrorSection& error, std::size_t mem
 std::vector<Expression> read_field(const CaseTable& table) {
   const std::size_t count = table.value("displacement")->items.size();
   if (table.value("displacement")->kind == TomlValue::Kind::array && count != 2 && count != 3) {
-    table.refuse("displacement", fmt::format("has {} formulas", count),
+    table.refuse("displacement", "has " + counted(count, "formula"),
                  "give one for each axis: [\"formula x\", \"formula y\"]");
   }
   const int dim = static_cast<int>(count);

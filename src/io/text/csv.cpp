@@ -57,8 +57,8 @@ double parse_number(std::string_view field, const std::string& place) {
 std::vector<double> parse_row(const std::vector<std::string_view>& fields, const CsvTable& table,
                               EmptyCells empty, const std::string& place) {
   if (fields.size() != table.columns.size()) {
-    throw FileError(fmt::format("{}: {} fields, but the header has {}", place, fields.size(),
-                                table.columns.size()));
+    throw FileError(fmt::format("{}: {}, but the header has {}", place,
+                                counted(fields.size(), "field"), table.columns.size()));
   }
   std::vector<double> row;
   row.reserve(fields.size());
@@ -149,6 +149,26 @@ CsvRow& CsvRow::append(const std::string& field) {
   first_ = false;
   line_ += field;
   return *this;
+}
+
+std::vector<std::vector<std::string>> read_texts(const std::string& path) {
+  std::vector<std::vector<std::string>> rows;
+  bool quoted = false, begins = true;
+  char before = 0;
+  for (const char c : read_regular_file(path)) {
+    if (begins) rows.push_back({""});
+    begins = c == '\n' && !quoted;
+    if (c == '"') {
+      if (before == '"' && !quoted) rows.back().back() += c;  // two quotes are one
+      quoted = !quoted;
+    } else if (c == ',' && !quoted) {
+      rows.back().emplace_back();
+    } else if (!begins) {
+      rows.back().back() += c;
+    }
+    before = c;
+  }
+  return rows;
 }
 
 int CsvTable::column(const std::string& name) const {

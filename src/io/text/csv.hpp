@@ -56,6 +56,9 @@ class CsvRow {
   bool first_ = true;
 };
 
+/// Reads the fields of CsvRow's rows, without quotes. \throws FileError
+std::vector<std::vector<std::string>> read_texts(const std::string& path);
+
 /// A table of numbers that was read.
 struct CsvTable {
   std::vector<std::string> columns;

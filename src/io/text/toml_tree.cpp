@@ -204,9 +204,7 @@ std::string describe(const TomlValue& value) {
     case Kind::number: return fmt::format("the number {}", value.number);
     case Kind::text: return fmt::format("the text {}", quoted(value.text));
     case Kind::date: return "a date or time";
-    case Kind::array:
-      return fmt::format("an array of {} value{}", value.items.size(),
-                         value.items.size() == 1 ? "" : "s");
+    case Kind::array: return "an array of " + counted(value.items.size(), "value");
     case Kind::table: break;
   }
   return "a table";

@@ -227,9 +227,8 @@ Model build_lattice_model(const CaseFile& input) {
   model.network = std::move(statics.network);
   if (statics.left_out > 0) {
     model.notes.push_back(
-        fmt::format("{} particles connected only by single bonds or a line of bonds are "
-                    "left out",
-                    statics.left_out));
+        fmt::format("left out: {}, connected only by single bonds or a line of bonds",
+                    counted(statics.left_out, "particle")));
   }
   if (body.rules == LatticeRules::least_2018) {
     model.notes.emplace_back(

@@ -7,11 +7,13 @@
 #include <string_view>
 
 #include "base/error.hpp"
+#include "base/files.hpp"
 #include "base/plain_text.hpp"
 #include "discretization/meshes/mesh_body.hpp"
 #include "discretization/meshes/mesh_conformity.hpp"
 #include "io/case/case_schema.hpp"
 #include "io/case/case_words.hpp"
+#include "io/checkpoint/checkpoint.hpp"
 #include "io/mesh/gmsh_file.hpp"
 #include "io/mesh/gmsh_mesher.hpp"
 #include "io/text/toml_tree.hpp"
@@ -214,14 +216,14 @@ Body read_mesh_body(const CaseFile& input, int dim, std::vector<std::string>& no
   const bool takes_cracks = input.body.method == BodyMethod::bonds && !input.elements &&
                             input.body.model != BodyModel::particles;
   if (const Index sides = takes_cracks ? weld_slits(read.mesh) : 0; sides > 0) {
-    notes.push_back(
-        fmt::format("the mesh has slits of {} cell sides, treated as pre-cracks", sides));
+    notes.push_back(fmt::format("the mesh has slits of {}, treated as pre-cracks",
+                                counted(sides, "cell side")));
   }
   const auto& [mesh, material, mesh_notes] = read;
   const auto left_out = std::count(material.begin(), material.end(), no_index);
   if (left_out > 0) {
-    notes.push_back(fmt::format("{} of the {} cells of the mesh have no material and are left out",
-                                left_out, material.size()));
+    notes.push_back(fmt::format("left out: {} of the {} of the mesh, without material", left_out,
+                                counted(material.size(), "cell")));
   }
   try {
     Body body = make_mesh_body(mesh, material, dim == 2 ? input.body.thickness : 1.0,
@@ -245,6 +247,22 @@ CaseFile seen_from(const CaseFile& input, const fs::path& directory) {
   move(moved.body.mesh);
   if (moved.elements) move(moved.elements->mesh);
   return moved;
+}
+
+std::string mesh_checksum(const CaseFile& input) {
+  std::vector<std::string> contents;
+  try {
+    const auto read = [&](const std::optional<std::string>& file) {
+      if (file) contents.push_back(read_regular_file(seen_from_case(input, *file).string()));
+    };
+    read(input.body.mesh);
+    if (input.elements) read(input.elements->mesh);
+  } catch (const FileError&) {  // the mesh's reader reports it
+    return "";
+  }
+  if (contents.empty()) return "";
+  contents.resize(2);
+  return fingerprint(contents[0], contents[1]);
 }
 
 }  // namespace perilink

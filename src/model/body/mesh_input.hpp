@@ -52,4 +52,8 @@ void refuse_loose_lines(const CaseFile& input, const std::string& key, const Bod
 /// Returns the case with its mesh path relative to a folder, to be written there.
 CaseFile seen_from(const CaseFile& input, const std::filesystem::path& directory);
 
+/// Returns a checksum of the contents of a case's mesh files; empty without a mesh, or if one
+/// cannot be read.
+std::string mesh_checksum(const CaseFile& input);
+
 }  // namespace perilink

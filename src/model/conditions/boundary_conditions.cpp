@@ -90,13 +90,12 @@ void refuse_cut_off(const CaseFile& input, const Model& model, std::span<const I
   const std::string crack = crack_beside(input, model, particles);
   if (crack.empty()) return;
   const auto x = model.network.places().position(particles.front());
-  throw InputError(
-      input.where(crack),
-      fmt::format("leaves the part of {} particle{} at ({}) with too few bonds to hold "
-                  "it, and loads act on it",
-                  particles.size(), particles.size() == 1 ? "" : "s", joined(x)),
-      "end or move the crack, remove the loads on that part, or hold it with "
-      "[[supports]] or [[springs]]");
+  throw InputError(input.where(crack),
+                   fmt::format("leaves the part of {} at ({}) with too few bonds to hold "
+                               "it, and loads act on it",
+                               counted(particles.size(), "particle"), joined(x)),
+                   "end or move the crack, remove the loads on that part, or hold it with "
+                   "[[supports]] or [[springs]]");
 }
 
 /// Pins the free rigid-body modes of a body in static equilibrium. In dynamic analyses pins would
@@ -108,8 +107,8 @@ void pin(const CaseFile& input, Model& model, Fragment fragment, Prescription& p
   if (is_quasistatic(input.analysis.type)) {
     std::erase_if(fragment.particles, [&](Index i) { return off[i] != 0; });
     pin_rigid_modes(model.network, fragment, prescription.held);
-    model.notes.push_back(
-        fmt::format("{} rigid-body modes of the free body are pinned", fragment.free_modes));
+    model.notes.push_back(fmt::format("the body is free: {} pinned",
+                                      counted(fragment.free_modes, "rigid-body mode")));
     return;
   }
   const bool weighs = input.analysis.type == AnalysisType::explicit_;
@@ -141,16 +140,17 @@ void hold_rigid_modes(const CaseFile& input, Model& model, Prescription& prescri
     if (fragment.free_modes == 0 || std::ranges::all_of(fragment.particles, is_off)) continue;
     const int all = model.network.dim() == 2 ? 3 : 6;
     const auto x = model.network.particles.position(fragment.particles.front());
-    const std::string where =
-        fmt::format("the part of {} particles at ({})", fragment.particles.size(), joined(x));
+    const std::string where = fmt::format(
+        "the part of {} at ({})", counted(fragment.particles.size(), "particle"), joined(x));
     free += fragment.free_modes;
     if (!pins && moves) continue;
     if (!pins) {
       if (fragments.size() > 1) refuse_cut_off(input, model, fragment.particles);
       throw InputError(
           input.where(input.supports.empty() ? "analysis" : "supports[1]"),
-          fmt::format("{} of the {} rigid-body modes of {} are free", fragment.free_modes, all,
-                      fragments.size() == 1 ? "the body" : where),
+          fmt::format("{} of the {} rigid-body modes of {} {} free", fragment.free_modes, all,
+                      fragments.size() == 1 ? "the body" : where,
+                      fragment.free_modes == 1 ? "is" : "are"),
           fmt::format("hold the body with [[supports]], [[symmetry]] or [[springs]]{}",
                       fragment.free_modes < all ? ""
                                                 : ", or, when the loads balance by themselves, set "
@@ -160,15 +160,15 @@ void hold_rigid_modes(const CaseFile& input, Model& model, Prescription& prescri
       throw InputError(
           input.where("analysis.rigid_body_modes"),
           fmt::format("is \"pin\", but {} is partly supported: {} of {} rigid-body "
-                      "modes are free",
-                      where, fragment.free_modes, all),
+                      "modes {} free",
+                      where, fragment.free_modes, all, fragment.free_modes == 1 ? "is" : "are"),
           moves ? "delete the key: inertia resists free modes" : "support all of them, or none");
     }
     pin(input, model, fragment, prescription, off);
   }
   if (free > 0 && !pins) {
-    model.notes.push_back(fmt::format("only inertia resists {} rigid-body mode{} of the body", free,
-                                      free == 1 ? "" : "s"));
+    model.notes.push_back(
+        fmt::format("only inertia resists {} of the body", counted(free, "rigid-body mode")));
   }
 }
 

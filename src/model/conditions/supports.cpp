@@ -375,10 +375,10 @@ CutOffParts find_cut_off_parts(const CaseFile& input, const Model& model,
     if (places.size() < most_places) places.push_back(fmt::format("({})", joined(at)));
   }
   off.note = fmt::format(
-      "cracks leave {} particle{} unsupported, in {} part{} at {}{}: no load "
+      "cracks leave {} unsupported, in {} at {}{}: no load "
       "acts on them, and springs of {:.0e} times the stiffest bond hold them "
       "in place",
-      count, count == 1 ? "" : "s", parts.size(), parts.size() == 1 ? "" : "s", joined(places),
+      counted(count, "particle"), counted(parts.size(), "part"), joined(places),
       parts.size() > most_places ? ", ..." : "", softness);
   return off;
 }

@@ -98,7 +98,7 @@ NetworkInput network_input(const CaseFile& input, Problem problem, double horizo
                                  network.elastic ? SofteningMaterial{} : material.softening});
     network.materials.back().softening.closes = material.softening.closes;
   }
-  for (const CrackSection& crack : input.cracks) network.cracks.push_back({crack.points});
+  for (const CrackSection& crack : input.cracks) network.cracks.push_back({crack.points, crack.closing});
   for (const RandomSection& random : input.random) {
     if (network.elastic) break;
     network.random.push_back(

@@ -25,7 +25,8 @@ std::string loose_piece(const Model& model, const std::vector<Index>& without) {
     const bool is_solid = open.particles.kind[fragment.particles.front()] == ParticleKind::solid;
     if (fragment.free_modes == 0 || !is_solid) continue;
     const auto at = open.particles.position(fragment.particles.front());
-    return fmt::format("the piece of {} particles at ({})", fragment.particles.size(), joined(at));
+    return fmt::format("the piece of {} at ({})", counted(fragment.particles.size(), "particle"),
+                       joined(at));
   }
   return "";
 }
@@ -53,9 +54,9 @@ void refuse_pieces_on_bars(const CaseFile& input, const Model& model, int thread
 std::optional<std::string> note_of_separated_body(const CaseFile& input, const Model& model,
                                                   int threads) {
   refuse_pieces_on_bars(input, model, threads);
-  const bool may_close = model.network.has_closing() && !model.network.cut_elements.empty();
+  const bool may_close = model.network.has_closing() && model.network.num_contacts > 0;
   if (!may_close) return std::nullopt;
-  const std::string piece = loose_piece(model, model.network.cut_elements);
+  const std::string piece = loose_piece(model, model.network.contacts());
   if (piece.empty()) return std::nullopt;
   try {
     if (input.analysis.type == AnalysisType::elastic) {
@@ -66,8 +67,8 @@ std::optional<std::string> note_of_separated_body(const CaseFile& input, const M
   } catch (const SolverError&) {  // the cracks separate the piece, or the body has no stiffness
     throw InputError(
         input.where(item_key("cracks", 0)),
-        fmt::format("cut {} off, and the loads pull it away: only closed crack faces could "
-                    "hold it",
+        fmt::format("cut {} off, and the loads pull it away or let it slide: only closed crack "
+                    "faces, which carry pressure and no shear, could hold it",
                     piece),
         "end the cracks inside the body, hold the piece with [[supports]] or "
         "[[springs]], or press the faces together in an earlier one of [[stages]]");

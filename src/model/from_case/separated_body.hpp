@@ -15,8 +15,8 @@ void refuse_pieces_on_bars(const CaseFile& input, const Model& model, int thread
 
 /// Returns a note on a piece of the body that only closed bonds of cracks support. The check of
 /// such a piece costs a factorisation.
-/// \throws InputError where the first loads pull the piece away, or where refuse_pieces_on_bars()
-///     refuses it
+/// \throws InputError where the first loads pull the piece away or let it slide, or where
+///     refuse_pieces_on_bars() refuses it
 std::optional<std::string> note_of_separated_body(const CaseFile& input, const Model& model,
                                                   int threads);
 

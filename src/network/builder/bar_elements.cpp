@@ -265,10 +265,8 @@ void add_segments(const NetworkInput& input, const RebarMesh& mesh, Network& net
 
 }  // namespace
 
-void add_bars(const Body& body, const NetworkInput& input,
+void add_bars(const Body& body, const NetworkInput& input, RebarMesh mesh,
               const std::function<SlipSpringConstants(Index)>& constants_of, Network& network) {
-  RebarMesh mesh = add_rebar(network.particles, input.bars, body.lattice.spacing, input.horizon,
-                             body.lattice.cell_volume);
   network.first_slip_spring = network.bonds.size();
   add_bonded_slip_springs(body, input, mesh, constants_of, network);
   network.first_embedded_slip_spring = network.bonds.size();

@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "discretization/rebar.hpp"
 #include "network/network.hpp"
 #include "network/network_input.hpp"
 
@@ -13,10 +14,11 @@ struct SlipSpringConstants {
   double critical_stretch = 0.0;
 };
 
-/// Adds the bars of a body to the network of its solid: particles, slip springs and bar elements.
+/// Adds the bars of a body to the network of its solid: slip springs and bar elements.
+/// \param mesh          its bars, whose particles the network already has
 /// \param constants_of  constants of the bonds of a material
 /// \throws std::invalid_argument if the solid cannot hold an embedded bar
-void add_bars(const Body& body, const NetworkInput& input,
+void add_bars(const Body& body, const NetworkInput& input, RebarMesh mesh,
               const std::function<SlipSpringConstants(Index)>& constants_of, Network& network);
 
 }  // namespace perilink

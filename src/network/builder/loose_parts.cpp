@@ -56,7 +56,7 @@ RigidParts::RigidParts(const Network& network)
     : network_(network),
       neighbourhoods_(bonds_of_particles(network.bonds, network.particles.size())) {
   for (const double k : network.stiffness) carries_.push_back(k > 0.0);
-  for (const Index e : network.cut_elements) carries_[e] = 0;
+  for (const Index e : network.contacts()) carries_[e] = 0;
   const auto count = static_cast<std::size_t>(network.particles.size());
   part_.assign(count, no_index);
   directions_.resize(count);

@@ -10,12 +10,15 @@
 #include <utility>
 
 #include "discretization/cuts/bonds_across_gaps.hpp"
+#include "discretization/cuts/cracks.hpp"
 #include "discretization/cuts/outside_bonds.hpp"
+#include "discretization/mesh_faces.hpp"
 #include "material/critical_stretch.hpp"
 #include "material/micromodulus.hpp"
 #include "network/bond_strength.hpp"
 #include "network/builder/bar_elements.hpp"
 #include "network/builder/beam_bonds.hpp"
+#include "network/builder/crack_contacts.hpp"
 #include "network/builder/repeated_box.hpp"
 #include "network/builder/shell_bonds.hpp"
 #include "network/builder/softened_bonds.hpp"
@@ -157,24 +160,29 @@ std::vector<Crack> cracks_on_weaker_sides(const Body& body, const NetworkInput& 
   return cracks;
 }
 
-/// Removes the bonds that cross a pre-crack, except bonds with crack closure.
-void cut_bonds(const Body& body, const NetworkInput& input, Network& network) {
-  CutBonds cut = find_cut_bonds(network.particles, network.bonds,
-                                cracks_on_weaker_sides(body, input, network), body.lattice.spacing);
+/// Removes the bonds that cross a pre-crack.
+ClosingCracks cut_bonds(const Body& body, const NetworkInput& input, Network& network) {
+  ClosingCracks closing{cracks_on_weaker_sides(body, input, network), {}};
+  const std::vector<Crack>& cracks = closing.cracks;
+  CutBonds cut = find_cut_bonds(network.particles, network.bonds, cracks, body.lattice.spacing);
   network.cut_by_crack = std::move(cut.count);
-  const auto closes = [&](Index bond) {
-    return std::ranges::all_of(materials_of_bond(network, bond),
-                               [&](Index m) { return input.materials[m].softening.closes; });
+  const CrackCutter cutter(cracks, network.dim(), body.lattice.spacing);
+  const auto closes = [&](Index bond, const Crack& crack) {
+    if (network.particles.kind[network.bonds.second[bond]] != ParticleKind::solid) return false;
+    return crack.closes.value_or(
+        std::ranges::all_of(materials_of_bond(network, bond),
+                            [&](Index m) { return input.materials[m].softening.closes; }));
   };
-  Index number = 0;
+  const auto at = [&](Index i) { return point_of(network.particles.positions, network.dim(), i); };
   for (Index b = 0; b < network.bonds.size(); ++b) {
-    if (cut.keep[b] == 0 && closes(b)) {
-      cut.keep[b] = 1;
-      network.cut_elements.push_back(number);
-    }
-    number += cut.keep[b];
+    if (cut.keep[b] != 0) continue;
+    const auto* piece =
+        cutter.piece_between(at(network.bonds.first[b]), at(network.bonds.second[b]));
+    if (closes(b, cracks[piece->crack]))
+      closing.bonds.push_back(cut_bond(network, b, piece->normal));
   }
   keep_elements(network, cut.keep);
+  return closing;
 }
 
 }  // namespace
@@ -224,7 +232,9 @@ void set_stretches(const Body& body, const NetworkInput& input, const PairConsta
 }
 
 /// Builds calibrated bonds, from a template box if possible, and removes those that pre-cracks cut.
-Network build_bonds(const Body& body, const NetworkInput& input, const PairConstants& constants) {
+/// \param closing  receives the pre-cracks that close
+Network build_bonds(const Body& body, const NetworkInput& input, const PairConstants& constants,
+                    ClosingCracks& closing) {
   const auto make = [&](const Body& whole_or_part, const NetworkInput& its_input) {
     return make_calibrated_bonds(whole_or_part, its_input, constants);
   };
@@ -233,17 +243,23 @@ Network build_bonds(const Body& body, const NetworkInput& input, const PairConst
   Network network = repeated ? std::move(*repeated) : make(body, input);
   if (!input.cracks.empty()) {
     // After the calibration: crack faces must not balance uniform stresses as surfaces do.
-    cut_bonds(body, input, network);
+    closing = cut_bonds(body, input, network);
   }
   return network;
 }
 
-/// Builds the bonds of one part of the body, and the cells of the rest.
+/// Builds the bonds of the body, or of a part with cells in the rest.
+/// \param closing  receives the pre-cracks that close
 Network build_bonds_and_cells(const Body& body, const NetworkInput& input,
-                              const PairConstants& constants) {
+                              const PairConstants& constants, ClosingCracks& closing) {
+  if (body.tied.empty()) return build_bonds(body, input, constants, closing);
   const BondedPart part = bonded_part(body, input.thickness);
-  Network network = build_bonds(part.body, input, constants);
+  Network network = build_bonds(part.body, input, constants, closing);
   join_cells(body, part, input, network);
+  for (CutBond& bond : closing.bonds) {
+    bond.first = part.whole_of[bond.first];
+    bond.second = part.whole_of[bond.second];
+  }
   return network;
 }
 
@@ -264,8 +280,8 @@ EvenBonds even_bonds(const Body& body, const NetworkInput& input, const Network&
   even.cracks.clear();
   even.on_search = {};
   const PairConstants constants(body, even);
-  const Network whole = body.tied.empty() ? build_bonds(body, even, constants)
-                                          : build_bonds_and_cells(body, even, constants);
+  ClosingCracks none;
+  const Network whole = build_bonds_and_cells(body, even, constants, none);
   EvenBonds bonds{std::vector<double>(static_cast<std::size_t>(network.num_bonds()), 0.0)};
   if (!whole.bending.empty()) bonds.bending = bonds.stiffness;
   const auto ends = [](const Bonds& all, Index b) {
@@ -289,16 +305,17 @@ Network build_network(const Body& body, const NetworkInput& input) {
   check_input(body, input);
   if (!body.spans.empty()) return make_beam(body, input);
   const PairConstants constants(body, input);
-  Network network = body.tied.empty() ? build_bonds(body, input, constants)
-                                      : build_bonds_and_cells(body, input, constants);
+  ClosingCracks closing;
+  Network network = build_bonds_and_cells(body, input, constants, closing);
+  RebarMesh mesh = add_rebar(network.particles, input.bars, body.lattice.spacing, input.horizon,
+                             body.lattice.cell_volume);
+  add_contacts(body, input, closing, network);
   add_bars(
-      body, input, [&](Index material) { return constants.tie(material); }, network);
+      body, input, std::move(mesh), [&](Index material) { return constants.tie(material); },
+      network);
   if (!input.elastic) {
     soften_bonds(body, input, network);
     weaken_interfaces(body, input, even_bonds(body, input, network), network);
-    for (const Index e : network.cut_elements) network.critical_stretch[e] = infinity;
-  } else if (!network.cut_elements.empty()) {
-    network.laws = {BondLaw::brittle().closing()};
   }
   for (std::vector<double>* of_slip_springs : {&network.bending, &network.bending_ratio}) {
     if (!of_slip_springs->empty()) of_slip_springs->resize(network.stiffness.size(), 0.0);

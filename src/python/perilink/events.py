@@ -26,8 +26,10 @@ class EventRun(Iterator[_core.EventRow]):
                 break
         run.write("hundred.state")
 
-    Rows equal those of `run`, up to missed releases of host elements: they are counted in
-    `result` and do not start the run again. Ctrl-C raises KeyboardInterrupt and ends the run.
+    Rows equal those of `run`. After a missed release of host elements the run starts again with
+    these elements released, as `run` does: ``row.step`` is 1 again, and the rows before do not
+    count. `result` gives the number of such restarts as ``missed_releases``. Ctrl-C raises
+    KeyboardInterrupt and ends the run.
 
     Args:
         problem: from `build`, of a case with ``type = "damage"``

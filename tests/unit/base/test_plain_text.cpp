@@ -41,6 +41,14 @@ TEST(JoinedText, SeparatesNumbersOfSixDigits) {
   EXPECT_EQ(joined(numbers), "0.3, -1.23457e+06, 2");
 }
 
+TEST(CountedText, OnlyOneIsSingular) {
+  EXPECT_EQ(counted(1, "bond"), "1 bond");
+  EXPECT_EQ(counted(0, "bond"), "0 bonds");
+  EXPECT_EQ(counted(12, "yield event"), "12 yield events");
+  EXPECT_EQ(counted(1, "entry", "entries"), "1 entry");
+  EXPECT_EQ(counted(2, "entry", "entries"), "2 entries");
+}
+
 TEST(JoinedText, SeparatesTexts) {
   EXPECT_EQ(joined(std::vector<std::string>{"a", "b"}), "a, b");
   EXPECT_EQ(joined(std::vector<std::string>{}), "");

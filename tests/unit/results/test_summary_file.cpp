@@ -17,7 +17,7 @@ TEST(SummaryFile, SaysFromTheStartThatTheRunGoesOn) {
   input.title = "Beam";
   input.analysis.type = AnalysisType::elastic;
   input.body.model = BodyModel::micropolar;
-  write_running_summary(work.path(), input);
+  write_running_summary(work.path(), input, "");
   const auto summary = read_summary_file(work.path());
   ASSERT_TRUE(summary.has_value());
   EXPECT_EQ(summary_text(*summary, "title", work.path()), "Beam");
@@ -29,7 +29,7 @@ TEST(SummaryFile, SaysFromTheStartThatTheRunGoesOn) {
 
 TEST(SummaryFile, IsReplacedAtTheEnd) {
   const test::TemporaryDirectory work;
-  write_running_summary(work.path(), {});
+  write_running_summary(work.path(), {}, "");
   write_summary_file(work.path(), {{"status", "failed"}, {"reason", "no \xff UTF-8"}});
   const auto summary = read_summary_file(work.path());
   EXPECT_EQ(summary_text(*summary, "status", work.path()), "failed");

@@ -105,10 +105,6 @@ void Halves<Half>::add(const Network& network, Index element, bool first) {
   segment_.push_back(0);
   both_.push_back(network.law(element).sense() == Sense::both);
   limit_.push_back(limit_of(element, 0));
-  const std::vector<Index>& cut = network.cut_elements;
-  if (!std::binary_search(cut.begin(), cut.end(), element)) return;
-  scale(halves_.size() - 1, 0.0);
-  secant_.back() = 0.0;
 }
 
 /// Returns the limit of a segment in units of Half::demand().

@@ -20,11 +20,19 @@ class EmbeddedSlipSprings final : public ExplicitBonds {
         dim_(static_cast<std::size_t>(network.dim())),
         width_(static_cast<std::size_t>(network.width())) {
     const Index count = network.particles.size();
-    for (Index e = network.first_embedded_slip_spring; e < network.first_bar_element; ++e) {
+    for (Index e = 0; e < network.first_bar_element; ++e) {
+      if (!network.is_embedded_point(network.bonds.second[e])) continue;
+      elements_.push_back(e);
       const Index embedded_point = network.bonds.second[e] - network.first_embedded_point();
       ends_.append(std::vector<Index>{network.bonds.first[e]}, std::vector<double>{-1.0});
       const auto particles = network.embedded_points.particles.row(embedded_point);
       const auto weights = network.embedded_points.weights_of(embedded_point);
+      if (network.law(e).closes()) {
+        const auto strain =
+            network.embedded_points.strain_weights_of(embedded_point, network.dim());
+        ends_.strain_weights.resize(ends_.weights.size() * dim_, 0.0);
+        ends_.strain_weights.insert(ends_.strain_weights.end(), strain.begin(), strain.end());
+      }
       ends_.particles.values.insert(ends_.particles.values.end(), particles.begin(),
                                     particles.end());
       ends_.weights.insert(ends_.weights.end(), weights.begin(), weights.end());
@@ -43,9 +51,11 @@ class EmbeddedSlipSprings final : public ExplicitBonds {
     });
     offsets_ = shares.offsets;
     for (const Index k : shares.values) {
-      const Index tie = slip_spring_of[k], element = network.first_embedded_slip_spring + tie;
-      shares_.push_back(
-          {tie, ends_.weights[k], k == ends_.particles.offsets[tie], 0, 1.0, limit_of(element, 0)});
+      const Index tie = slip_spring_of[k], element = elements_[tie];
+      const bool closes = network.law(element).closes();
+      shares_.push_back({tie, ends_.weights[k], strain_weights_of(k),
+                         k == ends_.particles.offsets[tie], closes, 0, closes ? 0.0 : 1.0,
+                         limit_of(element, 0)});
     }
   }
 
@@ -63,11 +73,14 @@ class EmbeddedSlipSprings final : public ExplicitBonds {
         Share& share = shares_[k];
         const double now = extension(share.tie, motion.displacement);
         if (std::abs(now) > share.limit) give_way(share, now, time_step, motion, losses);
-        const Index element = network_.first_embedded_slip_spring + share.tie;
-        const double pull = share.weight * network_.stiffness[element] * share.secant * now;
+        if (share.closes) share.secant = now < 0.0 ? 1.0 : 0.0;
+        const Index element = elements_[share.tie];
+        const double tension = network_.stiffness[element] * share.secant * now;
+        const double pull = share.weight * tension;
         for (std::size_t a = 0; a < dim_; ++a) {
-          force[static_cast<std::size_t>(i) * width_ + a] +=
-              pull * network_.bonds.direction(element)[a];
+          double& sum = force[static_cast<std::size_t>(i) * width_ + a];
+          sum += pull * network_.bonds.direction(element)[a];
+          if (share.closes) sum += tension * share.strain_weight[a];
         }
       }
     }
@@ -78,7 +91,9 @@ class EmbeddedSlipSprings final : public ExplicitBonds {
     double energy = others_ ? others_->stored(begin, end, time_step, motion) : 0.0;
     for (Index k = offsets_[begin]; k < offsets_[end]; ++k) {
       const Share& share = shares_[k];
-      if (share.at_node) energy += share.secant * whole_energy(share.tie, time_step, motion);
+      if (!share.at_node) continue;
+      const double whole = whole_energy(share.tie, time_step, motion);
+      energy += share.secant * (share.closes ? std::max(0.0, whole) : whole);
     }
     return energy;
   }
@@ -89,7 +104,7 @@ class EmbeddedSlipSprings final : public ExplicitBonds {
                 : std::vector<double>(static_cast<std::size_t>(network_.num_elements()));
     // The node's share decides, also where ranks merge secants: nodes have the last numbers.
     for (const Share& share : shares_) {
-      secants[network_.first_embedded_slip_spring + share.tie] = share.secant;
+      secants[elements_[share.tie]] = share.secant;
     }
     return secants;
   }
@@ -102,7 +117,7 @@ class EmbeddedSlipSprings final : public ExplicitBonds {
     expect_equal_sizes(state.slip_segment.size(), shares_.size());
     for (std::size_t k = 0; k < shares_.size(); ++k) {
       Share& share = shares_[k];
-      const Index element = network_.first_embedded_slip_spring + share.tie;
+      const Index element = elements_[share.tie];
       share.segment = state.slip_segment[k];
       share.limit = limit_of(element, share.segment);
       if (share.segment > 0) share.secant = network_.law(element).segment(share.segment).secant;
@@ -114,12 +129,21 @@ class EmbeddedSlipSprings final : public ExplicitBonds {
   /// Slip spring at one of the particles of its ends; all shares have identical states.
   struct Share {
     Index tie;
-    double weight;  ///< weight of the particle in the extension
-    bool at_node;   ///< the particle is the node, which counts the energy
+    double weight;          ///< weight of the particle in the extension
+    Vector3 strain_weight;  ///< see EmbeddedPoints
+    bool at_node;           ///< the particle is the node, which counts the energy
+    bool closes;            ///< of a contact spring, without tension
     int segment;
     double secant;  ///< secant stiffness ratio
     double limit;   ///< extension of the next event [length]
   };
+
+  Vector3 strain_weights_of(Index k) const {
+    Vector3 weights{};
+    if ((static_cast<std::size_t>(k) + 1) * dim_ > ends_.strain_weights.size()) return weights;
+    for (std::size_t a = 0; a < dim_; ++a) weights[a] = ends_.strain_weights[k * dim_ + a];
+    return weights;
+  }
 
   double limit_of(Index element, int segment) const {
     return network_.critical_stretch[element] * network_.law(element).segment(segment).limit *
@@ -127,13 +151,16 @@ class EmbeddedSlipSprings final : public ExplicitBonds {
   }
 
   double extension(Index tie, std::span<const double> motion) const {
-    const auto n = network_.bonds.direction(network_.first_embedded_slip_spring + tie);
+    const auto n = network_.bonds.direction(elements_[tie]);
     double sum = 0.0;
     for (Index k = ends_.particles.offsets[tie]; k < ends_.particles.offsets[tie + 1]; ++k) {
       const std::size_t slot = static_cast<std::size_t>(ends_.particles.values[k]) * width_;
       double along = 0.0;
       for (std::size_t a = 0; a < dim_; ++a) along += n[a] * motion[slot + a];
       sum += ends_.weights[k] * along;
+      if (ends_.strain_weights.empty()) continue;
+      const Vector3 strain = strain_weights_of(k);
+      for (std::size_t a = 0; a < dim_; ++a) sum += strain[a] * motion[slot + a];
     }
     return sum;
   }
@@ -142,12 +169,12 @@ class EmbeddedSlipSprings final : public ExplicitBonds {
   double whole_energy(Index tie, double time_step, const BondMotion& motion) const {
     const double now = extension(tie, motion.displacement);
     const double before = now - time_step * extension(tie, motion.velocity);
-    return 0.5 * network_.stiffness[network_.first_embedded_slip_spring + tie] * before * now;
+    return 0.5 * network_.stiffness[elements_[tie]] * before * now;
   }
 
   void give_way(Share& share, double now, double time_step, const BondMotion& motion,
                 BondLosses& losses) {
-    const Index element = network_.first_embedded_slip_spring + share.tie;
+    const Index element = elements_[share.tie];
     do {
       share.limit = limit_of(element, ++share.segment);
     } while (std::abs(now) > share.limit);
@@ -162,7 +189,8 @@ class EmbeddedSlipSprings final : public ExplicitBonds {
   const Network& network_;
   std::unique_ptr<ExplicitBonds> others_;
   std::size_t dim_, width_;
-  /// per slip spring: its node, then the particles around its embedded point
+  std::vector<Index> elements_;  ///< number of each slip or contact spring
+  /// per spring: its node, then the particles around its embedded point
   EmbeddedPoints ends_;
   std::vector<Index> offsets_;
   std::vector<Share> shares_;  ///< ordered by particle

@@ -64,8 +64,8 @@ Equilibrium::Equilibrium(const LoadedNetwork& problem, const EquilibriumOptions&
   for (const double stiffness : network_.stiffness) stiffness_sum_ += stiffness;
   for (const double stiffness : network_.support_stiffness) stiffness_sum_ += stiffness;
   if (network_.has_closing() || has_kept_) axial_ = secants_;
-  for (const Index element : network_.cut_elements) secants_[element] = 0.0;  // closed at first
-  damaged_ = network_.cut_elements;
+  damaged_ = network_.contacts();
+  for (const Index element : damaged_) secants_[element] = 0.0;  // closed at first
   if (saved != nullptr) {
     secants_ = saved->secants;
     axial_ = saved->axial;

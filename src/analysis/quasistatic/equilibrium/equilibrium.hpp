@@ -296,6 +296,7 @@ class Equilibrium {
     double residual = 0.0;  ///< norm of the residual forces
     double energy = 0.0;    ///< u'K u of the refined motion
     double error = 0.0;     ///< uncertainty of the energy after the last correction, with round-off
+    double least_error = 0.0;  ///< part by the round-off of rigid motions
     /// Relative error of a solve by the factor, in the energy norm.
     double factor_error = 0.0;
   };

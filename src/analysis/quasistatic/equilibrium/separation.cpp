@@ -87,7 +87,8 @@ Equilibrium::Refined Equilibrium::refine_finely(std::span<const double> load, Fi
   for (const long double u : motion.particles) largest = std::max(largest, std::abs(u));
   // Directions of bonds are rounded, so a rigid motion stretches them slightly.
   const double noise = machine_precision * static_cast<double>(largest);
-  result.error += stiffness_sum_ * noise * noise;
+  result.least_error = stiffness_sum_ * noise * noise;
+  result.error += result.least_error;
   return result;
 }
 
@@ -167,7 +168,8 @@ Balance Equilibrium::refine_in_extended_precision() {
                     {displacement_.begin(), displacement_.end()}};
   Refined refined = refine_finely(load, motion);
   const auto uncertain = [&] {
-    return !(refined.error < most_error * std::max(refined.energy, last_work_));
+    const double least = clearly_there * refined.least_error;  // a body without resistance
+    return !(refined.error < std::max(least, most_error * std::max(refined.energy, last_work_)));
   };
   if (uncertain()) {
     factorize();

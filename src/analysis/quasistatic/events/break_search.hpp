@@ -51,6 +51,8 @@ inline double finite_ratio(Index element, double ratio) {
 }
 
 /// Makes the search for the intact elements of a network, trusses or frames.
-std::unique_ptr<BreakSearch> make_break_search(const Network& network);
+/// \param at_loads  displacements are under given loads, as in stages, not at load factor 1. Bonds
+///                  that bend are then in tension where CrossingSearch says so.
+std::unique_ptr<BreakSearch> make_break_search(const Network& network, bool at_loads);
 
 }  // namespace perilink

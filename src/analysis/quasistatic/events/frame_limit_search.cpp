@@ -13,19 +13,23 @@ namespace {
 /// Number of blocks below which one thread is faster.
 constexpr Index fewest_parallel_frames = 100;
 
-/// Share of the squared equivalent stretch that the squared axial stretch needs in tension [-].
-/// Where symmetry keeps the length, round-off must not decide.
-constexpr double least_tension = 1e-12;
+/// Axial over equivalent stretch above which a bond is in tension [-]. Where symmetry keeps the
+/// length, round-off must not decide.
+constexpr double least_tension = 1e-6;
+
+/// Axial stretch over its limit above which a bond is in tension at given loads [-]: the value of
+/// CrossingSearch and the round-off at the load factor where tension begins.
+constexpr double least_tension_at_loads = 1e-6 + 1e-9;
 
 }  // namespace
 
-std::unique_ptr<BreakSearch> make_break_search(const Network& network) {
-  if (network.carries_moments()) return std::make_unique<FrameLimitSearch>(network);
+std::unique_ptr<BreakSearch> make_break_search(const Network& network, bool at_loads) {
+  if (network.carries_moments()) return std::make_unique<FrameLimitSearch>(network, at_loads);
   return std::make_unique<LimitSearch>(network);
 }
 
-FrameLimitSearch::FrameLimitSearch(const Network& network)
-    : network_(network), dim_(network.dim()), torsion_(network.torsion) {
+FrameLimitSearch::FrameLimitSearch(const Network& network, bool at_loads)
+    : network_(network), dim_(network.dim()), torsion_(network.torsion), at_loads_(at_loads) {
   for (Index e = 0; e < network.num_elements(); ++e) {
     if (!network.has_limit(e)) continue;
     const double length = network.bonds.length(e);
@@ -53,8 +57,19 @@ double FrameLimitSearch::inverse_of(Index element, double limit) const {
   return std::isinf(limit) ? 0.0 : 1.0 / (length * limit * length * limit);
 }
 
+/// Returns the squared equivalent stretch over the limit in tension or in compression.
+/// \param stretch  the largest of the bond, times its length; tension is positive
+/// \param square   squared equivalent stretch times the squared length
+double FrameLimitSearch::over_limit(const Bond& bond, double stretch, double square) const {
+  const double tension = stretch * stretch;
+  const bool counts = at_loads_
+                          ? tension * bond.inverse > least_tension_at_loads * least_tension_at_loads
+                          : tension > least_tension * least_tension * square;
+  return square * (stretch > 0.0 && counts ? bond.inverse : bond.compressed);
+}
+
 template <int Dim>
-double FrameLimitSearch::squared_ratio(const Bond& bond, const double* u, bool either_way) const {
+double FrameLimitSearch::squared_ratio(const Bond& bond, const double* u) const {
   const FrameDeformation<Dim> d(bond.n, bond.first_arm, bond.second_arm, u + bond.first,
                                 u + bond.second);
   double square = 0.0;
@@ -71,10 +86,7 @@ double FrameLimitSearch::squared_ratio(const Bond& bond, const double* u, bool e
              bond.rotation_share * (bend_square + torsion_ * d.twist * d.twist);
   }
   square += d.extension * d.extension;
-  const bool stretched = d.extension > 0.0 && d.extension * d.extension > least_tension * square;
-  // Not-a-number if the square is not a number.
-  if (either_way) return square * std::max(bond.inverse, bond.compressed);
-  return square * (stretched ? bond.inverse : bond.compressed);
+  return over_limit(bond, d.extension, square);
 }
 
 /// Returns the squared ratio of a shell or beam bond, which is in tension if one of its faces is.
@@ -90,8 +102,7 @@ double FrameLimitSearch::section_ratio(Index k, const double* u) const {
   const double turn =
       std::abs(d.bend[0]) + 6.0 * std::abs(d.shear[0]) / (bond.first_arm + bond.second_arm);
   const double stretch = d.extension + network_.half_height[elements_[k]] * turn;
-  const bool stretched = stretch > 0.0 && stretch * stretch > least_tension * square;
-  return square * (stretched ? bond.inverse : bond.compressed);
+  return over_limit(bond, stretch, square);
 }
 
 double FrameLimitSearch::shell_bond_ratio(Index element, const Bond& bond, const double* u) const {
@@ -109,8 +120,7 @@ double FrameLimitSearch::shell_bond_ratio(Index element, const Bond& bond, const
     if (m == 0) stretch += deformation;
     if (m == 3) stretch += 0.5 * network_.shell->thickness * std::abs(deformation);
   }
-  const bool stretched = stretch > 0.0 && stretch * stretch > least_tension * square;
-  return square * (stretched ? bond.inverse : bond.compressed);
+  return over_limit(bond, stretch, square);
 }
 
 template <int Dim>

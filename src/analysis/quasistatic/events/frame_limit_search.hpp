@@ -25,7 +25,8 @@ namespace perilink {
 /// beams are in tension if one of their faces is stretched.
 class FrameLimitSearch final : public BreakSearch {
  public:
-  explicit FrameLimitSearch(const Network& network);
+  /// \param at_loads  see make_break_search()
+  explicit FrameLimitSearch(const Network& network, bool at_loads = false);
 
   Hit find(std::span<const double> displacement, double tolerance, int threads) override;
   std::vector<Hit> list(std::span<const double> displacement, double least) const override;
@@ -45,9 +46,9 @@ class FrameLimitSearch final : public BreakSearch {
   template <int Dim>
   double section_ratio(Index k, const double* u) const;
   double shell_bond_ratio(Index element, const Bond& bond, const double* u) const;
-  /// \param either_way  uses the smaller limit of tension and compression
+  double over_limit(const Bond& bond, double stretch, double square) const;
   template <int Dim>
-  double squared_ratio(const Bond& bond, const double* u, bool either_way = false) const;
+  double squared_ratio(const Bond& bond, const double* u) const;
   double inverse_of(Index element, double limit) const;
   template <int Dim>
   Hit find_in(const double* u, double tolerance, int threads);
@@ -55,6 +56,7 @@ class FrameLimitSearch final : public BreakSearch {
   const Network& network_;
   int dim_;
   double torsion_;
+  bool at_loads_;
   std::vector<Index> elements_;
   std::vector<Bond> bonds_;
   std::vector<double> block_largest_;

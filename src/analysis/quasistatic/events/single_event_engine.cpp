@@ -39,7 +39,7 @@ SingleEventEngine::SingleEventEngine(const LoadedNetwork& problem,
       tolerance_(options.event_tolerance),
       equilibrium_(problem, options, unknowns != nullptr ? *unknowns : problem.unknowns,
                    saved != nullptr ? &saved->elements : nullptr),
-      search_(make_break_search(network_)),
+      search_(make_break_search(network_, !problem.sets.empty())),
       closes_(network_.has_closing()) {
   if (network_.has_crushing()) crushing_.emplace(network_);
   progress_.segments.resize(static_cast<std::size_t>(network_.num_elements()), 0);

@@ -118,6 +118,7 @@ void SubdomainFactor::put_in_window(const SparseVector& x, int used) {
   if (x.size() == 1) place_of_[x.rows[0]] = place;
   span_.add(x, place);
   window_.push_back(x);
+  most_columns_ = std::max(most_columns_, window_.size());
   used_.push_back(used);
 }
 

@@ -154,6 +154,7 @@ FactorStatistics SubdomainFactor::statistics() const {
   result.size = static_cast<Index>(slot_of_.size());
   result.entries = static_cast<double>(slot_of_.size()) * static_cast<double>(window_.size());
   result.bytes = 8.0 * result.entries;
+  result.most_bytes = 8.0 * static_cast<double>(slot_of_.size() * most_columns_);
   result.event_bytes = result.bytes;
   // A restart costs two solves: about a hundred products of ten operations per bond.
   result.flops = 1000.0 * static_cast<double>(network_.num_elements());

@@ -103,6 +103,7 @@ class SubdomainFactor final : public Factor {
   std::vector<std::size_t> slot_of_;  ///< Unknowns::slots()
   std::vector<SparseVector> expected_;
   std::vector<SparseVector> window_;  ///< vectors e of cached columns
+  std::size_t most_columns_ = 0;      ///< largest number of cached columns so far
   /// Per unknown: position of its unit vector in the cache, or no_index.
   std::vector<Index> place_of_;
   VectorSpan span_;        ///< span of the cached vectors

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/plain_text.hpp"
 #include "io/case/case_words.hpp"
 #include "io/case/sections/case_gauges.hpp"
 #include "io/case/sections/case_kinds.hpp"
@@ -46,7 +47,7 @@ GaugeSection read_gauge(const CaseTable& table, const BodySection& body) {
   table.need_one_of({"between", "at", "region"});
   assign(gauge.between, table.vectors("between", dim));
   if (table.has("between") && gauge.between.size() != 2) {
-    table.refuse("between", fmt::format("holds {} points", gauge.between.size()),
+    table.refuse("between", "holds " + counted(gauge.between.size(), "point"),
                  "give two: [[0, 0], [0, 1]]");
   }
   gauge.at = table.vector("at", dim);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/plain_text.hpp"
 #include "io/case/case_schema.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_stages.hpp"
@@ -116,8 +117,8 @@ void read_place(const CaseTable& table, int dim, RebarSection& bar) {
   assign(bar.steps, table.vectors("steps", dim));
   if (bar.copies.size() != bar.steps.size()) {
     table.refuse(table.has("steps") ? "steps" : "copies",
-                 fmt::format("`copies` has {} entries and `steps` has {}, but they must be equal",
-                             bar.copies.size(), bar.steps.size()),
+                 fmt::format("`copies` has {} and `steps` has {}, but they must be equal",
+                             counted(bar.copies.size(), "entry", "entries"), bar.steps.size()),
                  "give a number and a step for each direction: copies = [3], steps = [[0, 50]]");
   }
   for (std::size_t k = 0; k < bar.steps.size(); ++k) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/plain_text.hpp"
 #include "io/case/case_words.hpp"
 #include "io/case/sections/case_sections.hpp"
 
@@ -33,8 +34,7 @@ void read_interval(const CaseTable& table, int axis, Box& box) {
       table.need(key, table.numbers(key), "the interval [lower, upper]");
   if (interval.size() != 2) {
     table.refuse(key,
-                 fmt::format("has {} value{}, but an interval has 2", interval.size(),
-                             interval.size() == 1 ? "" : "s"),
+                 fmt::format("has {}, but an interval has 2", counted(interval.size(), "value")),
                  "write [lower, upper]");
   }
   // Equal ends make a line or a point, which supports may use; check_shape() refuses them for
@@ -77,8 +77,8 @@ Region read_round(const CaseTable& table, Region region, int dim) {
   if (center.size() != size) {
     const char* what = dim == 2 ? "a disc" : round.axis ? "a cylinder" : "a ball";
     table.refuse("center",
-                 fmt::format("has {} value{}, but the center of {} has {}", center.size(),
-                             center.size() == 1 ? "" : "s", what, size),
+                 fmt::format("has {}, but the center of {} has {}", counted(center.size(), "value"),
+                             what, size),
                  round.axis ? "give the coordinates across its axis" : "give one per axis");
   }
   std::size_t next = 0;

@@ -309,6 +309,17 @@ void check_iterative_solver(const CaseFile& input) {
                      "is \"iterative\", but a beam that cracks needs the direct solver",
                      "allowed with problem = \"beam\" and type = \"damage\": \"auto\", \"direct\"");
   }
+  const bool closes = std::ranges::any_of(
+      input.materials, [](const MaterialSection& m) { return m.softening.closes; });
+  for (std::size_t k = 0; k < input.cracks.size(); ++k) {
+    if (!input.cracks[k].closing.value_or(closes)) continue;
+    throw InputError(input.where("analysis.solver"),
+                     fmt::format("is \"iterative\", but the closed faces of cracks[{}] need the "
+                                 "direct solver",
+                                 k + 1),
+                     "use \"auto\" or \"direct\", or set closing = false in [[cracks]] for a "
+                     "notch that stays open");
+  }
   if (input.body.method != BodyMethod::linear_elements) return;
   throw InputError(input.where("analysis.solver"),
                    "is \"iterative\", but linear elements need the direct solver",

@@ -121,6 +121,7 @@ CrackSection read_crack(const CaseTable& table, int dim) {
         key, fmt::format("has {}", crack.points.size()),
         dim == 2 ? "a crack needs two points or more" : "a crack needs three corners or more");
   }
+  crack.closing = table.boolean("closing");
   return crack;
 }
 

@@ -154,6 +154,7 @@ void write_crack(TomlWriter& out, const CrackSection& crack, int dim) {
   std::vector<std::vector<double>> points;
   for (const Vector3& point : crack.points) points.emplace_back(point.begin(), point.begin() + dim);
   out.write(dim == 2 ? "points" : "corners", points);
+  out.write("closing", crack.closing);
 }
 
 void write_run(TomlWriter& out, const CaseFile& input) {

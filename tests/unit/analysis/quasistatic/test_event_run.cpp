@@ -88,6 +88,19 @@ TEST_P(SavedRun, HasTheResultsOfOneNeverSaved) {
   EXPECT_NEAR(saved.peak_load, never.peak_load, 1e-7 * std::abs(never.peak_load));
 }
 
+/// A run that goes on has no cached columns yet, but those of the run that saved it count.
+TEST(SavedIterativeRun, KeepsTheLargestSizeOfTheColumnCache) {
+  const AnalysisBody body = make_block({.lattice = {}});
+  DamageOptions options;
+  options.engine.solver = LinearSolver::iterative;
+  options.engine.subdomains.edge = 2;
+  EventRun run(body, options);
+  for (int row = 0; row < 8; ++row) ASSERT_NE(run.next(), nullptr);
+  const double bytes = run.result().factor.most_bytes;
+  EXPECT_GT(bytes, 0.0);
+  EXPECT_EQ(EventRun(body, options, copied(run.save())).result().factor.most_bytes, bytes);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Blocks, SavedRun,
     ::testing::Values(Kind{"brittle", {.lattice = {}}},

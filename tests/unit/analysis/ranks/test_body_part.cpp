@@ -22,7 +22,6 @@ class BodyPartTest : public testing::TestWithParam<Index> {
                           .toothed = true,
                           .slipping = true})),
         partition_(body_.network, {body_.network.particles.size(), 2, GetParam()}, ranks) {
-    body_.network.cut_elements = {40, 41, 2000};
     for (Index e = 0; e < body_.network.num_elements(); ++e) {
       body_.network.hinged.push_back(static_cast<std::uint8_t>(e % 4));
     }
@@ -82,9 +81,6 @@ TEST_P(BodyPartTest, HasTheElementsOfItsParticlesAndTheirOtherEnds) {
       ++next;
     }
     EXPECT_EQ(own.elements.size(), next);
-    for (const Index e : own.body.network.cut_elements) {
-      EXPECT_TRUE(std::ranges::count(body_.network.cut_elements, own.elements[e]));
-    }
   }
 }
 
@@ -114,7 +110,6 @@ TEST_P(BodyPartTest, ArrivesAsItWasSent) {
   EXPECT_EQ(network.bonds.directions, expected.bonds.directions);
   EXPECT_EQ(network.stiffness, expected.stiffness);
   EXPECT_EQ(network.critical_stretch, expected.critical_stretch);
-  EXPECT_EQ(network.cut_elements, expected.cut_elements);
   EXPECT_EQ(network.hinged, expected.hinged);
   EXPECT_EQ(network.embedded_points.weights, expected.embedded_points.weights);
   EXPECT_EQ(network.first_embedded_slip_spring, expected.first_embedded_slip_spring);

@@ -87,7 +87,7 @@ TEST_F(Plot, TakesTheKindOfTheRunFromTheSummary) {
   const auto draws_envelope = [&](const std::string& summary) {
     std::ofstream(directory_ / "summary.json") << R"({"status": "completed", )" << summary << "}";
     EXPECT_EQ(plot_results({directory_.string(), "", 0.0}), 0);
-    return text("load_displacement.svg").find("envelope") != std::string::npos;
+    return text("load_displacement.svg").find("smoothed curve") != std::string::npos;
   };
   EXPECT_TRUE(draws_envelope(R"("analysis": "damage")"));
   EXPECT_FALSE(draws_envelope(R"("analysis": "explicit")"));

@@ -119,11 +119,11 @@ TEST_F(RunResults, WithoutAHorizonTheLongestBrokenBondStandsForIt) {
 TEST_F(RunResults, AnInterruptedRunIsReadWithItsReasonAndDoubts) {
   write("history.csv", history);
   write("summary.json", R"({"status": "interrupted", "reason": "a signal came",
-                            "doubts": ["the peak is borne by what is crushed"]})");
+                            "warnings": ["the peak is borne by what is crushed"]})");
   const RunResult result = read();
   ASSERT_EQ(result.notes.size(), 3u);
   EXPECT_THAT(result.notes[0], HasSubstr("interrupted (a signal came)"));
-  EXPECT_EQ(result.notes[1], "doubt: the peak is borne by what is crushed");
+  EXPECT_EQ(result.notes[1], "warning: the peak is borne by what is crushed");
   EXPECT_THAT(result.notes[2], HasSubstr("no field file"));
 }
 

@@ -39,7 +39,7 @@ TEST(LoadDisplacement, MarksThePeak) {
   const std::string svg = draw_load_displacement(records, {"Beam", "kip", "in"}).str();
   EXPECT_NE(svg.find("peak −99.5 kip"), std::string::npos);
   EXPECT_NE(svg.find("load (kip)"), std::string::npos);
-  EXPECT_EQ(svg.find("envelope"), std::string::npos);
+  EXPECT_EQ(svg.find("smoothed curve"), std::string::npos);
 }
 
 TEST(LoadDisplacement, MarksTheFirstPeakWhereTheLoadClimbedAgain) {
@@ -61,7 +61,7 @@ TEST(LoadDisplacement, MarksTheFirstPeakWhereTheLoadClimbedAgain) {
 
 TEST(LoadDisplacement, ManyEventsGetAnEnvelopeAndASmallFile) {
   const std::string svg = draw_load_displacement(make_path(100000), {}).str();
-  EXPECT_NE(svg.find("envelope"), std::string::npos);
+  EXPECT_NE(svg.find("smoothed curve"), std::string::npos);
   EXPECT_LT(svg.size(), 2'000'000u);
   EXPECT_EQ(svg.find("nan"), std::string::npos);
 }
@@ -89,7 +89,7 @@ TEST(LoadDisplacement, TheLegendLeavesTheLabelOfThePeakFree) {
       const std::string path = "//text[contains(., '" + std::string(part) + "')]";
       return document.select_node(path.c_str()).node();
     };
-    const pugi::xml_node peak = text("peak"), legend = text("envelope");
+    const pugi::xml_node peak = text("peak"), legend = text("smoothed curve");
     ASSERT_TRUE(peak && legend);
     const double width = 0.56 * 14.0 * static_cast<double>(std::string(peak.child_value()).size());
     const bool leftward = std::string(peak.attribute("text-anchor").value()) == "end";
@@ -110,10 +110,10 @@ TEST(LoadDisplacement, EmptyHistoryIsAnEmptyFrame) {
 /// Rows in time or of load steps are no path of events, whose area an envelope could keep.
 TEST(LoadDisplacement, OtherRowsThanEventsHaveNoEnvelope) {
   std::vector<StepRecord> records = make_path(1000);
-  EXPECT_NE(draw_load_displacement(records, {}).str().find("envelope"), std::string::npos);
+  EXPECT_NE(draw_load_displacement(records, {}).str().find("smoothed curve"), std::string::npos);
   for (StepRecord& record : records) record.broken_bonds /= 2;
   const std::string svg = draw_load_displacement(records, {}).str();
-  EXPECT_EQ(svg.find("envelope"), std::string::npos);
+  EXPECT_EQ(svg.find("smoothed curve"), std::string::npos);
   EXPECT_NE(svg.find("peak"), std::string::npos);
 }
 

@@ -192,7 +192,7 @@ TEST_F(BondRunTest, DoubtsABodyThatFliesApart) {
   EXPECT_GT(json["kinetic_energy"].get<double>(), 0.9 * json["external_work"].get<double>());
   EXPECT_THAT(run.summary.warnings,
               testing::Contains(testing::HasSubstr("a piece of the body is unsupported")));
-  EXPECT_EQ(json["doubts"], run.summary.warnings);
+  EXPECT_EQ(json["warnings"], run.summary.warnings);
   EXPECT_THAT(run.summary.text, testing::HasSubstr("unsupported"));
 }
 

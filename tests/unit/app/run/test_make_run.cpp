@@ -26,7 +26,7 @@ TEST(MakeRun, ChoosesTheKindThatTheCaseAsksFor) {
   };
   EXPECT_THAT(plan(AnalysisType::damage), HasSubstr("60 unknowns"));
   EXPECT_THAT(plan(AnalysisType::elastic), HasSubstr("60 unknowns"));
-  EXPECT_THAT(plan(AnalysisType::relaxation), HasSubstr("1 load steps"));
+  EXPECT_THAT(plan(AnalysisType::relaxation), HasSubstr("1 load step"));
   EXPECT_THAT(plan(AnalysisType::explicit_), HasSubstr("(critical "));
   const CaseFile lattice = parse_case(test::lattice_bar_case(), "");
   const auto run = make_run(lattice, 1, true);

@@ -67,7 +67,7 @@ TEST(Equilibria, TellEveryFigureUnderItsKey) {
       {"dissipated_energy", 4.5},
       {"energy_error", 2e-13},
       {"largest_residual", 1e-14},
-      {"doubts", nlohmann::json::array()},
+      {"warnings", nlohmann::json::array()},
       {"particles", 45},
       {"bonds", model.network.num_elements()},
       {"unknowns", 60},
@@ -92,7 +92,7 @@ TEST(Equilibria, AreToldToPeople) {
   tell_quasistatic(summary, input, build_model(input), with_places(result), 0.5);
   for (const char* part : {"0.333333 at 0.125 is the largest load", "[kip, in]",
                            "8 broken bonds, 2 yield or softening events, 9 rows", "45 particles",
-                           "0.1875 of the smooth curve", "(0, -0.25) by upper platen"}) {
+                           "0.1875 is the smoothed peak load", "(0, -0.25) by upper platen"}) {
     EXPECT_THAT(summary.text, testing::HasSubstr(part));
   }
   EXPECT_THAT(summary.warnings, testing::ElementsAre(testing::HasSubstr("up to 0.5 of the work")));

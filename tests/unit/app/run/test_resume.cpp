@@ -1,5 +1,6 @@
 #include "app/run/resume.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +9,7 @@
 #include "base/files.hpp"
 #include "results/summary_file.hpp"
 #include "support/case_texts.hpp"
+#include "support/gmsh_texts.hpp"
 #include "support/replaced.hpp"
 #include "support/strip_case.hpp"
 #include "support/temporary_directory.hpp"
@@ -108,6 +110,38 @@ TEST_F(Resume, RefusesALoweredStopRule) {
               HasSubstr("stop.broken_bonds"));
   EXPECT_THAT(refusal(replaced(strip, "broken_bonds = 12", "broken_bonds = 12\ndisplacement = 1")),
               HasSubstr("stop.displacement"));
+}
+
+TEST_F(Resume, RefusesResultsWithoutTheirHistory) {
+  const std::string more = replaced(strip, "broken_bonds = 12", "broken_bonds = 25");
+  run(strip);
+  std::filesystem::remove(work_ / "history.csv");
+  for (const std::string& text : {strip, more}) {
+    EXPECT_THAT(refusal(text), HasSubstr("history.csv: is missing")) << text;
+    EXPECT_THAT(refusal(text), HasSubstr("begin it again with --force"));
+  }
+}
+
+/// A mesh may move; its contents may not change.
+TEST_F(Resume, ComparesTheContentsOfMeshes) {
+  const auto place_mesh = [&](const char* name, const std::string& text) {
+    write_whole_file((work_ / name).string(), text);
+    return fmt::format(
+        "[body]\nproblem = \"plane_stress\"\nmesh = \"{}\"\nhorizon = 2\n"
+        "[[regions]]\nname = \"plate\"\ngroup = \"plate\"\n"
+        "[[regions]]\nname = \"lower\"\ngroup = \"lower\"\n"
+        "[[regions]]\nname = \"top\"\nx = [0, 2]\ny = [2, 2]\n"
+        "[[materials]]\nregion = \"plate\"\nyoungs_modulus = 1\n"
+        "[[supports]]\nregion = \"lower\"\nfix = [\"x\", \"y\"]\n"
+        "[[loads]]\nregion = \"top\"\nforce = [0, 1]\n[analysis]\ntype = \"elastic\"\n",
+        (work_ / name).string());
+  };
+  run(place_mesh("first.msh", test::square_mesh));
+  const std::string moved = place_mesh("second.msh", test::square_mesh);
+  std::filesystem::remove(work_ / "first.msh");
+  EXPECT_TRUE(find_results(parse_case(moved, "strip.toml"), work_.path()).is_finished);
+  const std::string other = replaced(test::square_mesh, "0.5 1 0", "0.6 1 0");
+  EXPECT_THAT(refusal(place_mesh("second.msh", other)), HasSubstr("`mesh = \"checksum "));
 }
 
 TEST_F(Resume, RefusesAnotherModel) {

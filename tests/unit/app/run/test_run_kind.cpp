@@ -45,7 +45,7 @@ TEST(RunKind, StandsInTheFrameOfAllSummaries) {
       {"reason", "the body \"separated\""},
       {"own", 1.5},
       {"notes", {"known early", "known late"}},
-      {"doubts", {"a doubt"}},
+      {"warnings", {"a doubt"}},
       {"seconds", {{"set_up", 0.25}, {"analysis", 0.5}, {"output", 0.75}, {"solve", 0.125}}},
       {"peak_memory_bytes", summary.json["peak_memory_bytes"]},
       {"threads", 3},
@@ -59,7 +59,7 @@ TEST(RunKind, StandsInTheFrameOfAllSummaries) {
             "  time           set-up 0.25 s, analysis 0.50 s (7 per s), output 0.75 s\n"
             "  note           known early\n"
             "  note           known late\n"
-            "  doubt          a doubt\n"
+            "  warning        a doubt\n"
             "  results        results/strip\n");
 }
 
@@ -118,7 +118,7 @@ TEST(RunKind, QuantitiesOfTheFrameAreThoseOfAllKinds) {
                             "bonds",
                             "spacing",
                             "notes",
-                            "doubts",
+                            "warnings",
                             "seconds",
                             "peak_memory_bytes",
                             "threads",

@@ -50,8 +50,9 @@ TEST(ScanPicture, WithoutNumbersTheMembersAreTheAxis) {
   const ScanPlot plot =
       scan_plot(scan_with("a = [\"x\", \"y\"]\n"), with_numbers("peak_load", {1, 2}), "");
   EXPECT_EQ(plot.x_label, "member");
-  ASSERT_EQ(plot.lines.size(), 1u);
-  EXPECT_EQ(plot.lines[0].points[1].x, 2.0);
+  ASSERT_EQ(plot.lines.size(), 2u);
+  EXPECT_EQ(plot.lines[1].name, "a = y");
+  EXPECT_EQ(plot.lines[1].points.at(0).x, 2.0);
 }
 
 TEST(ScanPicture, MembersWithoutResultAreLeftOut) {

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/files.hpp"
+#include "support/temporary_directory.hpp"
+
 namespace perilink {
 namespace {
 
@@ -40,6 +43,21 @@ TEST(ScanTable, IsPrintedWithReasonsAndASummary) {
         "peak_load 3.5 to 3.5; 1.5 s of runs"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
+}
+
+TEST(ScanTable, NamesTheValuesOfAMember) {
+  const test::TemporaryDirectory work;
+  write_whole_file((work / "scan.csv").string(),
+                   scan_table(parse_scan(three_runs, ""), three_results()));
+  std::filesystem::create_directories(work / "0001");
+  EXPECT_EQ(scanned_values(work / "0001"), "spacing = 2");
+  EXPECT_EQ(scanned_values(work / "0002/"), "spacing = 1, title = b, c");
+  EXPECT_EQ(scanned_values(work / "0009"), "");
+  EXPECT_EQ(scanned_values(work.path()), "");
+  const ScanFile alike =
+      parse_scan("case = \"a.toml\"\n[values]\na.x = [1]\nb.x = [\"say \\\"so\\\"\"]\n", "");
+  write_whole_file((work / "scan.csv").string(), scan_table(alike, std::vector<ScanResult>(1)));
+  EXPECT_EQ(scanned_values(work / "0001"), "a.x = 1, b.x = say \"so\"");
 }
 
 /// Values 2, 4, 6: mean 4, deviation sqrt(8 / 2) = 2.

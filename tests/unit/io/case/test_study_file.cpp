@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(
                          "reference = \"extrapolated\"\n",
                      "error.reference", "needs three"},
         StudyRefusal{"oneFormula", head + vary + "[error]\ndisplacement = [\"x\"]\n",
-                     "error.displacement", "has 1 formulas"},
+                     "error.displacement", "has 1 formula"},
         StudyRefusal{"emptyFormula", head + vary + "[error]\ndisplacement = [\"x\", \"\"]\n",
                      "error.displacement", "nothing at character 1"},
         StudyRefusal{"badFormula", head + vary + "[error]\ndisplacement = [\"x\", \"sinus(y)\"]\n",

@@ -162,7 +162,7 @@ TEST(LatticeModel, SolvesBodiesInSpace) {
 TEST(LatticeModel, RefusesBodiesThatNothingHolds) {
   const std::string strip = elastic(test::lattice_strip_case());
   EXPECT_THAT(model_message(replaced(strip, "fix = [\"x\", \"y\"]", "fix = [\"x\"]")),
-              HasSubstr("1 of the 3 rigid-body modes of the body are free"));
+              HasSubstr("1 of the 3 rigid-body modes of the body is free"));
   EXPECT_THAT(model_message(replaced(strip, "x = [1.9, 2]", "x = [1.93, 1.94]")),
               HasSubstr("no particle lies in the region \"right side\""));
 }

@@ -102,7 +102,7 @@ TEST_F(MeshInput, BoxesHoldMaterialsToo) {
   const Body body = read_mesh_body(input, 2, notes);
   EXPECT_EQ(body.cells.size(), 3);  // the centre of the right triangle is at 1.5
   EXPECT_THAT(body.particles.material, Each(0));
-  EXPECT_THAT(notes, ElementsAre("1 of the 4 cells of the mesh have no material and are left out"));
+  EXPECT_THAT(notes, ElementsAre("left out: 1 of the 4 cells of the mesh, without material"));
 }
 
 TEST_F(MeshInput, RefusesWhatTheMeshLacks) {

@@ -31,8 +31,14 @@ TEST(SeparatedBody, IsRefusedWhereTheLoadsPullItApart) {
   }
 }
 
-TEST(SeparatedBody, IsToldOfWhereTheyPressItTogether) {
+TEST(SeparatedBody, IsRefusedWhereItSlides) {
   const CaseFile input = cracked_strip(-10.0, -12.0);
+  EXPECT_THROW(note_of_separated_body(input, draft_model(input), 1), InputError);
+}
+
+TEST(SeparatedBody, IsToldOfWhereTheyPressItTogether) {
+  CaseFile input = cracked_strip(-10.0, -12.0);
+  input.supports.push_back({"upper end", {true}});
   const auto note = note_of_separated_body(input, draft_model(input), 1);
   ASSERT_TRUE(note);
   EXPECT_THAT(*note, testing::HasSubstr("only their closed faces hold it"));

@@ -14,6 +14,7 @@
 #include "analysis/dynamics/bonds/runs/rest_sums.hpp"
 #include "analysis/dynamics/bonds/runs/separation.hpp"
 #include "base/memory.hpp"
+#include "base/plain_text.hpp"
 #include "base/thread_choice.hpp"
 
 namespace perilink {
@@ -326,7 +327,7 @@ class Relaxation {
 
   void note_end() {
     const std::size_t steps = options_.load_factors.size();
-    result_.reason = fmt::format("{} load step{} converged", steps, steps == 1 ? "" : "s");
+    result_.reason = counted(steps, "load step") + " converged";
     result_.residual = largest_residual_;
     result_.error = largest_error_;
     observer_.on_end(record_, state());

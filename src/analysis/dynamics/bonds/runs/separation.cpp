@@ -53,9 +53,9 @@ std::string Separation::examine(Secants secants, double fractured, bool is_loade
     for (const std::vector<double>& motion : free_motions(network, piece, resisted_)) {
       const double pull = std::inner_product(motion.begin(), motion.end(), forces.begin(), 0.0);
       if (std::abs(pull) <= least) continue;
-      return fmt::format(
-          "the body is in pieces, and the loads pull away the piece of {} particles at ({})",
-          piece.particles.size(), joined(network.particles.position(piece.particles.front())));
+      return fmt::format("the body is in pieces, and the loads pull away the piece of {} at ({})",
+                         counted(piece.particles.size(), "particle"),
+                         joined(network.particles.position(piece.particles.front())));
     }
   }
   if (!(largest_ > 0.0)) return "";

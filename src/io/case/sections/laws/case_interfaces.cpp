@@ -1,6 +1,7 @@
 // [[interfaces]] of a case.
 
 #include "io/case/sections/laws/case_interfaces.hpp"
+#include "base/plain_text.hpp"
 
 #include <fmt/format.h>
 
@@ -15,7 +16,7 @@ InterfaceSection read_interface(const CaseTable& table, int dim) {
   table.need_one_of({"between", key, "group"});
   assign(section.between, table.texts("between"));
   if (table.has("between") && section.between.size() != 2) {
-    table.refuse("between", fmt::format("names {} regions", section.between.size()),
+    table.refuse("between", "names " + counted(section.between.size(), "region"),
                  "name the two on either side of the face: [\"plate\", \"patch\"]");
   }
   if (section.between.size() == 2 && section.between[0] == section.between[1]) {

@@ -120,6 +120,18 @@ TEST(FrameLimitSearch, BondsThatCrushHaveALimitInEachSense) {
   EXPECT_EQ(search.find(pushed, 0.0, 1).element, no_index) << "broken";
 }
 
+/// An axial stretch of 3e-6 of the limit, beside shear of eight times the limit: at given loads the
+/// bond is in tension, as CrossingSearch says. At load factor 1 the limit is no measure.
+TEST(FrameLimitSearch, AtLoadsTensionIsMeasuredByTheLimit) {
+  const Network network = single_frame(2, {1.0, 0.0}, 2.0, 2.0);
+  for (const auto& [extension, element] : {std::pair{3e-9, Index{0}}, {0.5e-9, no_index}}) {
+    const std::vector<double> u = {0, 0, 0, extension, 8e-3, 0};
+    FrameLimitSearch at_loads(network, true), at_one(network);
+    EXPECT_EQ(at_loads.find(u, tie_tolerance, 1).element, element) << extension;
+    EXPECT_EQ(at_one.find(u, tie_tolerance, 1).element, no_index) << extension;
+  }
+}
+
 /// The calibrated stiffness of a bond does not change the weights of shear and bending.
 TEST(FrameLimitSearch, BendingOfCalibratedBondsCountsByItsOwnRatio) {
   Network network = single_frame(2, {1.0, 0.0}, 0.02 * 2.0, 1.7 * 3.0);

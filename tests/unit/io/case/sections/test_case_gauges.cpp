@@ -50,7 +50,7 @@ TEST(CaseGauges, RefuseWhatCannotBeMeasured) {
   EXPECT_THAT(message_of(with_gauge("name = \"a\"\nat = [0, 0]\nstress = \"yx\"\n")),
               HasSubstr("Allowed: xx, yy, xy"));
   EXPECT_THAT(message_of(with_gauge("name = \"a\"\nbetween = [[0, 0]]\n")),
-              HasSubstr("holds 1 points"));
+              HasSubstr("holds 1 point"));
   EXPECT_THAT(message_of(with_gauge("name = \"a\"\nbetween = [[0, 0], [1, 1]]\nstress = \"xx\"\n")),
               HasSubstr("measure a stress `at` a point"));
   EXPECT_THAT(message_of(with_gauge("name = \"a\"\nregion = \"blok\"\naxis = \"x\"\n")),
