@@ -187,7 +187,7 @@ TEST_F(UnstructuredBody, FillsBodiesInSpace) {
   }
   EXPECT_GT(on_ball, 40);
   EXPECT_GT(on_base, 60);
-  EXPECT_NEAR(body.lattice.spacing, 0.125, 0.1 * 0.125);  // bodies of eight spacings are coarse
+  EXPECT_NEAR(body.lattice.spacing, 0.125, 0.15 * 0.125);  // coarse: finer beside curved faces
 }
 
 TEST_F(UnstructuredBody, DependsOnTheSeedOnly) {
