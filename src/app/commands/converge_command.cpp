@@ -18,7 +18,7 @@
 #include "base/files.hpp"
 #include "base/plain_text.hpp"
 #include "io/case/case_settings.hpp"
-#include "model/body/cells/mesh_input.hpp"
+#include "model/body/mesh_input.hpp"
 #include "results/result_directory.hpp"
 
 namespace perilink {

@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 #include "io/case/case_file.hpp"
-#include "model/body/cells/mesh_input.hpp"
+#include "model/body/mesh_input.hpp"
 #include "results/result_directory.hpp"
 #include "results/summary_file.hpp"
 

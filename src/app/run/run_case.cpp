@@ -14,7 +14,7 @@
 #include "base/memory.hpp"
 #include "base/plain_text.hpp"
 #include "base/timer.hpp"
-#include "model/body/cells/mesh_input.hpp"
+#include "model/body/mesh_input.hpp"
 #include "results/result_directory.hpp"
 #include "results/summary_file.hpp"
 

@@ -13,7 +13,7 @@
 #include "app/run/run_files.hpp"
 #include "app/run/summary.hpp"
 #include "base/timer.hpp"
-#include "model/body/cells/mesh_input.hpp"
+#include "model/body/mesh_input.hpp"
 #include "model/from_case/configure.hpp"
 #include "model/reactions.hpp"
 

@@ -20,7 +20,6 @@ constexpr std::string_view only_lattices =
     "is given, but only bodies with model = \"lattice\" have it";
 
 constexpr std::string_view flat_instead = "delete it, or choose another problem in [body]";
-
 constexpr std::string_view damage_instead = "delete it, or set type = \"damage\" in [analysis]";
 
 constexpr Kinds bonds = bond_based | micropolar;
@@ -65,8 +64,6 @@ const Without torsion = {
 };
 const Without lattices = {{bonds | particles | elements, "is given, but model is \"{model}\"",
                            "delete it, or set model = \"lattice\""}};
-
-const Without seeds = {of_beams, on_lattice};
 
 /// Methods, models and types of analysis that a kind of body excludes.
 const Without methods = {
@@ -228,7 +225,7 @@ const std::vector<KeySchema> body_keys = {
     {"mesh_size", in_beams},
     {"mesh_scale", in_beams},
     {"pattern", in_beams},
-    {"seed", seeds},
+    {"seed", {of_beams, on_lattice}},
     {"surface", neighbourhoods},
     {"columns", {on_lattice}},
     "spacing",

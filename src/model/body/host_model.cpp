@@ -13,7 +13,7 @@
 #include "discretization/cuts/cracks.hpp"
 #include "discretization/lattices/triangulate.hpp"
 #include "discretization/neighbor_search.hpp"
-#include "model/body/cells/mesh_input.hpp"
+#include "model/body/mesh_input.hpp"
 #include "model/model_regions.hpp"
 #include "network/builder/tied_cells.hpp"
 

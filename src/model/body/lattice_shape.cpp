@@ -10,7 +10,7 @@
 #include "base/error.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/text/toml_tree.hpp"
-#include "model/body/cells/mesh_input.hpp"
+#include "model/body/mesh_input.hpp"
 
 namespace perilink {
 namespace {

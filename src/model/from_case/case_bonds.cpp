@@ -14,7 +14,7 @@
 #include "io/case/sections/laws/case_random.hpp"
 #include "io/case/sections/laws/case_softening.hpp"
 #include "model/body/bar_layout.hpp"
-#include "model/body/cells/mesh_input.hpp"
+#include "model/body/mesh_input.hpp"
 #include "model/body/fracture_rule.hpp"
 #include "model/body/groups/drawn_groups.hpp"
 #include "model/body/horizon_limits.hpp"

@@ -11,8 +11,8 @@
 #include "discretization/lattices/triangulate.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_unused.hpp"
-#include "model/body/cells/mesh_input.hpp"
-#include "model/body/cells/unstructured_body.hpp"
+#include "model/body/mesh_input.hpp"
+#include "model/from_case/unstructured_body.hpp"
 #include "model/body/element_model.hpp"
 #include "model/body/horizon_limits.hpp"
 #include "model/body/host_model.hpp"
@@ -21,6 +21,7 @@
 #include "model/body/solid_boxes.hpp"
 #include "model/conditions/boundary_conditions.hpp"
 #include "model/from_case/case_bonds.hpp"
+#include "model/from_case/unstructured_body.hpp"
 #include "model/gauges.hpp"
 #include "model/surface_of_case.hpp"
 

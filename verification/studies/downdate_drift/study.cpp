@@ -43,7 +43,7 @@ bool run_study(const std::string& surface) {
   fmt::print("{} unknowns, {} bonds\n", model.unknowns.count, model.network.num_elements());
   table += "downdates,residual,error,factor_error\n";
   fmt::print("{}", table);
-  for (const Drift& d : measure_drift(model, 20000, 2500)) {
+  for (const auto& d : measure_drift(model, 20000, 2500)) {
     const std::string row =
         fmt::format("{},{:.2e},{:.2e},{:.2e}\n", d.downdates, d.residual, d.error, d.factor_error);
     fmt::print("{}", row);

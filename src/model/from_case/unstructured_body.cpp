@@ -1,4 +1,4 @@
-#include "model/body/cells/unstructured_body.hpp"
+#include "model/from_case/unstructured_body.hpp"
 
 #include <fmt/format.h>
 
@@ -28,7 +28,7 @@ namespace perilink {
 namespace {
 
 /// Cell size over the mean distance of neighbours that it gives, in the plane and in space.
-constexpr std::array<double, 2> size_of_cells = {1.0, 1.0};
+constexpr std::array<double, 2> size_of_cells = {1.0, 0.78};
 
 /// Variation of the cell size between the corners of the body: other meshes of another seed.
 constexpr double variation_of_sizes = 0.05;

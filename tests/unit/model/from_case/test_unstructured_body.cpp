@@ -1,4 +1,4 @@
-#include "model/body/cells/unstructured_body.hpp"
+#include "model/from_case/unstructured_body.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -143,7 +143,7 @@ TEST_F(UnstructuredBody, FillsThePlateUpToItsFaces) {
     EXPECT_TRUE(found) << x << ", " << y;
   }
   const std::vector<double> edges = edges_of(body.cells, particles).lengths;
-  EXPECT_GT(*std::min_element(edges.begin(), edges.end()), 0.4 * 0.05);
+  EXPECT_GT(*std::min_element(edges.begin(), edges.end()), 0.35 * 0.05);
   EXPECT_LT(*std::max_element(edges.begin(), edges.end()), 1.8 * 0.05);
 }
 
@@ -187,7 +187,7 @@ TEST_F(UnstructuredBody, FillsBodiesInSpace) {
   }
   EXPECT_GT(on_ball, 40);
   EXPECT_GT(on_base, 60);
-  EXPECT_NEAR(body.lattice.spacing, 0.125, 0.1 * 0.125);  // bodies of eight spacings are coarse
+  EXPECT_NEAR(body.lattice.spacing, 0.125, 0.15 * 0.125);  // coarse: finer beside curved faces
 }
 
 TEST_F(UnstructuredBody, DependsOnTheSeedOnly) {
@@ -255,8 +255,10 @@ TEST_F(UnstructuredBody, RefusesWhatTheSpacingCannotResolve) {
       refusal(replaced(plate_text, "spacing = 0.05", "spacing = 0.25")),
       HasSubstr("materials[1].holes: is \"hole\", whose radius 0.2 is less than the spacing "
                 "0.25"));
-  EXPECT_THAT(refusal(replaced(plate_text, "center = [1.5, 0.5]", "center = [1.699, 0.5]")),
-              HasSubstr("body.spacing: is 0.05, but faces of regions are only 0.001 apart at ("));
+  EXPECT_THAT(
+      refusal(replaced(plate_text, "center = [1.5, 0.5]", "center = [1.699, 0.5]")),
+      HasSubstr(
+          "body.spacing: is 0.05, but faces of regions are only 0.00101 apart at (1.999, 0.5)"));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "model/body/cells/mesh_input.hpp"
+#include "model/body/mesh_input.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
