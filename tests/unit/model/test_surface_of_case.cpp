@@ -38,7 +38,7 @@ TEST(SurfaceOfCase, KnowsNormalsLoadsAndSupports) {
 }
 
 TEST(SurfaceOfCase, CountsLoadsOfLaterStagesAndBars) {
-  CaseFile input = parse_case(std::string(test::strip_text) + R"(
+  CaseFile input = parse_case(std::string(test::strip_text) + R"(stage = "first"
 [[stages]]
 name = "first"
 to = 1
