@@ -38,7 +38,7 @@ TEST(SurfaceOfCase, KnowsNormalsLoadsAndSupports) {
 }
 
 TEST(SurfaceOfCase, CountsLoadsOfLaterStagesAndBars) {
-  CaseFile input = parse_case(std::string(test::strip_text) + R"(
+  CaseFile input = parse_case(std::string(test::strip_text) + R"(stage = "first"
 [[stages]]
 name = "first"
 to = 1
@@ -61,7 +61,7 @@ yield_strength = 60
 )",
                               "strip.toml");
   const Model model = build_model(input);
-  EXPECT_EQ(model.surface_conditions.unloaded[particle_at(model, 30, 40)], 2);
+  EXPECT_EQ(model.surface_conditions.unloaded[particle_at(model, 40, 40)], 2);
   EXPECT_EQ(model.surface_conditions.unloaded[particle_at(model, 10, 30)], 0);
   EXPECT_EQ(model.surface_conditions.unloaded[particle_at(model, 40, 50)], 3);
 }
