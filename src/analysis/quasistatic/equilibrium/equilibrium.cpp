@@ -132,7 +132,7 @@ std::span<const double> Equilibrium::displacement(std::span<const double> earlie
   if (earlier.empty()) return solution_.growing().displacement();
   const bool may_lack =
       update_->can_follow_a_part() && !work_.is_driven() && solution_.permanent() == nullptr;
-  return may_lack ? solution_.growing().completed(earlier, secants, tolerance_) : earlier;
+  return may_lack ? solution_.growing().displacement(earlier, secants, tolerance_) : earlier;
 }
 
 LoadWork Equilibrium::work() {

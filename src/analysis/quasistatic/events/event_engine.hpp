@@ -46,7 +46,8 @@ class EventEngine {
   /// Returns the displacements of all particles in equilibrium at load factor 1, shape (particles,
   /// width). They include rotations and prescribed displacements.
   /// \param earlier  displacements of an earlier state that were current wherever an element can
-  ///                 fail: these, current everywhere; not in runs by stages. Empty: the present state
+  ///                 fail: these, current everywhere; not in runs by stages. Empty: the present
+  ///                 state
   /// \param secants  of the earlier state
   virtual std::span<const double> displacement(std::span<const double> earlier = {},
                                                Secants secants = {}) = 0;

@@ -14,20 +14,19 @@ GrowingLoad::GrowingLoad(const DamagedBody& body, Update& update, const Loads& l
 }
 
 /// Observers must not change the run, so missing displacements are solved for separately.
-std::span<const double> GrowingLoad::displacement() {
-  if (!stale_) return field_.displacement;
-  std::vector<double> all = field_.load(body_, body_.unknowns(), *loads_);
-  update_.inverse().solve(all, all);
-  everywhere_ = body_.unknowns().expand(all);
-  return everywhere_;
-}
-
 /// Displacements of an earlier state are wrong only away from elements that can fail, where the
 /// stiffness never changes. The residual of that state therefore gives the correction with any
 /// later K^-1.
-std::span<const double> GrowingLoad::completed(std::span<const double> earlier, Secants secants,
-                                               double tolerance) {
+std::span<const double> GrowingLoad::displacement(std::span<const double> earlier, Secants secants,
+                                                  double tolerance) {
   const Unknowns& unknowns = body_.unknowns();
+  if (earlier.empty()) {
+    if (!stale_) return field_.displacement;
+    std::vector<double> all = field_.load(body_, unknowns, *loads_);
+    update_.inverse().solve(all, all);
+    everywhere_ = unknowns.expand(all);
+    return everywhere_;
+  }
   std::vector<double> forces = internal_force(body_.network(), secants, earlier).forces;
   for (std::size_t slot = 0; slot < forces.size(); ++slot) {
     forces[slot] = loads_->forces[slot] - forces[slot];

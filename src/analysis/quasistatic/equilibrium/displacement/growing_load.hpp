@@ -22,13 +22,12 @@ class GrowingLoad {
   /// belong to an earlier event.
   const Field& field() const { return field_; }
   /// Returns displacements that are current everywhere. Costs a solve if some are not.
-  std::span<const double> displacement();
-  /// Returns displacements of an earlier state that events kept current in a part, current
-  /// everywhere.
-  /// \param secants    of that state
-  /// \param tolerance  residual over the load below which they are current already
-  std::span<const double> completed(std::span<const double> earlier, Secants secants,
-                                    double tolerance);
+  /// \param earlier    displacements of an earlier state that events kept current in a part; empty:
+  ///                   those of the present state
+  /// \param secants    of the earlier state
+  /// \param tolerance  residual over the load below which the earlier ones are current
+  std::span<const double> displacement(std::span<const double> earlier = {}, Secants secants = {},
+                                       double tolerance = 0.0);
   /// Returns whether all displacements are current.
   bool is_current() const { return !stale_; }
   /// Returns whether events keep all displacements current.
