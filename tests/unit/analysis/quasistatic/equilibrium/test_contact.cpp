@@ -12,8 +12,8 @@ namespace {
 
 using namespace test;
 
-/// Two bonds of stiffness 2 in series under the force 1; the first keeps half of its stiffness when
-/// it is open, so that it extends by 1.
+/// Two chains of two bonds of stiffness 2 under the force 1. The first bond keeps half of its
+/// stiffness when it is open, so that it extends by 1.
 class ContactOfAChain : public testing::Test {
  protected:
   ContactOfAChain() : problem_(chain()), body_(problem_, problem_.unknowns, nullptr) {
@@ -23,7 +23,7 @@ class ContactOfAChain : public testing::Test {
   }
 
   static AnalysisBody chain() {
-    AnalysisBody body = make_chains(2, 1, false, 2.0, 0.01);
+    AnalysisBody body = make_chains(2, 2, false, 2.0, 0.01);
     body.network.laws.front() = three_segments().closing();
     return body;
   }
@@ -61,7 +61,7 @@ TEST_F(ContactOfAChain, OpenInCompressionIsViolatedUnlessASpringHoldsIt) {
   for (double& force : problem_.loads.forces) force = -force;
   solve(problem_);
   EXPECT_EQ(Contact(*solution_).violated({}), std::vector<Index>{bond_});
-  body_.add_ground_spring(0, 1.0);
+  body_.add_ground_spring(problem_.unknowns.at(problem_.network.bonds.second[bond_], 0), 1.0);
   EXPECT_TRUE(Contact(*solution_).violated({}).empty());
 }
 
