@@ -78,7 +78,7 @@ inline std::string notched_bar_case(const std::string& solver, double tolerance)
          "fracture_energy = \"infinite\"\n"
          "[[materials]]\nregion = \"middle\"\nyoungs_modulus = 30000\nfracture_energy = 0.05\n"
          "tensile_strength = 3.0\nsoftening = \"linear\"\n"
-         "[[cracks]]\n"
+         "[[cracks]]\nclosing = false\n"
          "corners = [[31.2, -1, -1], [31.2, -1, 25], [31.2, 7, 25], [31.2, 7, -1]]\n"
          "[[supports]]\nregion = \"left\"\nfix = [\"x\", \"y\", \"z\"]\n"
          "[[displacements]]\nregion = \"right\"\nx = 0.02\ny = 0\nz = 0\n" +
