@@ -190,7 +190,8 @@ TEST_F(StudyRun, RefinementsThatTheBodyCannotHaveAreRefusedOnce) {
   };
   const StudyFile sizes = study_of("mesh_size = [2, 1]\n", energy + "1\n");
   expect(sizes, "refine with `spacing`");
-  expect(study_of("mesh = [\"a.msh\", \"b.msh\"]\n", energy + "1\n"), "the body of the case has no mesh");
+  expect(study_of("mesh = [\"a.msh\", \"b.msh\"]\n", energy + "1\n"),
+         "the body of the case has no mesh");
   input.body.mesh = "plate.msh";
   expect(study_of("columns = [2, 4]\n", energy + "1\n"), "refine with `mesh`, a list of meshes");
   expect(sizes, "\"plate.msh\", is a mesh file, not a geometry");
