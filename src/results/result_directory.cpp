@@ -36,10 +36,12 @@ bool is_result_file(const std::string& name) {
 }
 
 /// Returns the rank of a file in the order of removal. Files that refer to others are removed
-/// first, so that an interrupted removal leaves no dangling summary or list.
+/// first, so that an interrupted removal leaves no dangling summary or list. The case, by which a
+/// run is known, is removed last, so that the next run can go on with the removal.
 int rank_of_removal(const fs::path& file) {
   const std::string name = file.filename().string();
   if (name == "summary.json" || name == "checkpoint.bin") return 0;
+  if (name == "case.toml") return 3;
   return name == "fields.pvd" ? 1 : 2;
 }
 
