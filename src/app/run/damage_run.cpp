@@ -48,7 +48,7 @@ DamageRun::DamageRun(const CaseFile& of_case, int on_threads, const RunCallbacks
   };
   mark_broken();
   if (const auto note = note_of_separated_body(input, model_, threads)) notes.push_back(*note);
-  if (const auto note = text_of_contacts(input, model_)) notes.push_back(*note);
+  if (const auto note = text_of_contacts(model_, options_.engine)) notes.push_back(*note);
   plan += ", " + counted(model_.unknowns.count, "unknown");
   places_held_ = support_regions(input, model_);
   for (const StageSection& stage : input.stages) {

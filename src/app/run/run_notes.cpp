@@ -31,12 +31,12 @@ std::optional<std::string> note_of_clamps(const Model& model, std::span<const In
       at_clamp, counted(broken.size(), "broken bond ends", "broken bonds end"));
 }
 
-std::optional<std::string> text_of_contacts(const CaseFile& input, const Model& model) {
-  constexpr Index large = 15000;  // unknowns from which conjugate gradients follow batches
+std::optional<std::string> text_of_contacts(const Model& model, const EquilibriumOptions& options) {
   if (model.network.num_contacts == 0 || model.network.dim() == 2) return std::nullopt;
-  if (model.unknowns.count < large || input.analysis.solver != LinearSolver::automatic) {
+  if (options.solver != LinearSolver::automatic || !(options.event_tolerance > 0.0)) {
     return std::nullopt;
   }
+  if (model.unknowns.count < fewest_for_subdomains) return std::nullopt;
   return "the faces of pre-cracks may close, which needs the direct solver: closing = false in "
          "[[cracks]], for notches that stay open, allows conjugate gradients with less memory";
 }

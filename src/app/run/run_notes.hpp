@@ -15,7 +15,7 @@ namespace perilink {
 std::optional<std::string> note_of_clamps(const Model& model, std::span<const Index> broken);
 
 /// Returns a note where contact springs keep a large body in space from conjugate gradients.
-std::optional<std::string> text_of_contacts(const CaseFile& input, const Model& model);
+std::optional<std::string> text_of_contacts(const Model& model, const EquilibriumOptions& options);
 
 /// Returns a text on the peaks where the load rose above its first peak after the body had failed.
 /// It is a warning; with bars a note.

@@ -6,13 +6,6 @@
 #include "analysis/quasistatic/equilibrium/update/factor_update.hpp"
 
 namespace perilink {
-namespace {
-
-/// Unknowns of a three-dimensional body above which conjugate gradients with subdomains follow a
-/// batch faster than a factor (docs/theory/large_bodies.md, section 5).
-constexpr Index fewest_for_subdomains = 15000;
-
-}  // namespace
 
 bool is_followed_by_subdomains(const LoadedNetwork& problem, const EquilibriumOptions& options) {
   if (options.solver != LinearSolver::automatic) return options.solver == LinearSolver::iterative;

@@ -22,6 +22,10 @@ struct EquilibriumOptions {
   double event_tolerance = 0.0;
 };
 
+/// Unknowns of a three-dimensional body above which conjugate gradients with subdomains follow a
+/// batch faster than a factor (docs/theory/large_bodies.md, section 5).
+inline constexpr Index fewest_for_subdomains = 15000;
+
 /// Returns whether conjugate gradients replace a factor that follows every event. They do if the
 /// options ask for them, and for batches in large three-dimensional bodies
 /// (docs/theory/large_bodies.md, section 5).
