@@ -47,8 +47,8 @@ inline CaseFile read_case(const std::string& path) { return read_case_file(path)
 
 /// Builds particles, bonds, supports and loads of a case.
 /// \throws InputError where the case does not fit its body
-inline Model build(const CaseFile& input, const CalibrationObserver& on_calibration = {}) {
-  return build_model(input, on_calibration);
+inline Model build(const CaseFile& input, const CalibrationCalls& calibration = {}) {
+  return build_model(input, calibration);
 }
 
 /// Solves for the elastic equilibrium at load factor 1, whatever the analysis type of the case.

@@ -104,6 +104,10 @@ const CLI::App* add_run_command(CLI::App& app, RunOptions& options) {
           "--resume", [&options] { options.old_results = OldResults::kept; },
           "Go on from the last checkpoint of the results, or begin where there are none")
       ->excludes("--force");
+  command->add_option(
+      "--calibrations", options.calibrations,
+      "Keep the calibration of the bonds in this directory, and take it from there: "
+      "runs that differ in strengths and loads share it");
   return command;
 }
 

@@ -38,6 +38,14 @@ struct CalibrationInput {
 /// of the previous one (see CalibrationReport).
 using CalibrationObserver = std::function<void(int search, double unbalanced)>;
 
+class CalibrationStore;
+
+/// What the calibration of a model calls.
+struct CalibrationCalls {
+  CalibrationObserver on_search = {};  ///< may be empty
+  CalibrationStore* store = nullptr;   ///< see calibrate_once()
+};
+
 struct CalibrationOptions {
   double least_weight = 0.02;     ///< relative to the start
   double tolerance = 1e-12;       ///< root mean square of the unbalanced forces (see below)

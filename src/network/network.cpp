@@ -1,5 +1,7 @@
 #include "network/network.hpp"
 
+#include "network/element_columns.hpp"
+
 namespace perilink {
 
 void keep_elements(Network& network, std::span<const std::uint8_t> keep) {
@@ -11,12 +13,7 @@ void keep_elements(Network& network, std::span<const std::uint8_t> keep) {
     }
     values.resize(next);
   };
-  for (std::vector<double>* values : {&network.stiffness, &network.bending, &network.bending_ratio,
-                                      &network.inflection, &network.critical_stretch}) {
-    keep_values(*values);
-  }
-  keep_values(network.law_of);
-  keep_values(network.hinged);
+  for_each_element_column([&](auto list, auto) { keep_values(list(network)); });
   keep_values(network.materials_of);
 }
 

@@ -103,8 +103,7 @@ struct NetworkInput {
   std::vector<RandomStrength> random;     ///< no two have a property of a material in common
   std::vector<RebarLine> bars;
   std::vector<BarMaterial> bar_materials;  ///< per bar
-  CalibrationObserver on_search;           ///< receives the progress of the calibration; may be
-                                           ///< empty
+  CalibrationCalls calibration;
   /// Bonds stay uncalibrated if the symmetry-reduced equations have no solution.
   bool only_alike = false;
   bool draft = false;  ///< uncalibrated model: shows results that do not depend on the calibration

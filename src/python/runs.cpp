@@ -1,8 +1,10 @@
 #include <pybind11/stl.h>
 
 #include <exception>
+#include <optional>
 #include <string>
 
+#include "app/run/calibration_files.hpp"
 #include "perilink.hpp"
 #include "python/bindings.hpp"
 #include "python/python_caller.hpp"
@@ -13,7 +15,8 @@ namespace {
 
 namespace py = pybind11;
 py::tuple run(const CaseFile& input, const std::string& directory, int threads,
-              OldResults old_results, py::object progress) {
+              OldResults old_results, py::object progress,
+              const std::optional<std::string>& calibrations) {
   PythonCaller caller(std::move(progress));
   RunEnd end;
   {
@@ -23,6 +26,8 @@ py::tuple run(const CaseFile& input, const std::string& directory, int threads,
     settings.callbacks.stop_requested = [&] { return caller.stop_requested(); };
     settings.callbacks.on_row = [&](const RowProgress& row) { caller.on_row(row); };
     settings.callbacks.on_calibration = [&](int, double) { caller.raise_if_stopped(); };
+    std::optional<CalibrationFiles> files;
+    if (calibrations) settings.callbacks.calibrations = &files.emplace(*calibrations);
     end = run_case(input, directory, settings);
   }
   caller.raise();
@@ -95,7 +100,8 @@ void bind_runs(py::module_& module) {
       .value("removed", OldResults::removed)
       .value("kept", OldResults::kept);
   module.def("run", run, py::arg("case"), py::arg("directory"), py::arg("threads") = 0,
-             py::arg("old_results") = OldResults::refused, py::arg("progress") = py::none());
+             py::arg("old_results") = OldResults::refused, py::arg("progress") = py::none(),
+             py::arg("calibrations") = py::none());
   module.def("refuse_old_results", [](const std::string& directory, bool force) {
     refuse_old_results(directory, force);
   });

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "network/element_columns.hpp"
+
 namespace perilink {
 namespace {
 
@@ -21,13 +23,7 @@ void for_each_member(Part& part, Visit visit) {
   visit(network.bonds.lengths);
   visit(network.bonds.directions);
   visit(network.bonds.kind);
-  visit(network.stiffness);
-  visit(network.bending);
-  visit(network.bending_ratio);
-  visit(network.inflection);
-  visit(network.hinged);
-  visit(network.law_of);
-  visit(network.critical_stretch);
+  for_each_element_column([&](auto list, auto) { visit(list(network)); });
   visit(network.support_stiffness);
   visit(network.first_embedded_slip_spring);
   visit(network.first_bar_element);
@@ -111,13 +107,7 @@ Network cut_network(const Network& network, const std::vector<Index>& elements, 
     own.bonds.lengths = network.bonds.lengths;
     own.bonds.directions = network.bonds.directions;
   }
-  pick(network.stiffness, own.stiffness);
-  pick(network.bending, own.bending);
-  pick(network.bending_ratio, own.bending_ratio);
-  pick(network.inflection, own.inflection);
-  pick(network.hinged, own.hinged);
-  pick(network.law_of, own.law_of);
-  pick(network.critical_stretch, own.critical_stretch);
+  for_each_element_column([&](auto list, auto) { pick(list(network), list(own)); });
   const auto count_before = [&](Index element) {
     return static_cast<Index>(std::ranges::lower_bound(elements, element) - elements.begin());
   };

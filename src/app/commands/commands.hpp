@@ -20,6 +20,7 @@ struct RunOptions {
   OldResults old_results = OldResults::refused;  ///< kept: goes on with results of the same case
   bool trust_geometry = false;                   ///< gmsh scripts may run commands and write files
   std::vector<std::string> settings = {};        ///< KEY=VALUE, other values of keys of the case
+  std::optional<std::string> calibrations = {};  ///< directory of kept calibrations
 };
 
 /// Runs a case, `perilink run`.

@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 
 #include "app/commands/commands.hpp"
 #include "app/process/console.hpp"
 #include "app/process/signals.hpp"
 #include "app/process/threads.hpp"
+#include "app/run/calibration_files.hpp"
 #include "app/run/run_case.hpp"
 #include "io/case/case_settings.hpp"
 #include "results/result_directory.hpp"
@@ -26,6 +28,10 @@ int run_case(const RunOptions& options) {
   settings.callbacks.stop_requested = stop_signal_received;
   settings.callbacks.on_fault = complain;
   if (!options.quiet) settings.callbacks.on_note = complain;
+  std::optional<CalibrationFiles> calibrations;
+  if (options.calibrations) {
+    settings.callbacks.calibrations = &calibrations.emplace(*options.calibrations);
+  }
   CaseFile input = read_case_file(options.case_path, parse_settings(options.settings), {});
   input.trust_geometry = options.trust_geometry;
   const std::filesystem::path directory = options.directory

@@ -36,6 +36,8 @@ struct ScanRun {
   std::vector<std::size_t> to_run;
 
   fs::path place(std::size_t member) const { return directory / member_name(member); }
+  /// Returns the directory of calibrations that members share, which goes when all have ended.
+  fs::path calibrations() const { return directory / "calibrations"; }
 };
 
 /// Refuses common values of keys that the scan varies. \throws InputError
@@ -106,10 +108,16 @@ void keep_results(ScanRun& run, const std::vector<CaseFile>& cases, bool force) 
 std::vector<std::string> words_of_member(const ScanRun& run, std::size_t member,
                                          const RunOptions& options) {
   std::vector<std::string> words = {
-      "run",       run.scan.case_path,
-      "--out",     run.place(member).string(),
-      "--threads", std::to_string(std::max(options.threads, 1)),
-      "--quiet",   options.old_results == OldResults::removed ? "--force" : "--resume"};
+      "run",
+      run.scan.case_path,
+      "--out",
+      run.place(member).string(),
+      "--threads",
+      std::to_string(std::max(options.threads, 1)),
+      "--quiet",
+      options.old_results == OldResults::removed ? "--force" : "--resume",
+      "--calibrations",
+      run.calibrations().string()};
   if (options.trust_geometry) words.emplace_back("--trust-geometry");
   for (const CaseSetting& setting : settings_of(run, member)) {
     words.push_back("--set");
@@ -159,6 +167,8 @@ void run_members_of_scan(ScanRun& run, const RunOptions& options, std::size_t jo
                   static_cast<double>(done) / static_cast<double>(run.to_run.size()));
   }
   progress.finish();
+  std::error_code ignored;
+  if (!stopped) fs::remove_all(run.calibrations(), ignored);
 }
 
 int exit_status_of_scan(const ScanRun& run) {

@@ -27,8 +27,9 @@ struct RunCallbacks {
   /// Returns whether to end the run now and keep its results. Called at every row and time step.
   std::function<bool()> stop_requested;
   std::function<void(const RowProgress&)> on_row;  ///< called after every row of the history
-  CalibrationObserver on_calibration;  ///< called before every solve of the bond calibration
-  std::function<void()> on_start;      ///< called before the first file is written
+  CalibrationObserver on_calibration;        ///< called before every solve of the bond calibration
+  CalibrationStore* calibrations = nullptr;  ///< see calibrate_once()
+  std::function<void()> on_start;            ///< called before the first file is written
   std::function<void(const std::string&)> on_fault;  ///< receives errors when they happen
   std::function<void(const std::string&)> on_note;   ///< receives where a resumed run goes on
 

@@ -120,10 +120,11 @@ Summary summary_of(RunKind& run, const std::filesystem::path& directory) {
 
 Model build_model_visibly(const CaseFile& input, const RunCallbacks& calls) {
   CalibrationProgress progress(calls.quiet);
-  return build_model(input, [&](int search, double unbalanced) {
+  const auto on_search = [&](int search, double unbalanced) {
     progress.update(search, unbalanced);
     if (calls.on_calibration) calls.on_calibration(search, unbalanced);
-  });
+  };
+  return build_model(input, {on_search, calls.calibrations});
 }
 
 }  // namespace perilink

@@ -127,7 +127,7 @@ Repeat run_once(const StudyFile& study, const std::vector<TomlValue>& keys, int 
   Timer timer;
   repeat.input = read_case_file(study.case_path, study.settings, keys);
   repeat.input.trust_geometry = study.trust_geometry;
-  repeat.model = build_model(repeat.input, on_search);
+  repeat.model = build_model(repeat.input, {on_search});
   repeat.seconds.set_up = timer.seconds();
   if (repeat.model.network.calibration) {
     repeat.seconds.calibration = repeat.model.network.calibration->seconds;

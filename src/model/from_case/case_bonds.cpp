@@ -202,7 +202,7 @@ void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, 
   model.entry_of_crack = std::move(drawn.entry);
   NetworkInput network = network_input(input, model, bars);
   add_slits(body, network);
-  network.on_search = options.on_search;
+  network.calibration = options.calibration;
   network.interfaces = weak_interfaces(input, body);
   network.draft = network.estimates_cost = options.draft;
   if (body.spans.empty()) refuse_poissons_ratios(input, body, network);

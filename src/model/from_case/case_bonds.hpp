@@ -12,7 +12,7 @@ namespace perilink {
 /// Options for building bonds.
 struct BondOptions {
   bool draft = false;  ///< skips the calibration
-  CalibrationObserver on_search;
+  CalibrationCalls calibration = {};
 };
 
 /// Whether materials differ in an elastic constant. The Poisson's ratio of trusses counts as equal

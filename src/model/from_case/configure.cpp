@@ -207,8 +207,8 @@ Model build_model_with(const CaseFile& input, const BondOptions& options) {
 
 }  // namespace
 
-Model build_model(const CaseFile& input, const CalibrationObserver& on_search) {
-  return build_model_with(input, {false, on_search});
+Model build_model(const CaseFile& input, const CalibrationCalls& calibration) {
+  return build_model_with(input, {false, calibration});
 }
 
 Model draft_model(const CaseFile& input) { return build_model_with(input, {true, {}}); }

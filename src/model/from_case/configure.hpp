@@ -8,10 +8,9 @@
 namespace perilink {
 
 /// Builds the model of a case.
-/// \param on_search  receives the progress of the bond calibration; may be empty
 /// \throws InputError where the case does not fit its body: empty regions, unsupported particles,
 /// free rigid-body modes, contradictory supports
-Model build_model(const CaseFile& input, const CalibrationObserver& on_search = {});
+Model build_model(const CaseFile& input, const CalibrationCalls& calibration = {});
 
 /// Builds the model of a case with uncalibrated bonds, in a small part of the time. Sizes, notes,
 /// supports, loads, gauges and refusals equal those of build_model().

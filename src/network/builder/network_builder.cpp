@@ -24,6 +24,7 @@
 #include "network/builder/softened_bonds.hpp"
 #include "network/builder/tied_cells.hpp"
 #include "network/correction/surface_correction.hpp"
+#include "network/element_columns.hpp"
 #include "network/lattice_neighbourhoods.hpp"
 #include "network/unknowns.hpp"
 #include "network/weak_interfaces.hpp"
@@ -279,7 +280,7 @@ EvenBonds even_bonds(const Body& body, const NetworkInput& input, const Network&
   if (input.interfaces.empty() || !unlike) return {};
   even.interfaces.clear();
   even.cracks.clear();
-  even.on_search = {};
+  even.calibration.on_search = {};
   const PairConstants constants(body, even);
   ClosingCracks none;
   const Network whole = build_bonds_and_cells(body, even, constants, none);
@@ -318,11 +319,7 @@ Network build_network(const Body& body, const NetworkInput& input) {
     soften_bonds(body, input, network);
     weaken_interfaces(body, input, even_bonds(body, input, network), network);
   }
-  for (std::vector<double>* of_slip_springs : {&network.bending, &network.bending_ratio}) {
-    if (!of_slip_springs->empty()) of_slip_springs->resize(network.stiffness.size(), 0.0);
-  }
-  if (!network.inflection.empty()) network.inflection.resize(network.stiffness.size(), 0.5);
-  if (!network.hinged.empty()) network.hinged.resize(network.stiffness.size(), 0);
+  complete_columns(network);  // of slip springs
   if (input.shell) make_shell(input, network);
   share_directions_of_many(input, network.bonds);
   return network;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "network/element_columns.hpp"
 #include "network/lattice_pattern.hpp"
 
 namespace perilink {
@@ -35,8 +36,9 @@ std::optional<LatticePattern> find_pattern(const Body& body, const NetworkInput&
 }
 
 /// Returns the values of the template bonds equivalent to the bonds of the body.
-std::vector<double> repeated(const std::vector<double>& values, std::span<const Index> like) {
-  std::vector<double> result;
+template <class Value>
+std::vector<Value> repeated(const std::vector<Value>& values, std::span<const Index> like) {
+  std::vector<Value> result;
   if (values.empty()) return result;
   result.reserve(like.size());
   for (const Index element : like) result.push_back(values[element]);
@@ -82,10 +84,7 @@ std::optional<Network> repeat_smaller_box(
                                    sample.bonds.kind_of(element));
         like.push_back(element);
       });
-  network.stiffness = repeated(sample.stiffness, like);
-  network.bending = repeated(sample.bending, like);
-  network.bending_ratio = repeated(sample.bending_ratio, like);
-  network.inflection = repeated(sample.inflection, like);
+  for_each_element_column([&](auto list, auto) { list(network) = repeated(list(sample), like); });
   return network;
 }
 

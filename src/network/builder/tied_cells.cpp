@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <utility>
 
 #include "discretization/lattices/triangulate.hpp"
 #include "discretization/meshes/mesh_body.hpp"
+#include "network/element_columns.hpp"
 
 namespace perilink {
 namespace {
@@ -63,14 +63,10 @@ void append_edges(const Bonds& edges, bool elastic, Network& network) {
   for (Index e = 0; e < edges.size(); ++e) {
     network.bonds.append(network.particles, edges.first[e], edges.second[e]);
   }
-  const auto count = static_cast<std::size_t>(network.bonds.size());
+  const std::size_t count = network.bonds.first.size();
   network.stiffness.resize(count, 0.0);
-  if (!elastic) network.critical_stretch.resize(count, std::numeric_limits<double>::infinity());
-  for (std::vector<double>* values : {&network.bending, &network.bending_ratio}) {
-    if (!values->empty()) values->resize(count, 0.0);
-  }
-  if (!network.inflection.empty()) network.inflection.resize(count, 0.5);
-  if (!network.hinged.empty()) network.hinged.resize(count, 0);
+  if (!elastic) network.critical_stretch.resize(count, infinity);
+  complete_columns(network);
 }
 
 }  // namespace

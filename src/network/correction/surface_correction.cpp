@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "base/timer.hpp"
-#include "calibration/calibration.hpp"
 #include "calibration/expected_calibration.hpp"
+#include "calibration/kept_calibration.hpp"
 #include "network/bond_strength.hpp"
 #include "network/correction/layered_body.hpp"
 #include "network/correction/tied_strength.hpp"
@@ -313,8 +313,9 @@ void Correction::balance(const CalibrationInput& calibration) {
   BondStiffness stiffness{std::move(network_.stiffness), std::move(network_.bending),
                           std::move(network_.inflection)};
   CalibrationOptions options;
-  options.on_search = input_.on_search;
-  network_.calibration = calibrate_bonds(calibration, options, network_.facets, stiffness);
+  options.on_search = input_.calibration.on_search;
+  network_.calibration =
+      calibrate_once(input_.calibration.store, calibration, options, network_.facets, stiffness);
   network_.stiffness = std::move(stiffness.axial);
   network_.bending = std::move(stiffness.bending);
   network_.inflection = std::move(stiffness.inflection);

@@ -145,6 +145,7 @@ def run(
     resume: bool = False,
     progress: Callable[[_core.Row], object] | None = None,
     trust_geometry: bool = False,
+    calibrations: str | PathLike[str] | None = None,
 ) -> Result:
     """Runs a case of any analysis type, like ``perilink run``.
 
@@ -161,6 +162,8 @@ def run(
         progress: called with the latest row, at most 20 times a second; ends the run by returning
             ``False``
         trust_geometry: allow any gmsh script as mesh
+        calibrations: directory in which calibrations of bonds are kept, and from which runs that
+            differ in strengths and loads only take them
 
     Raises:
         InputError: the case is wrong or does not fit its body; nothing is written
@@ -173,7 +176,8 @@ def run(
            else _core.OldResults.refused)
     target = Path(tempfile.mkdtemp(prefix="perilink-") if directory is None else directory)
     try:
-        return _run(case, target, directory is None, threads, old, progress, trust_geometry)
+        return _run(case, target, directory is None, threads, old, progress, trust_geometry,
+                    calibrations)
     except BaseException:
         if directory is None:
             shutil.rmtree(target, ignore_errors=True)
@@ -188,6 +192,7 @@ def _run(
     old_results: _core.OldResults,
     progress: Callable[[_core.Row], object] | None,
     trust_geometry: bool,
+    calibrations: str | PathLike[str] | None,
 ) -> Result:
     meshes = None
     if case._meshes():
@@ -198,7 +203,8 @@ def _run(
     with MeshFolder(case, meshes) as folder:
         parsed = case._parse(folder)
     parsed.trust_geometry = trust_geometry
-    _, _, text = _core.run(parsed, fspath(target), threads or 0, old_results, progress)
+    _, _, text = _core.run(parsed, fspath(target), threads or 0, old_results, progress,
+                            None if calibrations is None else fspath(calibrations))
     result = Result(target)
     result.text = text
     if is_temporary:

@@ -121,7 +121,7 @@ TEST(SurfaceCorrection, InThePlaneTheInteriorPointIsTheLastResort) {
   NetworkInput input = network_input(of_body);
   input.horizon = 2.0002 * of_body.spacing;
   std::vector<double> unbalanced;
-  input.on_search = [&](int, double now) { unbalanced.push_back(now); };
+  input.calibration.on_search = [&](int, double now) { unbalanced.push_back(now); };
   const Network network = build_network(make_body(of_body), input);
   ASSERT_EQ(unbalanced.size(), 2U) << "another body is needed to test the last resort";
   EXPECT_GT(unbalanced[1], 1e-7) << "left by Newton's method";
