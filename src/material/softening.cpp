@@ -1,6 +1,7 @@
 #include "material/softening.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
@@ -10,6 +11,25 @@ namespace {
 
 /// Force at the end of an exponential curve.
 constexpr double negligible_force = 1e-4;
+
+using Point = std::array<double, 2>;
+
+/// Returns the points of a shape of straight lines between its ends, as SofteningShape::points.
+std::vector<Point> inner_points(const SofteningShape& shape) {
+  if (shape.kind == Softening::bilinear) return {{shape.knee_stretch, shape.knee_force}};
+  return shape.kind == Softening::points ? shape.points : std::vector<Point>();
+}
+
+/// Returns twice the area below the lines from (0, 1) through some points to (1, 0).
+double twice_the_area(const std::vector<Point>& points) {
+  double sum = points.empty() ? 1.0 : points.back()[1];
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const double before = k == 0 ? 1.0 : points[k - 1][1];
+    const double after = k + 1 == points.size() ? 0.0 : points[k + 1][1];
+    sum += points[k][0] * (before - after);
+  }
+  return sum;
+}
 
 /// A segment that leaves the curve at two points.
 struct SegmentBetween {
@@ -30,46 +50,58 @@ struct SegmentBetween {
 
 double softening_energy(const SofteningShape& shape, double end) {
   if (shape.kind == Softening::concrete) return 1.0 + 2.0 * (end - 1.0);
-  const bool knee = shape.kind == Softening::bilinear;
-  return 1.0 + (end - 1.0) * (knee ? shape.knee_force + shape.knee_stretch : 1.0);
+  return 1.0 + (end - 1.0) * twice_the_area(inner_points(shape));
 }
 
 SofteningCurve::SofteningCurve(const SofteningShape& shape, double energy)
-    : knee_(1.0), end_(energy), knee_force_(1.0), decay_(0.0) {
+    : corners_{{1.0, 1.0}}, end_(energy) {
   if (shape.kind == Softening::brittle || !(energy > 1.0)) {
     throw std::invalid_argument("a softening bond must dissipate more than its elastic energy");
   }
-  if (shape.kind == Softening::bilinear) {
-    const double length = (energy - 1.0) / (shape.knee_force + shape.knee_stretch);
-    end_ = 1.0 + length;
-    knee_ = 1.0 + shape.knee_stretch * length;
-    knee_force_ = shape.knee_force;
-  } else if (shape.kind == Softening::concrete) {
-    end_ = knee_ = 1.0 + 0.5 * (energy - 1.0);
-  } else if (shape.kind == Softening::exponential) {
+  if (shape.kind == Softening::exponential) {
     decay_ = 0.5 * (energy - 1.0);
     end_ = 1.0 - decay_ * std::log(negligible_force);
+    return;
   }
+  if (shape.kind == Softening::concrete) {
+    end_ = 1.0 + 0.5 * (energy - 1.0);
+    corners_.push_back({end_, 1.0});
+  }
+  const std::vector<Point> inner = inner_points(shape);
+  if (!inner.empty()) {
+    const double length = (energy - 1.0) / twice_the_area(inner);
+    end_ = 1.0 + length;
+    for (const auto& [x, force] : inner) corners_.push_back({1.0 + x * length, force});
+  }
+  corners_.push_back({end_, 0.0});
 }
 
 double SofteningCurve::force(double x) const {
   if (x <= 1.0) return x;
   if (x >= end_) return 0.0;
   if (decay_ > 0.0) return std::exp((1.0 - x) / decay_);
-  return x < knee_ ? 1.0 - (1.0 - knee_force_) * (x - 1.0) / (knee_ - 1.0)
-                   : knee_force_ * (end_ - x) / (end_ - knee_);
+  const auto after = std::find_if(corners_.begin() + 1, corners_.end(),
+                                  [x](const auto& corner) { return x < corner[0]; });
+  const auto& [begin, first] = *(after - 1);
+  const auto& [end, last] = *after;
+  if (last == 0.0) return first * (end - x) / (end - begin);
+  return first - (first - last) * (x - begin) / (end - begin);
 }
 
 double SofteningCurve::area(double x) const {
   if (x <= 1.0) return 0.5 * x * x;
   // The area of an exponential curve beyond its end counts at its end.
   if (decay_ > 0.0) return 0.5 + decay_ * (x < end_ ? 1.0 - force(x) : 1.0);
-  const bool drops = end_ == knee_ && x >= knee_;
-  const double at_knee = drops ? knee_force_ : force(std::min(x, knee_));
-  const double fallen = 0.5 * (std::min(x, knee_) - 1.0) * (1.0 + at_knee);
-  if (x <= knee_) return 0.5 + fallen;
-  const double reached = std::min(x, end_);
-  return 0.5 + fallen + 0.5 * (reached - knee_) * (knee_force_ + force(reached));
+  double sum = 0.5;
+  for (std::size_t k = 1; k < corners_.size() && corners_[k - 1][0] < x; ++k) {
+    const auto& [begin, first] = corners_[k - 1];
+    const auto& [end, last] = corners_[k];
+    const bool falls_at_once = k + 1 < corners_.size() && corners_[k + 1][0] == end;
+    const double reached = std::min(x, end);
+    const double at_end = falls_at_once && reached == end ? last : force(reached);
+    sum += 0.5 * (reached - begin) * (first + at_end);
+  }
+  return sum;
 }
 
 std::vector<Segment> segments_of(const SofteningCurve& curve, double overshoot) {

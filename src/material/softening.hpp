@@ -18,6 +18,7 @@ enum class Softening {
   linear,       ///< along a straight line (the same figure)
   bilinear,     ///< along two straight lines with a knee between them (Petersson 1981)
   exponential,  ///< at a rate proportional to the force
+  points,       ///< along straight lines between given points
   concrete,     ///< immediately after a plateau, in tension and in compression (Gerstle, Sau &
                 ///< Aguilera 2007, section 6)
 };
@@ -26,6 +27,9 @@ struct SofteningShape {
   Softening kind = Softening::brittle;
   double knee_force = 1.0 / 3.0;    ///< bilinear: force at the knee over that at s_0 [-]
   double knee_stretch = 2.0 / 9.0;  ///< (s_knee - s_0) / (s_1 - s_0), with s_1 at zero force [-]
+  /// Softening::points: (s - s_0) / (s_1 - s_0), rising, and force over that at s_0, not rising;
+  /// both in (0, 1) [-]. The ends (0, 1) and (1, 0) are left out.
+  std::vector<std::array<double, 2>> points = {};
 };
 
 /// Softening of the bonds of a material.
@@ -47,8 +51,8 @@ struct SofteningMaterial {
 /// \param end  s_1 / s_0 [-]
 double softening_energy(const SofteningShape& shape, double end);
 
-/// Force over stretch of one bond: x up to x = 1, then falling. Concrete has a plateau with an
-/// immediate fall, a knee at the end.
+/// Force over stretch of one bond: x up to x = 1, then falling, exponentially or along straight lines.
+/// Concrete has a plateau with an immediate fall.
 class SofteningCurve {
  public:
   /// \param energy  area under the curve over the area of its elastic part, 2 G_s / s_0^2 [-]; must
@@ -63,9 +67,11 @@ class SofteningCurve {
   double end() const { return end_; }
 
  private:
-  double knee_, end_;
-  double knee_force_;
-  double decay_;  ///< stretch over which the force falls to 1/e; 0: straight lines
+  /// Ends of the straight lines (x, force) from (1, 1) to a force of zero; two with one x: an
+  /// immediate fall.
+  std::vector<std::array<double, 2>> corners_;
+  double end_;
+  double decay_ = 0.0;  ///< stretch over which the force falls to 1/e; 0: straight lines
 };
 
 /// Returns the curve as saw-tooth segments. The secants a_k and a_(k+1) leave the curve at

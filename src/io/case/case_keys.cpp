@@ -249,6 +249,7 @@ const std::vector<KeySchema> material_keys = {"name",
                                               {"tensile_strength", softening},
                                               {"softening", bond_softening},
                                               {"softening_error", bond_softening},
+                                              {"softening_points", bond_softening},
                                               {"softening_stretches", bond_softening},
                                               {"closing", bond_softening},
                                               {"tension_limit", bond_softening},
@@ -327,10 +328,10 @@ const std::vector<KeySchema> crack_keys = {
     "group",
     {"closing", {{shell, "is given, but cracks of a shell do not close", delete_it}}}};
 const std::vector<KeySchema> interface_keys = {
-    "between",     crack_keys[0],       crack_keys[1],
-    crack_keys[2], "fracture_energy",   "tensile_strength",
-    "softening",   "softening_error",   "softening_stretches",
-    "closing",     "knee_stress_ratio", "knee_opening_ratio"};
+    "between",           crack_keys[0],         crack_keys[1], crack_keys[2],
+    "fracture_energy",   "tensile_strength",    "softening",   "softening_error",
+    "softening_points",  "softening_stretches", "closing",     "knee_stress_ratio",
+    "knee_opening_ratio"};
 
 }  // namespace
 

@@ -119,7 +119,7 @@ constexpr auto words_of(Surface) { return words("none", "ghost", "energy", "cali
 constexpr auto words_of(Constants) { return words("lattice", "continuum"); }
 constexpr auto words_of(CriticalStretch) { return words("dissipated", "lattice", "continuum"); }
 constexpr auto words_of(Softening) {
-  return words("brittle", "linear", "bilinear", "exponential", "concrete");
+  return words("brittle", "linear", "bilinear", "exponential", "points", "concrete");
 }
 constexpr auto words_of(RandomProperty) { return words("tensile_strength", "fracture_energy"); }
 constexpr auto words_of(Distribution) { return words("normal", "lognormal", "weibull"); }

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <ostream>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace perilink {
@@ -21,6 +23,12 @@ std::ostream& operator<<(std::ostream& out, const CurveCase& curve) {
   return out << curve.name << ", energy " << curve.energy;
 }
 
+SofteningShape with_points(std::vector<std::array<double, 2>> points) {
+  SofteningShape shape{Softening::points};
+  shape.points = std::move(points);
+  return shape;
+}
+
 std::vector<CurveCase> curves() {
   std::vector<CurveCase> result;
   for (const double energy : {1.02, 1.5, 3.0, 12.0, 80.0}) {
@@ -28,6 +36,8 @@ std::vector<CurveCase> curves() {
     result.push_back({"bilinear", {Softening::bilinear}, energy});
     result.push_back({"bilinear, knee above the line", {Softening::bilinear, 0.8, 0.5}, energy});
     result.push_back({"exponential", {Softening::exponential}, energy});
+    result.push_back({"points", with_points({{0.05, 0.7}, {0.2, 0.3}, {0.6, 0.05}}), energy});
+    result.push_back({"points, hollow and round", with_points({{0.3, 0.95}, {0.4, 0.1}}), energy});
   }
   return result;
 }
@@ -100,6 +110,25 @@ TEST(SofteningCurves, KneesLieWhereTheyWereAskedFor) {
   EXPECT_NEAR(curve.force(1.0 + 0.575 * (curve.end() - 1.0)), 0.125, 1e-14) << "half way on";
 }
 
+TEST(SofteningCurves, GoThroughTheirPoints) {
+  const SofteningCurve curve(with_points({{0.05, 0.7}, {0.2, 0.3}, {0.6, 0.3}}), 20.0);
+  const auto at = [&](double share) { return curve.force(1.0 + share * (curve.end() - 1.0)); };
+  EXPECT_NEAR(at(0.025), 0.85, 1e-14);
+  EXPECT_NEAR(at(0.05), 0.7, 1e-14);
+  EXPECT_NEAR(at(0.125), 0.5, 1e-14);
+  EXPECT_NEAR(at(0.4), 0.3, 1e-14) << "a plateau";
+  EXPECT_NEAR(at(0.8), 0.15, 1e-14);
+}
+
+TEST(SofteningCurves, OnePointIsAKnee) {
+  const SofteningCurve points(with_points({{0.15, 0.25}}), 7.0);
+  const SofteningCurve bilinear({Softening::bilinear, 0.25, 0.15}, 7.0);
+  for (const double x : {1.2, 1.6, 3.0, 11.0, 20.0}) {
+    EXPECT_EQ(points.force(x), bilinear.force(x));
+    EXPECT_EQ(points.area(x), bilinear.area(x));
+  }
+}
+
 TEST(SofteningCurves, ExponentialOnesFallInProportionToThemselves) {
   const SofteningCurve curve({Softening::exponential}, 9.0);
   // 2 G_s / s_0^2 = 1 + 2 w for a decay over w, here 4.
@@ -111,7 +140,7 @@ TEST(SofteningCurves, ExponentialOnesFallInProportionToThemselves) {
 TEST(SofteningCurves, EnergyFollowsFromTheEnd) {
   for (const SofteningShape& shape :
        {SofteningShape{Softening::linear}, SofteningShape{Softening::bilinear},
-        SofteningShape{Softening::bilinear, 0.8, 0.5}}) {
+        SofteningShape{Softening::bilinear, 0.8, 0.5}, with_points({{0.1, 0.4}, {0.5, 0.1}})}) {
     for (const double end : {1.001, 2.0, 70.0}) {
       const double energy = softening_energy(shape, end);
       EXPECT_NEAR(SofteningCurve(shape, energy).end(), end, 1e-12 * end);

@@ -20,11 +20,12 @@ constexpr std::array knee_keys = {"knee_stress_ratio", "knee_opening_ratio"};
 constexpr std::array concrete_keys = {"tension_limit", "tension_factor", "compression_limit",
                                       "compression_factor", "shear_softening"};
 constexpr std::array other_keys = {"tensile_strength", "softening_stretches", "fracture_energy",
-                                   "knee_stress_ratio", "knee_opening_ratio"};
+                                   "softening_points", "knee_stress_ratio",   "knee_opening_ratio"};
 constexpr std::array keys = {
-    "softening",       "closing",           "tensile_strength",   "softening_stretches",
-    "softening_error", "knee_stress_ratio", "knee_opening_ratio", "tension_limit",
-    "tension_factor",  "compression_limit", "compression_factor", "shear_softening"};
+    "softening",        "closing",         "tensile_strength",  "softening_stretches",
+    "softening_points", "softening_error", "knee_stress_ratio", "knee_opening_ratio",
+    "tension_limit",    "tension_factor",  "compression_limit", "compression_factor",
+    "shear_softening"};
 
 /// Returns the first given key, or nullptr.
 template <std::size_t count>
@@ -56,13 +57,52 @@ std::array<double, 2> read_stretches(const CaseTable& table, Softening kind) {
   return {(*given)[0], (*given)[1]};
 }
 
+/// Reads openings and stresses of a curve, in any units. \return its points as SofteningShape::points
+std::vector<std::array<double, 2>> read_points(const CaseTable& table, Softening kind) {
+  const std::string key = "softening_points";
+  const std::string example =
+      "give [opening, stress] from the strength down to zero: "
+      "[[0, 3], [0.02, 1], [0.1, 0]]";
+  if (kind != Softening::points) {
+    if (table.has(key)) {
+      table.refuse(key, "is given, but softening is not \"points\"",
+                   "delete it, or set softening = \"points\"");
+    }
+    return {};
+  }
+  const std::vector<Vector3> given =
+      table.need(key, table.vectors(key, 2), "points of the curve of stress over opening");
+  const bool has_ends = given.size() >= 2 && given.front()[0] == 0.0 && given.front()[1] > 0.0 &&
+                        given.back()[1] == 0.0;
+  if (!has_ends)
+    table.refuse(key, "must begin at the opening 0, with a stress, and end at the stress 0",
+                 example);
+  const double largest = given.back()[0], strength = given.front()[1];
+  std::vector<std::array<double, 2>> points;
+  for (std::size_t k = 1; k < given.size(); ++k) {
+    const auto& [opening, stress, unused] = given[k];
+    const bool is_last = k + 1 == given.size();
+    if (!(opening > given[k - 1][0] && stress <= given[k - 1][1] && (is_last || stress > 0.0))) {
+      table.refuse(
+          key,
+          fmt::format("has the point [{}, {}] after [{}, {}]: openings must rise, stresses "
+                      "must not, and are zero at the last opening only",
+                      opening, stress, given[k - 1][0], given[k - 1][1]),
+          example);
+    }
+    if (!is_last) points.push_back({opening / largest, stress / strength});
+  }
+  return points;
+}
+
 void refuse_beside_brittle(const CaseTable& table) {
   for (const char* key : keys) {
     const bool its_own = std::string_view(key) == "softening" || std::string_view(key) == "closing";
     if (its_own || !table.has(key)) continue;
-    table.refuse(key, "is given, but the bonds are brittle",
-                 "delete it, or set softening = \"linear\", \"bilinear\" or \"exponential\": the "
-                 "strength of brittle bonds follows from fracture_energy and the horizon");
+    table.refuse(
+        key, "is given, but the bonds are brittle",
+        "delete it, or set softening = \"linear\", \"bilinear\", \"exponential\" or "
+        "\"points\": the strength of brittle bonds follows from fracture_energy and the horizon");
   }
 }
 
@@ -131,6 +171,7 @@ SofteningMaterial read_softening(const CaseTable& table) {
   table.need_one_of({"tensile_strength", "softening_stretches"});
   assign(material.tensile_strength, table.positive("tensile_strength"));
   material.stretches = read_stretches(table, material.shape.kind);
+  material.shape.points = read_points(table, material.shape.kind);
   const char* knee = find_given(table, knee_keys);
   if (knee && material.shape.kind != Softening::bilinear) {
     table.refuse(knee, "is given, but only bilinear softening has a knee",
@@ -161,6 +202,12 @@ void write_softening(TomlWriter& out, const SofteningMaterial& material) {
     out.write("tensile_strength", material.tensile_strength);
   }
   out.write("softening_error", material.error);
+  if (material.shape.kind == Softening::points) {
+    std::vector<std::vector<double>> points = {{0.0, 1.0}};
+    for (const auto& [opening, stress] : material.shape.points) points.push_back({opening, stress});
+    points.push_back({1.0, 0.0});
+    out.write("softening_points", points);
+  }
   if (material.shape.kind != Softening::bilinear) return;
   out.write("knee_stress_ratio", material.shape.knee_force);
   out.write("knee_opening_ratio", material.shape.knee_stretch);

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "support/case_texts.hpp"
 
@@ -64,6 +66,16 @@ TEST(CaseSoftening, ReadsKnees) {
   EXPECT_EQ(material.shape.knee_stretch, 0.15);
 }
 
+TEST(CaseSoftening, ReadsPointsInAnyUnits) {
+  const SofteningMaterial material = material_of(
+      "softening = \"points\"\ntensile_strength = 3\n"
+      "softening_points = [[0, 4], [0.02, 2], [0.05, 0.5], [0.2, 0]]");
+  EXPECT_EQ(material.shape.kind, Softening::points);
+  const std::vector<std::array<double, 2>> expected = {{0.02 / 0.2, 0.5}, {0.05 / 0.2, 0.125}};
+  EXPECT_EQ(material.shape.points, expected) << "openings over the last, stresses over the first";
+  EXPECT_EQ(material.tensile_strength, 3.0);
+}
+
 TEST(CaseSoftening, ReadsTheLimitsOfConcrete) {
   const std::string text =
       "poissons_ratio = 0.2\nsoftening = \"concrete\"\ntension_limit = 1e-4\ntension_factor = 2\n"
@@ -100,6 +112,8 @@ TEST(CaseSoftening, WritesWhatItReads) {
       {"softening = \"linear\"\ntensile_strength = 2.7", true},
       {"tensile_strength = 2.7\nknee_stress_ratio = 0.25\nsoftening_error = 0.1", true},
       {"softening = \"exponential\"\ntensile_strength = 0.1", true},
+      {"softening = \"points\"\ntensile_strength = 3\nsoftening_points = [[0, 3], [1, 1], [3, 0]]",
+       true},
       {"softening_stretches = [1e-4, 2e-3]\nknee_opening_ratio = 0.2", false},
       {"softening = \"brittle\"", true}};
   for (const auto& [lines, keeps_energy] : cases) {
