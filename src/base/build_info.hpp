@@ -7,7 +7,7 @@
 
 namespace perilink {
 
-/// Returns the version of the program, such as "0.1.0".
+/// Returns the version of the program, such as "0.2.0".
 std::string program_version();
 
 /// Returns the abbreviated git commit, or "unknown" outside a git checkout.
