@@ -113,8 +113,19 @@ class BarEnds {
         secants_(secants),
         motion_(motion),
         solid_(solid),
-        ties_(slip_springs_along_bars(network)) {}
+        ties_(slip_springs_along_bars(network)) {
+    for (std::size_t s = 0; s < network.bars.bar.size(); ++s) {
+      const auto bar = static_cast<std::size_t>(network.bars.bar[s]);
+      if (bar >= embedded_.size()) embedded_.resize(bar + 1, 0);
+      if (tied_ends(s) > 0) embedded_[bar] = 1;
+    }
+  }
 
+  /// Returns whether a bar element lies in the solid: both ends are tied to it, or its bar has no
+  /// embedded points.
+  bool in_solid(std::size_t segment) const {
+    return embedded_[network_.bars.bar[segment]] == 0 || tied_ends(segment) == 2;
+  }
   /// \param otherwise  result for an end without an embedded point [force]
   double given(std::size_t segment, bool begin, double otherwise) const {
     const auto dim = static_cast<std::size_t>(network_.dim());
@@ -136,10 +147,20 @@ class BarEnds {
   }
 
  private:
+  int tied_ends(std::size_t segment) const {
+    const Index e = network_.first_bar_element + static_cast<Index>(segment);
+    int count = 0;
+    for (const Index end : {network_.bonds.first[e], network_.bonds.second[e]}) {
+      count += ties_[node_of(network_, end)] != no_index;
+    }
+    return count;
+  }
+
   const Network& network_;
   Secants secants_;
   std::span<const double> motion_, solid_;
   std::vector<Index> ties_;
+  std::vector<std::uint8_t> embedded_;  ///< per bar
 };
 
 /// Returns the bond stress of each bar element [force/length^2].
@@ -152,11 +173,16 @@ std::vector<double> bond_stresses(const Network& network, const std::vector<doub
     const double perimeter = bars.perimeter.empty()
                                  ? std::sqrt(4.0 * std::numbers::pi * bars.area[s])
                                  : bars.perimeter[s];
-    // At an inner node the solid takes the difference of the two forces, over half of each element.
-    // At an end it takes the force of the slip spring, or the whole force without one.
+    // At an inner node the solid takes the difference of the two forces, over half of each element
+    // in it. At an end it takes the force of the slip spring, or the whole force without one.
     const auto length_of = [&](std::size_t k) {
+      if (!ends.in_solid(k)) return 0.0;
       return network.bonds.length(network.first_bar_element + static_cast<Index>(k));
     };
+    if (!ends.in_solid(s)) {
+      stresses.push_back(0.0);
+      continue;
+    }
     const std::size_t before = neighbours[s][0], after = neighbours[s][1];
     const double at_begin =
         before != s ? (force[s] - force[before]) / (0.5 * (length_of(s) + length_of(before)))

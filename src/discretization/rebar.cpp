@@ -1,6 +1,7 @@
 #include "discretization/rebar.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -89,9 +90,25 @@ std::vector<Index> place_embedded(Particles& particles, const std::vector<Vector
   return placed;
 }
 
+/// Returns the parts of a bar element that the nodes at its two ends tie to the body [-]: half of it
+/// each, or what an end in the body has as far as the face.
+std::array<double, 2> tied_parts(const RebarLine& bar, const Vector3& begin, const Vector3& end) {
+  if (!bar.inside) return {0.5, 0.5};
+  const bool first = bar.inside(begin), second = bar.inside(end);
+  if (first == second) return first ? std::array{0.5, 0.5} : std::array{0.0, 0.0};
+  double in = first ? 0.0 : 1.0, out = 1.0 - in;
+  while (std::abs(in - out) > 1e-9) {
+    const double middle = 0.5 * (in + out);
+    Vector3 point{};
+    for (int a = 0; a < 3; ++a) point[a] = begin[a] + middle * (end[a] - begin[a]);
+    (bar.inside(point) ? in : out) = middle;
+  }
+  return first ? std::array{in, 0.0} : std::array{0.0, 1.0 - in};
+}
+
 /// Appends the nodes of an embedded bar with their directions and lengths to the mesh.
-void note_embedded(const std::vector<Vector3>& nodes, const std::vector<Index>& placed, Index bar,
-                   RebarMesh& mesh) {
+void note_embedded(const RebarLine& line, const std::vector<Vector3>& nodes,
+                   const std::vector<Index>& placed, Index bar, RebarMesh& mesh) {
   const std::size_t count = nodes.size(), own = mesh.embedded.size();
   const bool closed = placed.back() == placed.front();
   for (std::size_t k = 0; k < (closed ? count - 1 : count); ++k) {
@@ -101,10 +118,12 @@ void note_embedded(const std::vector<Vector3>& nodes, const std::vector<Index>& 
   for (std::size_t k = 0; k + 1 < count; ++k) {
     const Vector3 way = minus(nodes[k + 1], nodes[k]);
     const double length = norm(way);
-    for (BarNode* node :
-         {&mesh.embedded[own + k], &mesh.embedded[own + (closed && k + 2 == count ? 0 : k + 1)]}) {
-      node->length += 0.5 * length;
-      for (int a = 0; a < 3; ++a) node->along[a] += way[a] / length;
+    const std::array<double, 2> parts = tied_parts(line, nodes[k], nodes[k + 1]);
+    const std::size_t ends[] = {own + k, own + (closed && k + 2 == count ? 0 : k + 1)};
+    for (std::size_t end : {0, 1}) {
+      BarNode& node = mesh.embedded[ends[end]];
+      node.length += parts[end] * length;
+      for (int a = 0; a < 3; ++a) node.along[a] += way[a] / length;
     }
   }
   for (std::size_t k = own; k < mesh.embedded.size(); ++k) {
@@ -165,7 +184,7 @@ RebarMesh add_rebar(Particles& particles, const std::vector<RebarLine>& bars, do
     std::vector<Index> placed;
     if (bars[bar].embedded) {
       placed = place_embedded(particles, nodes[bar], spacing, cell_volume);
-      note_embedded(nodes[bar], placed, static_cast<Index>(bar), mesh);
+      note_embedded(bars[bar], nodes[bar], placed, static_cast<Index>(bar), mesh);
     } else {
       const auto first = bonded.begin() + static_cast<std::ptrdiff_t>(next);
       placed.assign(first, first + static_cast<std::ptrdiff_t>(count));

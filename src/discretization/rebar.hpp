@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "base/types.hpp"
@@ -17,6 +18,8 @@ struct RebarLine {
   /// true: embedded points join the nodes to the body; false: the nodes are bonded to solid
   /// particles within the horizon.
   bool embedded = false;
+  /// Whether a point is in the body; empty: the whole bar is.
+  std::function<bool(const Vector3&)> inside = {};
 };
 
 /// Node of an embedded bar.
@@ -24,7 +27,7 @@ struct BarNode {
   Index particle = no_index;
   Index bar = no_index;
   Vector3 along{};      ///< unit vector towards the end of the bar; mean at a bend
-  double length = 0.0;  ///< length of the bar that is nearest to the node [length]
+  double length = 0.0;  ///< length of the bar in the body that is nearest to the node [length]
   bool begins = false;  ///< whether the bar begins at the node
   bool ends = false;
 };

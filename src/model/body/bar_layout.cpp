@@ -272,6 +272,7 @@ LaidBars lay_bars(const CaseFile& input, const Body& body) {
     for (const Points& points : bars) {
       RebarLine line{points.front(), points.back(), {points.begin() + 1, points.end() - 1}};
       line.embedded = section.bond != RebarBond::concrete;
+      if (section.across_gaps) line.inside = inside_of(input, body);
       laid.lines.push_back(std::move(line));
       laid.materials.push_back(material);
       laid.sections.push_back(k);

@@ -192,7 +192,7 @@ class EmbeddedSlipSprings {
       particles.push_back(ways_.first[begin + k]);
       weights.push_back(all[k]);
     }
-    if (particles.empty()) return;  // only its bar holds the node
+    if (particles.empty() || node.length == 0.0) return;  // only its bar holds the node
     const Index embedded_point = add_embedded_point(network_, node.particle, particles, weights);
     add_slip_springs(node, embedded_point);
   }

@@ -100,6 +100,23 @@ TEST(Rebar, AnchoredBarsHaveNodesOfTheirOwn) {
   EXPECT_NEAR(mesh.embedded[10].along[1], -1.0, 1e-14);
 }
 
+TEST(Rebar, NodesAreTiedToTheLengthInTheBody) {
+  for (const double face : {1.0, 1.03, 0.97}) {
+    Particles particles = rebar_square();
+    RebarLine bar{{0.5, 1.4, 0.0}, {0.5, 0.2, 0.0}};
+    bar.embedded = true;
+    bar.inside = [face](const Vector3& x) { return x[1] <= face + 1e-12; };
+    const RebarMesh mesh = add_rebar(particles, {bar}, 0.1, 0.2, 0.01);
+    double length = 0.0;
+    for (const BarNode& node : mesh.embedded) {
+      length += node.length;
+      const bool in_air = particles.position(node.particle)[1] > face + 1e-9;
+      EXPECT_EQ(node.length == 0.0, in_air);
+    }
+    EXPECT_NEAR(length, face - 0.2, 1e-9);
+  }
+}
+
 TEST(Rebar, AStirrupEndsAtItsFirstNode) {
   Particles particles = rebar_square();
   const Index before = particles.size();
