@@ -119,8 +119,7 @@ std::map<Index, Sums> sums_along_face(const Network& network, std::span<const In
   return sums;
 }
 
-/// Stiffness of the bonds at a location of a face, over that with mean constants in all materials
-/// [-].
+/// Stiffness of bonds of a face, over that with mean constants in all materials [-].
 struct Place {
   double force = 1.0;   ///< from sums of k xi, for the force
   double energy = 1.0;  ///< from sums of k xi^2, for the energy
@@ -161,6 +160,7 @@ class Measure {
  private:
   BondStiffnesses stiffness_of(Index bond) const;
   BondStiffnesses even_stiffness(Index bond) const;
+  double material_ratio(Index bond) const;
   double held_at_the_end(Index bond, double cosine, double bending) const;
   void mix(Face& face);
   void measure_area(Face& face);
@@ -201,6 +201,13 @@ BondStiffnesses Measure::even_stiffness(Index bond) const {
   const double axial = even_.stiffness[bond];
   return {axial * (stress_ / dilatation_[0]),
           axial > 0.0 && network_.carries_moments() ? even_.bending[bond] / axial : 0.0};
+}
+
+/// Returns the modulus of a bond's materials over the mean modulus [-].
+double Measure::material_ratio(Index bond) const {
+  if (even_.stiffness.empty()) return 1.0;
+  const auto [first, second] = materials_at(network_, bond);
+  return 0.5 * (dilatation_[first] + dilatation_[second]) / stress_;
 }
 
 /// Returns the energy of a bond at breaking by an opening along the normal, over k xi^2 s_c^2 / 2
@@ -253,18 +260,21 @@ void Measure::measure_area(Face& face) {
   face.held = face.fracture_sum / squares;
 }
 
-/// Groups the bonds by local stiffness in few steps. In the mean over the groups the face keeps the
-/// strength and energy for mean constants.
+/// Groups the bonds by stiffness in few steps: the modulus of their materials, which may change from
+/// bond to bond, times the mean effect of the calibration nearby. In the mean over the groups the
+/// face keeps the strength and energy for mean constants.
 void Measure::find_places(Face& face) const {
   const auto own_sums = [&](Index e) {
     const double length = network_.bonds.length(e), along = std::pow(cosine_.at(e), 2);
     // Opening over length at an equivalent stretch of one.
     const double ratio = network_.carries_moments() ? network_.ratio_of_bending(e) : 0.0;
     const double opening = std::sqrt(along + ratio * (1.0 - along));
+    const double materials = material_ratio(e);
     Sums sums{};
     for (const bool even : {false, true}) {
       const auto [stiffness, bending] = even ? even_stiffness(e) : stiffness_of(e);
-      const double held = stiffness * length * held_at_the_end(e, cosine_.at(e), bending);
+      const double held = stiffness * length * held_at_the_end(e, cosine_.at(e), bending) *
+                          (even ? materials : 1.0);
       sums[even ? 1 : 0] = held * opening;
       sums[even ? 3 : 2] = held * length;
     }
@@ -279,12 +289,14 @@ void Measure::find_places(Face& face) const {
   for (const Index e : crossing_) {
     Sums both = sums.at(network_.bonds.first[e]);
     add(sums.at(network_.bonds.second[e]), both);
-    const Place place{in_steps(both[0] / both[1]), in_steps(both[2] / both[3])};
+    const double materials = material_ratio(e);
+    const Place place{in_steps(materials * both[0] / both[1]),
+                      in_steps(materials * both[2] / both[3])};
     const Sums own = own_sums(e);
     force += own[0] / place.force;
-    even_force += own[1];
+    even_force += own[1] / materials;
     energy += own[2] / place.energy;
-    even_energy += own[3];
+    even_energy += own[3] / materials;
     places[place].push_back(e);
   }
   for (auto& [place, bonds] : places) {

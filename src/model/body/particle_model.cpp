@@ -8,8 +8,6 @@
 
 #include "base/error.hpp"
 #include "base/plain_text.hpp"
-#include "discretization/lattices/triangulate.hpp"
-#include "io/case/sections/case_kinds.hpp"
 #include "model/body/lattice_model.hpp"
 
 namespace perilink {
@@ -19,9 +17,6 @@ void build_particles(const CaseFile& input, Body& body, Model& model) {
   std::vector<IsotropicMaterial> materials;
   for (const MaterialSection& material : input.materials) {
     materials.push_back({material.youngs_modulus, *material.poissons_ratio});
-  }
-  if (!has_cells(input.body)) {
-    body.facets = facets_of(body.cells, body.particles.positions, thickness);
   }
   ParticleNetwork built = make_particle_network(body, model.problem, materials, thickness);
   model.network = std::move(built.network);

@@ -138,6 +138,7 @@ class Relaxation {
       const double way = u - first_[slot], last = body_.time_step * body_.motion.velocity[slot];
       rests.stiffness += way * (inner - first_force_[slot]);
       rests.mass += way * mass * way;
+      rests.work += way * applied;
       rests.last_stiffness += last * (inner - before_[slot]);
       rests.last_mass += last * mass * last;
     });
@@ -169,10 +170,10 @@ class Relaxation {
     const bool moves = all.push > 0.0 && !separation_.is_unstrained();
     result_.error = moves ? std::sqrt(all.push / all.size) / square_ : 0.0;
     next_.at_rest = !gave_way && std::max(result_.residual, result_.error) <= options_.tolerance;
-    if (!next_.at_rest) look(rest);
+    if (!next_.at_rest) look(all, rest);
   }
 
-  void look(double rest) {
+  void look(const RestSums& all, double rest) {
     const bool grows = !(rest <= largest_growth * std::max(first_rest_, 1e-290));
     const bool ends = iteration_ >= options_.most_iterations;
     const bool is_due = separation_.is_due(fractured_);
@@ -186,6 +187,10 @@ class Relaxation {
                       result_.error, options_.tolerance));
     }
     const bool checks = iteration_ % iterations_between_checks == 0;
+    const bool is_linear = options_.strain == Strain::small && !is_due;
+    if (checks && is_linear && separation_.is_mechanism(all.work, factor_, all.stiffness)) {
+      collapse("the body has become a mechanism, which the loads move without resistance");
+    }
     next_.examines = !next_.done && is_due && (ends || checks);
     if (!checks || next_.done) return;
     observe([&] {

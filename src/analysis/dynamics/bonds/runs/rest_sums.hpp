@@ -6,7 +6,8 @@ namespace perilink {
 struct RestSums {
   double push = 0.0, size = 0.0;       // squares r'M^-1 r and u'M u
   double residual = 0.0, held = 0.0;   // squares of residual forces, of loads and reactions
-  double stiffness = 0.0, mass = 0.0;  // over the motion since the load step began
+  // Over the motion d since the load step began or bonds broke: d'K d, d'M d, work of the loads.
+  double stiffness = 0.0, mass = 0.0, work = 0.0;
   double last_stiffness = 0.0, last_mass = 0.0;  // over the last step
   double fractured = 0.0;                        // since the beginning
 
@@ -17,6 +18,7 @@ struct RestSums {
     held += other.held;
     stiffness += other.stiffness;
     mass += other.mass;
+    work += other.work;
     last_stiffness += other.last_stiffness;
     last_mass += other.last_mass;
     fractured += other.fractured;

@@ -15,12 +15,35 @@ namespace {
 constexpr double unbalanced = 1e-6;
 /// Fraction of the loads on the body that is round-off.
 constexpr double round_off = 1e-12;
+/// Displacement over the size of the body, or rotation, that no elastic body reaches.
+constexpr double far_away = 1000.0;
 /// Fraction of the prescribed displacements that strains a piece.
 constexpr double straining = 1e-9;
 
 double sum_of_sizes(const std::vector<double>& forces) {
   return std::accumulate(forces.begin(), forces.end(), 0.0,
                          [](double sum, double force) { return sum + std::abs(force); });
+}
+
+/// Returns the work of the loads if all forces moved along by the size of the body, and all moments
+/// turned by one [force length].
+double work_over_size(const LoadedNetwork& problem) {
+  const std::vector<double>& positions = problem.network.particles.positions;
+  const auto dim = static_cast<std::size_t>(problem.network.dim());
+  const auto width = static_cast<std::size_t>(problem.network.width());
+  double size = 0.0, work = 0.0;
+  for (std::size_t axis = 0; axis < dim; ++axis) {
+    double low = infinity, high = -infinity;
+    for (std::size_t k = axis; k < positions.size(); k += dim) {
+      low = std::min(low, positions[k]);
+      high = std::max(high, positions[k]);
+    }
+    size = std::hypot(size, high - low);
+  }
+  for (std::size_t slot = 0; slot < problem.loads.forces.size(); ++slot) {
+    work += std::abs(problem.loads.forces[slot]) * (slot % width < dim ? size : 1.0);
+  }
+  return work;
 }
 
 }  // namespace
@@ -32,6 +55,11 @@ Separation::Separation(const LoadedNetwork& problem)
   for (const double value : problem.unknowns.prescribed) {
     largest_ = std::max(largest_, std::abs(value));
   }
+  far_ = far_away * work_over_size(problem);
+}
+
+bool Separation::is_mechanism(double work, double load_factor, double stiffness) const {
+  return work * work > std::abs(load_factor) * far_ * std::max(stiffness, 0.0) && work > 0.0;
 }
 
 bool Separation::is_strained(Secants secants, const std::vector<std::uint8_t>& held) const {

@@ -24,6 +24,12 @@ class Separation {
   std::string examine(Secants secants, double fractured, bool is_loaded);
   /// Returns whether prescribed displacements strained the body and now strain no piece of it.
   bool is_unstrained() const { return is_unstrained_; }
+  /// Returns whether a motion d of the free components shows that no equilibrium is near. In
+  /// equilibrium the stored energy is at least (f'd)^2 / (2 d'K d) (Cauchy-Schwarz). If it exceeds
+  /// the work of the loads over many sizes of the body, d is nearly free of strain.
+  /// \param work       f'd at the load factor [force length]
+  /// \param stiffness  d'K d without breaking bonds [force length]
+  bool is_mechanism(double work, double load_factor, double stiffness) const;
   /// Returns `fractured` of the last examination [force length]; negative: there was none.
   double examined() const { return examined_; }
   /// Continues after the last examination of a saved run.
@@ -40,6 +46,7 @@ class Separation {
   const LoadedNetwork& problem_;
   std::vector<std::uint8_t> held_, resisted_;  ///< resisted: also by elastic supports
   double largest_ = 0.0;                       ///< prescribed displacement [length]
+  double far_ = 0.0;  ///< work of the loads that no elastic body takes up [force length]
   double examined_ = -1.0;  ///< `fractured` of the last examination [force length]
   bool is_unstrained_ = false;
 };
