@@ -9,7 +9,9 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <random>
+#include <system_error>
 #include <utility>
 
 #include "base/memory.hpp"
@@ -98,7 +100,7 @@ std::size_t check_regular(const std::string& path, const struct stat& status) {
 
 }  // namespace
 
-void write_whole_file(const std::string& path, std::string_view bytes) {
+void write_whole_file(const std::string& path, std::string_view bytes, bool synced) {
   std::string temporary = temporary_name(path);
   int number = ::open(temporary.c_str(), as_new_file, by_umask);
   for (int again = 0; number < 0 && errno == EEXIST && again < 100; ++again) {
@@ -109,13 +111,24 @@ void write_whole_file(const std::string& path, std::string_view bytes) {
   Descriptor file(number);
   int fault = 0;
   write_bytes(number, bytes, fault);
-  if (fault == 0) fault = sync_file(number);
+  if (fault == 0 && synced) fault = sync_file(number);
   const int at_end = file.close();
   if (fault == 0) fault = at_end;
   if (fault == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) fault = errno;
   if (fault == 0) return;
   ::unlink(temporary.c_str());
   fail_to_write(path, fault);
+}
+
+void sync_files(const std::string& directory) {
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(directory, ignored)) {
+    if (entry.is_symlink(ignored) || !entry.is_regular_file(ignored)) continue;
+    const std::string path = entry.path().string();
+    Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
+    if (file.number() < 0) continue;  // not a file of this process
+    if (const int fault = sync_file(file.number()); fault != 0) fail_to_write(path, fault);
+  }
 }
 
 bool is_temporary_of(std::string_view name, std::string_view temporary) {
@@ -199,10 +212,6 @@ void LineFile::append(std::string& lines) {
   }
   if (fault != 0 && size_ == 0) ::unlink(temporary_.c_str());  // no file without a line
   if (fault != 0) fail_to_write(path_, fault);
-}
-
-void LineFile::sync() {
-  if (const int fault = sync_file(descriptor_); fault != 0) fail_to_write(path_, fault);
 }
 
 }  // namespace perilink

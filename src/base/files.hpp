@@ -19,11 +19,16 @@ class DiskFull : public FileError {
   using FileError::FileError;
 };
 
-/// Writes a file in one step: writes a temporary file beside it (NAME.<random>.part), syncs it and
-/// renames it. Readers find the old file or the new one. A link at `path` is replaced, not
-/// followed. On failure the old file stays and the temporary file is removed.
+/// Writes a file in one step: writes a temporary file beside it (NAME.<random>.part) and renames it.
+/// Readers find the old file or the new one. A link at `path` is replaced, not followed. On failure
+/// the old file stays and the temporary file is removed.
+/// \param synced  the file is on the disk before it replaces an old one. Each such file costs some
+///                milliseconds; sync_files() makes many safe against a power cut in that time.
 /// \throws FileError
-void write_whole_file(const std::string& path, std::string_view bytes);
+void write_whole_file(const std::string& path, std::string_view bytes, bool synced = false);
+
+/// Syncs the files of a directory, without those of its directories, to the disk. \throws FileError
+void sync_files(const std::string& directory);
 
 /// Returns whether `temporary` is a temporary name of write_whole_file() for a file `name`.
 bool is_temporary_of(std::string_view name, std::string_view temporary);
@@ -55,8 +60,6 @@ class LineFile {
   /// whole lines as fit.
   /// \throws FileError
   void append(std::string& lines);
-  /// Syncs the file to the disk. \throws FileError
-  void sync();
   const std::string& path() const { return path_; }
   std::size_t size() const { return size_; }  ///< [bytes]
 

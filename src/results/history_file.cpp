@@ -192,8 +192,8 @@ void HistoryFile::write(std::vector<double> row, std::span<const double> gauges,
 }
 
 void HistoryFile::finish() {
-  history_.finish();
-  timing_.finish();
+  history_.flush();
+  timing_.flush();
 }
 
 std::vector<StepRecord> history_records(const CsvTable& table, const std::string& path) {

@@ -62,7 +62,7 @@ void write_failed_summary(const fs::path& directory, const CaseFile& input,
 void write_summary_file(const fs::path& directory, const nlohmann::ordered_json& summary) {
   const std::string path = path_in(directory), text = text_of(summary);
   try {
-    write_whole_file(path, text);
+    write_whole_file(path, text, true);
   } catch (const DiskFull&) {
     std::error_code ignored;
     fs::remove(path, ignored);

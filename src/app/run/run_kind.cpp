@@ -7,6 +7,7 @@
 #include "app/run/resume.hpp"
 #include "app/run/run_warnings.hpp"
 #include "base/build_info.hpp"
+#include "base/files.hpp"
 #include "io/checkpoint/checkpoint.hpp"
 #include "io/checkpoint/pack.hpp"
 #include "model/gauges.hpp"
@@ -35,9 +36,11 @@ void RunKind::open(const std::filesystem::path& directory, const RunCallbacks& c
 }
 
 void RunKind::save(const std::string& state) {
+  const RunFiles::State files = files_->save();
+  sync_files(directory_.string());  // the checkpoint counts on them
   write_checkpoint((directory_ / checkpoint_name).string(),
                    {resumable_case(input, meshes), model_fingerprint(),
-                    pack(files_->save(), seconds.analysis + since_opened_.seconds(), state)});
+                    pack(files, seconds.analysis + since_opened_.seconds(), state)});
 }
 
 Index RunKind::rows_of_time(double elements, double particles, double steps) const {

@@ -43,7 +43,7 @@ std::string fingerprint(std::initializer_list<std::span<const std::byte>> lists)
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint) {
   const std::string content =
       pack(this_program(), checkpoint.run, checkpoint.model, checkpoint.state);
-  write_whole_file(path, file_mark + pack(checksum(content)) + content);
+  write_whole_file(path, file_mark + pack(checksum(content)) + content, true);
 }
 
 std::optional<Checkpoint> read_checkpoint(const std::string& path) {

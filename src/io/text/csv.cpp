@@ -99,7 +99,7 @@ CsvWriter::~CsvWriter() {
   try {
     flush();
   } catch (const FileError&) {
-    // A destructor cannot throw; call finish() first to get errors.
+    // A destructor cannot throw; call flush() first to get errors.
   }
 }
 
@@ -118,11 +118,6 @@ void CsvWriter::write_row(const std::vector<double>& values) {
 
 void CsvWriter::flush() {
   if (!pending_.empty()) file_.append(pending_);
-}
-
-void CsvWriter::finish() {
-  flush();
-  file_.sync();
 }
 
 CsvRow& CsvRow::text(const std::string& value) {

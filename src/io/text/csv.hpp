@@ -27,8 +27,6 @@ class CsvWriter {
   void write_row(const std::vector<double>& values);
   /// \throws FileError
   void flush();
-  /// Flushes and waits until all data are on the disk. \throws FileError
-  void finish();
   std::size_t size() const { return file_.size(); }  ///< of the rows that are flushed [bytes]
 
  private:
