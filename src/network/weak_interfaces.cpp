@@ -18,8 +18,8 @@ namespace {
 /// A face is plane if its projection along the mean normal has at least this fraction of its area.
 constexpr double plane = 0.98;
 
-/// Rounds of averaging over neighbours across the face, for normals and sums at particles.
-constexpr int rounds_of_spreading = 3;
+/// Rounds of averaging over neighbours across the face, for its normals.
+constexpr int rounds_for_normals = 3;
 
 /// Bonds up to this length, in spacings, show the materials on either side of a face.
 constexpr double short_bonds = 1.5;
@@ -98,17 +98,18 @@ void add(const Sums& other, Sums& sums) {
 
 /// Returns sums at each particle with crossing bonds, including the sums of its neighbours along
 /// such bonds.
-/// \param own  returns the sums of a bond
+/// \param own     returns the sums of a bond
+/// \param rounds  of adding the sums of neighbours
 template <class Own>
 std::map<Index, Sums> sums_along_face(const Network& network, std::span<const Index> crossing,
-                                      Own own) {
+                                      Own own, int rounds) {
   std::map<Index, Sums> sums;
   for (const Index e : crossing) {
     const Sums added = own(e);
     add(added, sums[network.bonds.first[e]]);
     add(added, sums[network.bonds.second[e]]);
   }
-  for (int round = 0; round < rounds_of_spreading; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     const std::map<Index, Sums> before = sums;
     for (const Index e : crossing) {
       const Index i = network.bonds.first[e], j = network.bonds.second[e];
@@ -224,10 +225,12 @@ double Measure::held_at_the_end(Index bond, double cosine, double bending) const
 /// normal is the main axis of the crossing bonds at a bond's ends.
 void Measure::measure_area(Face& face) {
   const int dim = network_.dim();
-  const std::map<Index, Sums> axes = sums_along_face(network_, crossing_, [&](Index e) {
+  const auto products = [&](Index e) {
     const auto [x, y, z] = direction_of(network_, e);
     return Sums{x * x, y * y, z * z, x * y, y * z, z * x};
-  });
+  };
+  const std::map<Index, Sums> axes =
+      sums_along_face(network_, crossing_, products, rounds_for_normals);
   Sums mean{};
   for (const auto& own : axes) add(own.second, mean);
   face.axis = principal_direction(mean, dim);
@@ -260,9 +263,9 @@ void Measure::measure_area(Face& face) {
   face.held = face.fracture_sum / squares;
 }
 
-/// Groups the bonds by stiffness in few steps: the modulus of their materials, which may change from
-/// bond to bond, times the mean effect of the calibration nearby. In the mean over the groups the
-/// face keeps the strength and energy for mean constants.
+/// Groups the bonds by stiffness in few steps: the modulus of their materials, which may change
+/// from bond to bond, times the mean effect of the calibration on bonds at the same particles. In
+/// the mean over the groups the face keeps the strength and energy for mean constants.
 void Measure::find_places(Face& face) const {
   const auto own_sums = [&](Index e) {
     const double length = network_.bonds.length(e), along = std::pow(cosine_.at(e), 2);
@@ -280,7 +283,7 @@ void Measure::find_places(Face& face) const {
     }
     return sums;
   };
-  const std::map<Index, Sums> sums = sums_along_face(network_, crossing_, own_sums);
+  const std::map<Index, Sums> sums = sums_along_face(network_, crossing_, own_sums, 0);
   const auto in_steps = [](double ratio) {
     return std::exp(step_of_places * std::round(std::log(ratio) / step_of_places));
   };

@@ -357,9 +357,9 @@ TEST(BodiesInMotion, TornByLoadsComeToRestOrCollapse) {
                  fmt::format("{}", std::pow(10.0, -3.5 + 1.5 * random.part())));
     text += fmt::format("[[supports]]\nregion = \"lo\"\nfix = [\"x\", \"y\"{}]\n",
                         body.dim == 3 ? ", \"z\"" : "");
-    text += fmt::format("[[loads]]\nregion = \"{}\"\nforce = {}\n",
-                        random.pick(2) == 0 ? "hi" : "b",
-                        vector_of(body, 1.0 - 2.0 * random.part(), 1.0 - 2.0 * random.part(), 0.3));
+    text +=
+        fmt::format("[[loads]]\nregion = \"{}\"\nforce = {}\n", random.pick(2) == 0 ? "hi" : "b",
+                    vector_of(body, 1.0 - 2.0 * random.part(), 1.0 - 2.0 * random.part(), 0.3));
     const Rested run(text + to_rest + "load_factors = [0.5, 1, 2]\niterations = 100000\n");
     const Termination end = run.result.termination;
     EXPECT_TRUE(end == Termination::completed || end == Termination::collapsed)
@@ -385,8 +385,7 @@ TEST(BodiesInMotion, HingedOnesCarryOnlyForcesAlongTheirHinge) {
     text += fmt::format("[[cracks]]\npoints = [[{1}, {0}], [9, {0}]]\n", level, hinge + 0.1);
     text += fmt::format("[[regions]]\nname = \"top\"\nx = [{0}, {0}]\ny = [{1}, {1}]\n", hinge,
                         body.size[1]);
-    text += fmt::format("[[loads]]\nregion = \"top\"\nforce = {}\n",
-                        across ? "[1, 0]" : "[0, 1]");
+    text += fmt::format("[[loads]]\nregion = \"top\"\nforce = {}\n", across ? "[1, 0]" : "[0, 1]");
     const Rested run(text + to_rest);
     if (across) {
       EXPECT_EQ(run.result.termination, Termination::collapsed) << text << run.result.reason;

@@ -188,8 +188,12 @@ class Relaxation {
     }
     const bool checks = iteration_ % iterations_between_checks == 0;
     const bool is_linear = options_.strain == Strain::small && !is_due;
-    if (checks && is_linear && separation_.is_mechanism(all.work, factor_, all.stiffness)) {
-      collapse("the body has become a mechanism, which the loads move without resistance");
+    if ((checks || ends) && is_linear &&
+        separation_.is_mechanism(all.work, factor_, all.stiffness)) {
+      collapse(
+          fmt::format("the body has become a mechanism; the loads move the part at ({}) "
+                      "without resistance",
+                      joined(body_.network.particles.position(moved_most()))));
     }
     next_.examines = !next_.done && is_due && (ends || checks);
     if (!checks || next_.done) return;
@@ -197,6 +201,19 @@ class Relaxation {
       observer_.on_iteration(static_cast<Index>(step_) + 1, iteration_, result_.residual);
       if (observer_.stop_requested()) end(Termination::interrupted, "interrupted");
     });
+  }
+
+  /// Returns the particle that moved most since the load step began or bonds broke.
+  Index moved_most() const {
+    std::size_t most = 0;
+    double largest = 0.0;
+    for (std::size_t slot = 0; slot < first_.size(); ++slot) {
+      const double way = std::abs(body_.motion.displacement[slot] - first_[slot]);
+      if (body_.is_held(slot) || way <= largest) continue;
+      largest = way;
+      most = slot;
+    }
+    return static_cast<Index>(most / body_.unknowns.width);
   }
 
   void examine() {

@@ -4,8 +4,8 @@ namespace perilink {
 
 /// Sums over the particles of one or all blocks in an iteration of a dynamic relaxation.
 struct RestSums {
-  double push = 0.0, size = 0.0;       // squares r'M^-1 r and u'M u
-  double residual = 0.0, held = 0.0;   // squares of residual forces, of loads and reactions
+  double push = 0.0, size = 0.0;      // squares r'M^-1 r and u'M u
+  double residual = 0.0, held = 0.0;  // squares of residual forces, of loads and reactions
   // Over the motion d since the load step began or bonds broke: d'K d, d'M d, work of the loads.
   double stiffness = 0.0, mass = 0.0, work = 0.0;
   double last_stiffness = 0.0, last_mass = 0.0;  // over the last step

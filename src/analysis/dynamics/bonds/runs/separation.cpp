@@ -16,7 +16,7 @@ constexpr double unbalanced = 1e-6;
 /// Fraction of the loads on the body that is round-off.
 constexpr double round_off = 1e-12;
 /// Displacement over the size of the body, or rotation, that no elastic body reaches.
-constexpr double far_away = 1000.0;
+constexpr double far_away = 1e6;
 /// Fraction of the prescribed displacements that strains a piece.
 constexpr double straining = 1e-9;
 
