@@ -10,6 +10,7 @@
 #include "material/strength/bond_cell.hpp"
 #include "material/strength/face_chain.hpp"
 #include "network/bond_strength.hpp"
+#include "network/expected_events.hpp"
 #include "network/lattice_neighbourhoods.hpp"
 
 namespace perilink {
@@ -211,12 +212,6 @@ double find_energy(const StrengthFactor& factor_of, const SofteningShape& shape,
     if (same) break;
   }
   return unit_energy * factor * factor;
-}
-
-Index count_segments(const BondLaw& law) {
-  Index count = 0;
-  while (law.segment(count).secant > 0.0) ++count;
-  return count;
 }
 
 /// Returns the law with saw-tooth segments; concrete also has a compressive branch.

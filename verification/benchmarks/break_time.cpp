@@ -11,6 +11,7 @@
 #include "app/run/summary.hpp"
 #include "assembly/stiffness.hpp"
 #include "base/timer.hpp"
+#include "benchmarks/batch_time.hpp"
 #include "benchmarks/cholmod_reference.hpp"
 #include "problems/block.hpp"
 #include "problems/surface_option.hpp"
@@ -21,6 +22,8 @@ using namespace perilink::verification;
 
 /// Time per broken bond of every route, in one run, on the refined tension block.
 ///   break_time [--surface calibrated|none] [--threads N] [columns ...]
+/// Time per batch by each way, in the plane and, from so many spacings across, in space.
+///   break_time --batches plane|space [columns or spacings ...]
 namespace {
 
 /// Read bandwidth of one thread over an array much larger than the caches [bytes/s]: the best of a
@@ -146,15 +149,23 @@ int main(int argc, char** argv) try {
   std::vector<std::string> arguments(argv + 1, argv + argc);
   const std::string surface = take_surface_option(arguments);
   int threads = 1;
+  int batches_in = 0;  // dimension
   std::vector<int> sizes;
   for (std::size_t k = 0; k < arguments.size(); ++k) {
     if (arguments[k] == "--threads" && k + 1 < arguments.size()) {
       threads = std::atoi(arguments[++k].c_str());
+    } else if (arguments[k] == "--batches" && k + 1 < arguments.size()) {
+      batches_in = arguments[++k] == "space" ? 3 : 2;
     } else {
       sizes.push_back(std::atoi(arguments[k].c_str()));
     }
   }
+  if (sizes.empty() && batches_in == 3) sizes = {spacings_10k, spacings_30k};
   if (sizes.empty()) sizes = {columns_5k, columns_50k, columns_300k};
+  if (batches_in > 0) {
+    for (const int size : sizes) print_batch_times(batches_in, size);
+    return 0;
+  }
   const double bandwidth = read_bandwidth();
   fmt::print("surface = \"{}\", {} thread(s); one thread reads {:.1f} GB/s\n", surface, threads,
              bandwidth / 1e9);

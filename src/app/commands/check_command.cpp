@@ -23,6 +23,7 @@
 #include "model/from_case/lattice_case.hpp"
 #include "model/from_case/separated_body.hpp"
 #include "network/builder/free_bodies.hpp"
+#include "network/expected_events.hpp"
 #include "solver/factor_routes.hpp"
 
 namespace perilink {
@@ -60,21 +61,27 @@ double memory_without_factor(const Network& network, bool events) {
   return boxes + 8.0 * unknowns * static_cast<double>(columns);
 }
 
-/// Prints the least time per event. An event, or a batch of events, reads the factor twice;
-/// searches and sums over bonds come on top.
+/// Prints the time per event, which reads the factor twice, and of one crack across the body. A
+/// batch takes `batch_share` times as long and `batch_seconds` for its elements. Both were fitted to
+/// verification/studies/event_tolerance.
 void print_time_of_events(const CaseFile& input, const Network& network, double factor_bytes) {
+  constexpr double batch_share = 1.7, batch_seconds = 8e-5;
   const bool many = softens(network), batches = many && event_tolerance_of(input) > 0.0;
   const double seconds = 2.0 * factor_bytes / read_bytes_per_second;
-  fmt::print("#   time               at least {:.3g} ms per {}{}", 1e3 * seconds,
-             batches ? "batch of events"
-             : many  ? "event"
-                     : "broken bond",
+  const double each = batches ? batch_share * seconds + batch_seconds : seconds;
+  const char* event = batches ? "batch of events" : many ? "event" : "broken bond";
+  fmt::print("#   time               about {:.2g} ms per {}{}", 1e3 * each, event,
              input.elements ? " at first" : "");
-  if (input.stop.broken_bonds && !many) {
-    fmt::print(", {} for {} of them", time_text(*input.stop.broken_bonds * seconds),
-               *input.stop.broken_bonds);
+  std::optional<double> events = expected_events(network);
+  if (input.stop.broken_bonds && !many) events = *input.stop.broken_bonds;
+  if (events) {
+    const double count =
+        batches ? *events / expected_batch(*events, event_tolerance_of(input)) : *events;
+    fmt::print(", {} for {}{:.2g} of them{}", time_text(count * each),
+               input.stop.broken_bonds && !many ? "" : "about ", count,
+               input.stop.broken_bonds && !many ? "" : ", one crack across the body");
   }
-  fmt::print("; it reads the factor twice\n");
+  fmt::print("\n");
 }
 
 /// \param factor  of the stiffness matrix; empty where the run uses conjugate gradients

@@ -15,10 +15,14 @@
 #include "io/checkpoint/pack.hpp"
 #include "model/from_case/separated_body.hpp"
 #include "model/gauges.hpp"
+#include "network/expected_events.hpp"
 #include "solver/ranks/process_ranks.hpp"
 
 namespace perilink {
 namespace {
+
+/// Events still expected over the events so far, once a crack needs more than expected_events().
+constexpr double least_left = 0.1;
 
 /// Returns the number of rows between checkpoints by counted work: a new engine over an event.
 /// \param batches  elements fail together, and a row takes several solutions
@@ -267,6 +271,11 @@ void DamageRun::show_progress(const StepRecord& record) {
   }
   if (stop.displacement && *stop.displacement > 0.0) {
     done = std::max(done.value_or(0.0), std::abs(record.displacement) / *stop.displacement);
+  }
+  if (const auto expected = expected_events(model_.network)) {
+    const double events = record.broken_bonds + record.yield_events;
+    const double left = std::max(*expected - events, least_left * events);
+    if (events > 0.0) done = std::max(done.value_or(0.0), events / (events + left));
   }
   if (done) done = std::clamp(*done, 0.0, 1.0);
   std::string state = counted(record.broken_bonds, "broken bond");

@@ -157,15 +157,6 @@ EventOutcome Equilibrium::pass_side_change(double direction) {
   return outcome;
 }
 
-void Equilibrium::prepare(Index element, std::span<const Index> expected) {
-  Residual residual = solution_.growing().residual();
-  const std::vector<double> missing = residual.forces;
-  const double energy = 2.0 * residual.energy;
-  if (!update_->prepare(element, expected, residual.forces, energy)) return;
-  solution_.growing().correct(residual.forces);
-  update_->judge(scalar_product(missing, residual.forces), energy);
-}
-
 Balance Equilibrium::check_cheaply() {
   const bool has_part = !solution_.growing().is_current() && solution_.growing().has_checked_part();
   if (!has_part || take_rare_branch("full check")) return check();

@@ -98,10 +98,10 @@ class Equilibrium {
   /// \throws std::invalid_argument if prescribed motions differ
   Freedom change_motion(const Unknowns& unknowns);
 
-  /// Solves for the columns of an element's event and of expected events, and removes errors that
-  /// earlier events left.
-  /// \param expected  elements that are expected to have events next, in order of load factor
-  void prepare(Index element, std::span<const Index> expected);
+  /// Calls Update::prepare().
+  void prepare(Index element, std::span<const Index> expected) {
+    update_->prepare(element, expected);
+  }
 
   /// Starts a stage: other loads and prescribed motions grow, in addition to permanent ones. All
   /// displacements are kept current.

@@ -99,7 +99,6 @@ void Equilibrium::commit(const Removal& removal, const Weakening& change) {
   body_.weaken(change.element, change.secant);
   if (removal.needs_new_inverse || removal.acts_on_nothing()) return;
   solution_.follow(removal);
-  if (change.secant == 0.0) update_->evict(removal.vectors());
   if (separation_.doubts_pivots()) separation_.refine();
 }
 

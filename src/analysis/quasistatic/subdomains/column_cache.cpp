@@ -25,9 +25,6 @@ constexpr double coarser = 100.0;
 /// Memory of the cache, except for the fewest blocks [bytes].
 constexpr double most_bytes = 4e9;
 
-/// Age of evicted columns, above the number of calls in a run.
-constexpr int evicted_age = 1 << 30;
-
 std::size_t blocks_of(std::size_t columns) { return (columns + block_width - 1) / block_width; }
 
 /// Returns s if x = s held, else 0.
@@ -70,15 +67,6 @@ void SubdomainFactor::clear() {
   blocks_.clear();
   shares_.resize(0, 0);
   compliance_.resize(0, 0);
-}
-
-void SubdomainFactor::evict(std::span<const SparseVector> x) {
-  for (std::size_t place = 0; place < window_.size(); ++place) {
-    const auto is_here = [&](const SparseVector& gone) {
-      return share_of(gone, window_[place]) != 0.0;
-    };
-    if (std::ranges::any_of(x, is_here)) used_[place] = now_ - evicted_age;
-  }
 }
 
 /// Frees half of the blocks. The columns used last are stored with their present values.
@@ -130,7 +118,7 @@ std::vector<SparseVector> SubdomainFactor::missing_of(std::span<const SparseVect
 }
 
 /// Loads missing and expected vectors into the cache.
-void SubdomainFactor::hold(std::span<const SparseVector> x, Correction* correction) {
+void SubdomainFactor::hold(std::span<const SparseVector> x) {
   const std::vector<SparseVector> missing = missing_of(x);
   if (missing.empty()) return;
   ++now_;
@@ -139,32 +127,21 @@ void SubdomainFactor::hold(std::span<const SparseVector> x, Correction* correcti
       if (place_of_[unknown] != no_index) used_[place_of_[unknown]] = now_;
     }
   }
-  const std::size_t reserved = correction != nullptr ? 1 : 0;
-  std::vector<SparseVector> chosen = choose(missing, reserved);
+  std::vector<SparseVector> chosen = choose(missing);
   if ((blocks_.size() + blocks_of(chosen.size())) * block_width >
       columns_of_window(unknowns_->number.size(), options_)) {
     keep_latest();
-    chosen = choose(missing_of(x), reserved);  // some may have been evicted
+    chosen = choose(missing_of(x));  // some may have been evicted
   }
   const std::span<const SparseVector> all(chosen);
   for (std::size_t begin = 0; begin < all.size(); begin += block_width) {
-    const std::size_t count = std::min<std::size_t>(block_width, all.size() - begin);
-    take_in(all.subspan(begin, count), count < block_width ? correction : nullptr);
+    take_in(all.subspan(begin, std::min<std::size_t>(block_width, all.size() - begin)));
   }
-}
-
-bool SubdomainFactor::hold_and_correct(std::span<const SparseVector> x,
-                                       std::vector<double>& residual, double energy) {
-  Correction correction{residual, energy};
-  hold(x, &correction);
-  return correction.is_done;
 }
 
 /// Returns missing and, where blocks have room, expected vectors. For elements that carry moments
 /// it returns unknowns, as combinations of their vectors are requested.
-/// \param reserved  columns of the last block to leave free if possible
-std::vector<SparseVector> SubdomainFactor::choose(const std::vector<SparseVector>& missing,
-                                                  std::size_t reserved) const {
+std::vector<SparseVector> SubdomainFactor::choose(const std::vector<SparseVector>& missing) const {
   std::vector<SparseVector> chosen;
   VectorSpan span = span_;
   const auto list = [&](const SparseVector& x) {
@@ -178,8 +155,7 @@ std::vector<SparseVector> SubdomainFactor::choose(const std::vector<SparseVector
     for (const Index unknown : x.rows) list({{unknown}, {1.0}});
   };
   std::ranges::for_each(missing, list_what_it_needs);
-  const std::size_t room =
-      std::max(chosen.size(), blocks_of(chosen.size()) * block_width - reserved);
+  const std::size_t room = blocks_of(chosen.size()) * block_width;
   for (const SparseVector& x : expected_) {
     if (chosen.size() < room) list_what_it_needs(x);
   }
@@ -188,30 +164,19 @@ std::vector<SparseVector> SubdomainFactor::choose(const std::vector<SparseVector
 }
 
 /// Solves for columns and appends them to the cache.
-void SubdomainFactor::take_in(std::span<const SparseVector> x, Correction* correction) {
+void SubdomainFactor::take_in(std::span<const SparseVector> x) {
   const auto before = static_cast<Eigen::Index>(window_.size());
   const auto size = before + static_cast<Eigen::Index>(x.size());
   const double enough = coarser * options_.tolerance;
-  double size_of_last = 0.0;
-  if (correction != nullptr && correction->energy > 0.0) {
-    const double wanted = options_.tolerance * SubdomainSolver::finer;
-    size_of_last = correction->energy * (wanted / enough) * (wanted / enough);
-  }
-  fill_right_sides(x, correction);
+  fill_right_sides(x);
   blocks_.emplace_back(right_.size());
-  const int iterations =
-      solver().solve_block(right_, blocks_.back(), enough, size_of_last).iterations;
+  const int iterations = solver().solve_block(right_, blocks_.back(), enough).iterations;
   if (first_iterations_ == 0) first_iterations_ = iterations;
   if (iterations > slower * first_iterations_) {
     solver_.reset();  // frees memory first
     solver();
   }
   columns_solved_ += static_cast<Index>(x.size());
-  for (std::size_t k = 0; correction != nullptr && k < slot_of_.size(); ++k) {
-    correction->residual[k] =
-        std::exchange(blocks_.back()[slot_of_[k] * block_width + block_width - 1], 0.0);
-    correction->is_done = true;
-  }
   for (const SparseVector& column : x) put_in_window(column, now_);
 
   // Positions in the cache skip unused columns of a block, which stay zero.
@@ -248,16 +213,12 @@ void SubdomainFactor::mirror_compliance(Eigen::Index before) {
   compliance_.bottomRightCorner(count, count) = 0.5 * (own + own.transpose());
 }
 
-void SubdomainFactor::fill_right_sides(std::span<const SparseVector> x,
-                                       const Correction* correction) {
+void SubdomainFactor::fill_right_sides(std::span<const SparseVector> x) {
   right_.assign(unknowns_->number.size() * block_width, 0.0);
   for (std::size_t c = 0; c < x.size(); ++c) {
     for (int k = 0; k < x[c].size(); ++k) {
       right_[slot_of_[x[c].rows[k]] * block_width + c] = x[c].values[k];
     }
-  }
-  for (std::size_t k = 0; correction != nullptr && k < slot_of_.size(); ++k) {
-    right_[slot_of_[k] * block_width + block_width - 1] = correction->residual[k];
   }
 }
 

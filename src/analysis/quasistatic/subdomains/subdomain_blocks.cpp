@@ -105,9 +105,8 @@ bool SubdomainSolver::is_found_in_single(std::span<const double> right, std::spa
 }
 
 GradientsReport SubdomainSolver::solve_block(std::span<double> right, std::span<double> solution,
-                                             double enough, double size_of_last) {
-  BlockRow sizes = local_energies(blocks_, unknowns_.width, right);
-  if (size_of_last > 0.0) sizes.back() = size_of_last;
+                                             double enough) {
+  const BlockRow sizes = local_energies(blocks_, unknowns_.width, right);
   const GradientsReport report = search_block(right, solution, sizes, enough);
   iterations_ += report.iterations;
   if (!report.converged) throw not_there(report.iterations, report.error, enough);

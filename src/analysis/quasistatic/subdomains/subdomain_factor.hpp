@@ -33,13 +33,7 @@ class SubdomainFactor final : public Factor {
   bool holds(const SparseVector& x) const { return parts_of(x).has_value(); }
   /// Loads the columns of these vectors into the cache. Must precede a change of the secants: a
   /// later downdate would take the change twice.
-  void hold(std::span<const SparseVector> x) { hold(x, nullptr); }
-  /// Loads missing columns into the cache and corrects a solution with them.
-  /// \param residual  becomes K^-1 residual
-  /// \param energy    energy of the solution, which scales the error
-  /// \return whether the residual was replaced: blocks may have no room for it
-  bool hold_and_correct(std::span<const SparseVector> x, std::vector<double>& residual,
-                        double energy);
+  void hold(std::span<const SparseVector> x);
   /// Sets vectors that are expected to be needed next, in that order. They are loaded where
   /// blocks have room.
   void expect(std::vector<SparseVector> x) { expected_ = std::move(x); }
@@ -49,8 +43,6 @@ class SubdomainFactor final : public Factor {
   /// The accuracy is as in correct(). The subdomains are made anew if the number of iterations has
   /// grown much.
   void follow(std::vector<double>& residual, double energy);
-  /// Marks vectors of failed elements: they are evicted first when the cache is full.
-  void evict(std::span<const SparseVector> x);
   /// Clears the cache, for example after too many changes. Columns are then solved for on request.
   void clear();
 
@@ -74,17 +66,10 @@ class SubdomainFactor final : public Factor {
   void keep_latest();
   SubdomainSolver& solver();
   std::vector<SparseVector> missing_of(std::span<const SparseVector> x) const;
-  struct Correction {
-    std::vector<double>& residual;
-    double energy;
-    bool is_done = false;
-  };
-  void hold(std::span<const SparseVector> x, Correction* correction);
-  std::vector<SparseVector> choose(const std::vector<SparseVector>& missing,
-                                   std::size_t reserved) const;
+  std::vector<SparseVector> choose(const std::vector<SparseVector>& missing) const;
   void put_in_window(const SparseVector& x, int used);
-  void take_in(std::span<const SparseVector> x, Correction* correction);
-  void fill_right_sides(std::span<const SparseVector> x, const Correction* correction);
+  void take_in(std::span<const SparseVector> x);
+  void fill_right_sides(std::span<const SparseVector> x);
   Eigen::MatrixXd on_columns(std::span<const SparseVector> x, std::size_t block) const;
   void mirror_compliance(Eigen::Index before);
   Eigen::VectorXd in_window(const SparseVector& x);
@@ -107,7 +92,7 @@ class SubdomainFactor final : public Factor {
   /// Per unknown: position of its unit vector in the cache, or no_index.
   std::vector<Index> place_of_;
   VectorSpan span_;        ///< span of the cached vectors
-  std::vector<int> used_;  ///< per position: last event that used it; negative: evict first
+  std::vector<int> used_;  ///< per position: last event that used it
   int now_ = 0;            ///< events and calls so far
   /// Columns of K^-1 at the time of their solve, block after block, each of shape (particles,
   /// width, block_width).

@@ -56,12 +56,9 @@ class SubdomainSolver {
   /// with motions of the whole body.
   /// \param right   overwritten
   /// \param enough  requested relative error
-  /// \param size_of_last  zero, or energy that scales the error of the last right side, the
-  ///                      residual of another solution
   /// \return iterations, and the largest error
   /// \throws SolverError if the iterations do not converge
-  GradientsReport solve_block(std::span<double> right, std::span<double> solution, double enough,
-                              double size_of_last = 0.0);
+  GradientsReport solve_block(std::span<double> right, std::span<double> solution, double enough);
 
   /// Solves for a correction of another solution, less accurately.
   /// \param energy  energy of the whole solution, which scales the error; positive

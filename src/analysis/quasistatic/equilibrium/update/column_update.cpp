@@ -53,8 +53,7 @@ bool ColumnUpdate::is_prepared(Index element) const {
                      [&](const SparseVector& x) { return columns_.holds(x); });
 }
 
-bool ColumnUpdate::prepare(Index element, std::span<const Index> expected,
-                           std::vector<double>& residual, double energy) {
+void ColumnUpdate::prepare(Index element, std::span<const Index> expected) {
   const auto vectors_of = [&](Index of, std::vector<SparseVector>& vectors) {
     const ElementVectors parts = element_vectors(body_.network(), body_.unknowns(), of, 1.0);
     vectors.insert(vectors.end(), parts.x.begin(), parts.x.begin() + parts.count);
@@ -63,7 +62,7 @@ bool ColumnUpdate::prepare(Index element, std::span<const Index> expected,
   vectors_of(element, own);
   for (const Index other : expected) vectors_of(other, next);
   columns_.expect(std::move(next));
-  return columns_.hold_and_correct(own, residual, energy);
+  columns_.hold(own);
 }
 
 /// Clears the column cache if a correction is large. The errors of columns grow with every event

@@ -32,10 +32,8 @@ class ColumnUpdate final : public Update {
   bool can_follow_a_part() const override { return false; }
   std::optional<Drift> drift() const override;
   bool is_prepared(Index element) const override;
-  bool prepare(Index element, std::span<const Index> expected, std::vector<double>& residual,
-               double energy) override;
+  void prepare(Index element, std::span<const Index> expected) override;
   void announce(std::span<const SparseVector> x) override { columns_.hold(x); }
-  void evict(std::span<const SparseVector> x) override { columns_.evict(x); }
   void judge(double error, double energy) override;
 
  private:

@@ -8,7 +8,7 @@
 namespace perilink {
 
 /// A factor of K that is changed, made anew, or kept as a preconditioner, whichever costs least.
-class FactorUpdate final : public Update {
+class FactorUpdate : public Update {
  public:
   /// \param threads     see make_factor()
   /// \param in_batches  elements may fail together

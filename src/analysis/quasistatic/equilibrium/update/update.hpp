@@ -75,19 +75,11 @@ class Update {
 
   /// Returns whether an event of the element needs no solve by conjugate gradients.
   virtual bool is_prepared(Index /*element*/) const { return true; }
-  /// Solves for the columns of an element's event, and corrects a solution with them.
+  /// Solves for the columns of an element's event.
   /// \param expected  elements that are expected to have events next, in order of load factor
-  /// \param residual  becomes K^-1 residual
-  /// \param energy    u'K u of the solution
-  /// \return whether the residual was replaced
-  virtual bool prepare(Index /*element*/, std::span<const Index> /*expected*/,
-                       std::vector<double>& /*residual*/, double /*energy*/) {
-    return false;
-  }
+  virtual void prepare(Index /*element*/, std::span<const Index> /*expected*/) {}
   /// Announces a change of K by these vectors, before the secants change.
   virtual void announce(std::span<const SparseVector> /*x*/) {}
-  /// Declares that vectors of broken elements are not needed again.
-  virtual void evict(std::span<const SparseVector> /*x*/) {}
   /// Judges K^-1 by the error that changes have left in a solution.
   /// \param error   energy of the correction that removed it
   /// \param energy  u'K u of the solution

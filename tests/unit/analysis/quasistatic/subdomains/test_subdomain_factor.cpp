@@ -130,29 +130,6 @@ TEST(SubdomainFactor, HoldsWhatWasExpected) {
   EXPECT_THROW(subdomains.refactorize({}), std::logic_error);
 }
 
-TEST(SubdomainFactor, CorrectsASolutionWithNewColumns) {
-  const AnalysisBody body = make_block({{"cubic", Pattern::cubic, Surface::none}});
-  const std::vector<double> secants = intact(body.network), no_ground;
-  SubdomainFactor subdomains(body.network, fine);
-  subdomains.begin(body.unknowns, secants, no_ground);
-  const std::vector<double> missing =
-      random_vector(static_cast<std::size_t>(body.unknowns.count), 3);
-  std::vector<double> expected(missing.size());
-  subdomains.solve(missing, expected);
-  double energy = 0.0;
-  for (std::size_t k = 0; k < missing.size(); ++k) energy += missing[k] * expected[k];
-  const SparseVector x = unit(5);
-  std::vector<double> found = missing;
-  EXPECT_TRUE(subdomains.hold_and_correct({&x, 1}, found, energy));
-  EXPECT_LT(largest_difference(found, expected), closeness);
-  EXPECT_TRUE(subdomains.holds(x));
-  EXPECT_EQ(subdomains.columns_solved(), 1);
-  found = missing;
-  EXPECT_FALSE(
-      subdomains.hold_and_correct({&x, 1}, found, energy));  // there is nothing to solve for
-  EXPECT_EQ(found, missing);
-}
-
 /// The vector of an element, whatever is left of it, and no other on the same unknowns.
 TEST(SubdomainFactor, HoldsVectorsByThemselves) {
   const AnalysisBody body = make_block({{"cubic", Pattern::cubic, Surface::none}});
@@ -198,14 +175,13 @@ TEST(SubdomainFactor, HoldsWhatOthersMakeUp) {
   EXPECT_TRUE(by_itself.holds(sum));
 }
 
-TEST(SubdomainFactor, ColumnsThatNobodyAsksForGoFirst) {
+TEST(SubdomainFactor, ColumnsUsedLastStay) {
   const AnalysisBody body = make_block({{"cubic", Pattern::cubic, Surface::none}, false, false, 6});
   const std::vector<double> secants = intact(body.network), no_ground;
   SubdomainSolverOptions small = fine;
   small.window = 4 * block_width;
   SubdomainFactor subdomains(body.network, small);
   subdomains.begin(body.unknowns, secants, no_ground);
-  constexpr std::size_t waiting = 4;  // columns in every block
   std::vector<SparseVector> held;
   std::vector<bool> taken(static_cast<std::size_t>(body.network.particles.size()), false);
   for (Index e = 0; e < body.network.num_elements() && held.size() < 5 * block_width; ++e) {
@@ -216,20 +192,14 @@ TEST(SubdomainFactor, ColumnsThatNobodyAsksForGoFirst) {
     taken[first] = taken[second] = true;
     held.push_back(x);
     if (held.size() % block_width != 0) continue;
+    if (held.size() == 5 * block_width) subdomains.columns({&held[0], 1});
     subdomains.hold(std::span(held).last(block_width));
-    subdomains.evict(std::span(held).last(block_width - waiting));
   }
   ASSERT_EQ(held.size(), 5u * block_width);
-  // The fifth block found the window full: half of it stayed.
+  // The fifth block found the cache full: half of it stayed, and the first column, used last.
   for (std::size_t k = 0; k < held.size(); ++k) {
-    const std::size_t block = k / block_width;
-    const bool waits = k % block_width < waiting;
-    if (waits || block > 2) {
-      EXPECT_TRUE(subdomains.holds(held[k]))
-          << k;  // pending columns, and the latest of the evicted ones
-    } else if (block < 2) {
-      EXPECT_FALSE(subdomains.holds(held[k])) << k;
-    }
+    const bool stays = k == 0 || (k >= 2 * block_width && k != 3 * block_width - 1);
+    EXPECT_EQ(subdomains.holds(held[k]), stays) << k;
   }
 }
 
