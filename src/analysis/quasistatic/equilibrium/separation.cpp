@@ -227,13 +227,14 @@ bool SeparationCheck::hangs_on_weak_supports(const Removal& removal, double grow
 
 bool SeparationCheck::rebuild_without(Index element, double kept) {
   const double before = body_.secant_of(element);
-  body_.set_secant(element, kept);
+  const bool was_intact = body_.secants()[element] == 1.0;
+  body_.weaken(element, kept);
   try {
     solution_.renew();
     refine();
     return true;
   } catch (const NotPositiveDefinite&) {
-    body_.set_secant(element, before);
+    body_.take_back(element, before, was_intact);
     solution_.renew();
     return false;
   }

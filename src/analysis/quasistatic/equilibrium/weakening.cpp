@@ -103,7 +103,8 @@ void Equilibrium::commit(const Removal& removal, const Weakening& change) {
 }
 
 EventOutcome Equilibrium::weaken(Index element, double secant) {
-  const double before = body_.secants()[element];
+  const double before = body_.secant_of(element);
+  const bool was_intact = body_.secants()[element] == 1.0;
   solution_.bring_inverse_up();
   if (!body_.network().has_limit(element)) solution_.keep_all_current();
   Removal removal = removal_of(solution_, {element, secant});
@@ -134,7 +135,7 @@ EventOutcome Equilibrium::weaken(Index element, double secant) {
   if (body_.has_sides()) sides_.settle(outcome);
   if (!outcome.mechanism) return outcome;
   sides_.take_back();
-  body_.take_back(element, before, before == 1.0);
+  body_.take_back(element, before, was_intact);
   work_.sum_anew();
   solution_.renew();
   return outcome;

@@ -43,6 +43,15 @@ AnalysisBody make_pair(double rest, double bending = 0.0) {
   return body;
 }
 
+/// A bond whose removal needs a new factor closes as others do.
+TEST(Separation, ABondRemovedWithANewFactorMayClose) {
+  AnalysisBody body = make_pair(1e-20);
+  body.network.laws = {BondLaw::brittle().closing()};
+  Equilibrium equilibrium(body, {});
+  ASSERT_FALSE(equilibrium.weaken(0, 0.0).mechanism);
+  EXPECT_EQ(equilibrium.state().damaged, std::vector<Index>{0});
+}
+
 /// The pivot is rest / (1 + rest), however small: what remains carries the load at u = 1 / rest.
 TEST(Separation, WhatIsWeakStillHolds) {
   for (const double bending : {0.0, 2.0}) {

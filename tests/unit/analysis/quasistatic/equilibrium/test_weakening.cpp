@@ -186,6 +186,45 @@ TEST(Weakening, CutHoldsAParticleAndItsRotationsWithoutDisturbingTheRest) {
   }
 }
 
+/// Particle 1 is pulled to the left and takes particle 2 along by a bond with shear retention, which
+/// has lost half of its stiffness. Particle 2 has a force to the right and presses on a broken bond
+/// that closes. Without the first bond only this one would hold it: nothing changes.
+TEST(Weakening, AMechanismLeavesASoftenedBondWithShearRetentionAsItWas) {
+  Network network;
+  network.particles.dim = network.bonds.dim = 2;
+  network.particles.positions = {-1, 0, 0, 0, 1, 0};
+  network.particles.volumes.assign(3, 1.0);
+  network.particles.material.assign(3, 0);
+  network.particles.kind.assign(3, ParticleKind::solid);
+  for (const auto& [first, second] : {std::pair(0, 1), std::pair(1, 2), std::pair(0, 2)}) {
+    network.bonds.append(network.particles, first, second);
+  }
+  network.stiffness = {1.0, 1.0, 1.0};
+  network.critical_stretch = {infinity, 1e-3, 1e-3};
+  const std::vector<Segment> segments = {{1.0, 1.0}, {0.5, 2.0}};
+  network.laws = {BondLaw::saw_tooth(segments).crushing(segments, 1.0, true),
+                  BondLaw::brittle().closing()};
+  network.law_of = {0, 0, 1};
+  network.first_slip_spring = network.first_bar_element = 3;
+  AnalysisBody body = free_body(std::move(network));
+  body.loads.forces[slot(body, 1, 0)] = -1.0;
+  body.loads.forces[slot(body, 2, 0)] = 0.1;
+  number(body, [](Index i, int axis) { return i == 0 || axis > 0; });
+  body.reference = {false, 1.0};
+  Equilibrium equilibrium(body, {});
+  ASSERT_FALSE(equilibrium.weaken(2, 0.0).mechanism);
+  ASSERT_FALSE(equilibrium.weaken(1, 0.5).mechanism);
+  const std::vector<double> before(equilibrium.displacement().begin(),
+                                   equilibrium.displacement().end());
+  // By hand: 1.5 u_1 - 0.5 u_2 = -1 and 1.5 u_2 - 0.5 u_1 = 0.1.
+  ASSERT_NEAR(before[slot(body, 2, 0)], -0.175, 1e-14);
+  EXPECT_TRUE(equilibrium.weaken(1, 0.0).mechanism);
+  EXPECT_EQ(equilibrium.secants().axial(1), 0.5);
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    EXPECT_NEAR(equilibrium.displacement()[k], before[k], 1e-14);
+  }
+}
+
 TEST(Weakening, CutRefusesALoadedPart) {
   AnalysisBody body =
       make_block({{"", Pattern::hexagonal, Surface::none}, false, false, 8, 0.1, true});
