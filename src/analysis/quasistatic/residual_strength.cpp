@@ -80,6 +80,16 @@ CurvePoint highest(std::span<const StepRecord> rows) {
   return {row->displacement, row->load};
 }
 
+/// Returns the number of rows before the load of a stage reaches a twentieth of its largest.
+/// Permanent loads of earlier stages cause most of the damage of these rows, which stage_path()
+/// would attribute to the small load of the stage.
+std::size_t early_rows(std::span<const StepRecord> rows, double largest) {
+  constexpr double small = 0.05;
+  const auto first = std::ranges::find_if(
+      rows, [&](const StepRecord& row) { return std::abs(row.load) >= small * std::abs(largest); });
+  return static_cast<std::size_t>(first - rows.begin());
+}
+
 }  // namespace
 
 std::size_t rows_before_through_crack(const Network& network, std::span<const StepRecord> rows) {
@@ -112,8 +122,10 @@ void find_peaks(const Network& network, std::span<const StepRecord> rows, Damage
   // brittle bonds may lose its outer bonds before its section fails.
   const bool goes_on =
       bars || network.has_crushing() || std::ranges::all_of(network.laws, &BondLaw::is_brittle);
-  std::size_t before = rows_before_residual(path, goes_on);
-  if (before == path.size()) before = rows.size();
+  const std::size_t early = stages ? early_rows(rows, peaks.highest().load) : 0;
+  const std::vector<CurvePoint> late = early > 0 ? stage_path(rows.subspan(early)) : path;
+  std::size_t before = early + rows_before_residual(late, goes_on);
+  if (before == early + late.size()) before = rows.size();
   if (!goes_on && !rows.empty()) {
     const std::size_t through = rows_before_through_crack(network, rows);
     const double first = std::abs(highest(rows.first(through)).load);

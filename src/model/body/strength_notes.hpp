@@ -25,9 +25,14 @@ std::vector<std::string> strength_notes(const MaterialStrength& strength, double
 /// Returns these notes for all materials with a known strength, with material names.
 std::vector<std::string> strength_notes(const CaseFile& input, const Model& model);
 
-/// Returns advice on checking crack paths, where a lattice has breakable bonds and no interface
-/// prescribes the path. Lattices influence the direction of cracks.
-std::optional<std::string> lattice_note(const CaseFile& input, const Model& model);
+/// Returns advice on the crack path, where bonds can break and no interface prescribes the path.
+/// Lattices attract cracks to their rows, and bonds without moments resist curved cracks.
+std::optional<std::string> path_note(const CaseFile& input, const Model& model);
+
+/// Returns a note on the strength of a softening body that fills its bounding box: it has no notch,
+/// hole or pre-crack, so damage spreads before one crack forms (docs/theory/softening.md, section
+/// 6). Bodies with random strength, bars, interfaces or sections have no note.
+std::optional<std::string> unnotched_note(const CaseFile& input, const Model& model);
 
 /// Returns the scatter of the factors of each NetworkInput::random over the bonds that it changes.
 std::vector<std::string> random_notes(const NetworkInput& input, const Network& network);

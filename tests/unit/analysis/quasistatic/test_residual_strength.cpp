@@ -86,5 +86,32 @@ TEST(Peaks, EndWithTheCrackThroughTheBody) {
   EXPECT_EQ(result_of(11.0).peak_load, 11.0) << "by less than a tenth";
 }
 
+/// A constant shear force damages the body while the tension of the next stage is still near zero,
+/// and its load swings.
+TEST(Peaks, AreNotFoundWhereTheLoadOfAStageIsStillSmall) {
+  Network network = build_model(test::strip_case()).network;
+  network.laws.push_back(BondLaw::plateau());
+  std::vector<StepRecord> rows;
+  DamageResult result;
+  const auto add = [&](double displacement, double load, double dissipated) {
+    StepRecord& row = rows.emplace_back();
+    row.element = no_index;
+    row.stage = 2;
+    row.displacement = displacement;
+    row.load = load;
+    row.dissipated_energy = dissipated;
+    result.peaks.add({displacement, load});
+  };
+  add(7e-5, 95.0, 2.81);
+  add(-1.5e-4, -223.0, 2.98);
+  add(6.4e-5, 62.0, 3.03);
+  add(2.7e-4, 339.0, 3.08);
+  for (int k = 1; k <= 40; ++k) add(2.5e-4 * k, 300.0 * k, 3.1 + 0.01 * k * k);
+  for (int k = 1; k <= 40; ++k) add(0.01 + 2.5e-4 * k, 12000.0 - 250.0 * k, 19.1 + 2.0 * k);
+  find_peaks(network, rows, result);
+  EXPECT_EQ(result.peak_load, 12000.0);
+  EXPECT_FALSE(result.peaks.climbed_again());
+}
+
 }  // namespace
 }  // namespace perilink

@@ -82,20 +82,46 @@ TEST(StrengthNotes, TellWhereTheHorizonIsTooShortForTheProcessZone) {
                                          HasSubstr(horizon_advice))));
 }
 
-TEST(LatticeNote, IsAboutBondsOfLatticesThatCanBreakAnywhere) {
+TEST(PathNote, IsAboutBondsThatCanBreakAnywhere) {
   CaseFile input = strip_case();
   Model model = build_model(input);
-  EXPECT_THAT(lattice_note(input, model).value(),
-              HasSubstr("compare with a run with pattern = \"unstructured\""));
-  EXPECT_THAT(model.notes, testing::Contains(HasSubstr("cracks on a lattice")));
+  EXPECT_THAT(path_note(input, model).value(),
+              testing::AllOf(HasSubstr("rows of a lattice"), HasSubstr("\"unstructured\""),
+                             HasSubstr("\"micropolar\"")));
+  EXPECT_THAT(model.notes, testing::Contains(HasSubstr("rows of a lattice")));
   input.interfaces.emplace_back();
-  EXPECT_FALSE(lattice_note(input, model)) << "it prescribes the path";
+  EXPECT_FALSE(path_note(input, model)) << "it prescribes the path";
   input.interfaces.clear();
   model.lattice.pattern = Pattern::irregular;
-  EXPECT_FALSE(lattice_note(input, model));
+  EXPECT_THAT(path_note(input, model).value(), HasSubstr("too straight under shear"));
+  input.body.mesh = "strip.msh";
+  EXPECT_FALSE(path_note(input, model));
+  input.body.mesh.reset();
+  model.network.bending.assign(1, 1.0);
+  EXPECT_FALSE(path_note(input, model)) << "micropolar";
   model.lattice.pattern = Pattern::rectangular;
+  EXPECT_THAT(path_note(input, model).value(), testing::Not(HasSubstr("micropolar")));
   std::ranges::fill(model.network.critical_stretch, infinity);
-  EXPECT_FALSE(lattice_note(input, model)) << "nothing breaks";
+  EXPECT_FALSE(path_note(input, model)) << "nothing breaks";
+}
+
+TEST(UnnotchedNote, IsAboutSofteningBoxesWithoutACrack) {
+  const auto note = [](const std::string& material, const std::string& tables) {
+    std::string text = strip_text + tables;
+    const std::string energy = "fracture_energy = 0.001\n";
+    text.replace(text.find(energy), energy.size(), energy + material);
+    const CaseFile input = parse_case(text, "strip.toml");
+    return unnotched_note(input, build_model(input));
+  };
+  const std::string softens = "tensile_strength = 0.15\n";
+  EXPECT_THAT(note(softens, "").value(), HasSubstr("no notch, hole or pre-crack"));
+  EXPECT_FALSE(note("", "")) << "brittle";
+  EXPECT_FALSE(note(softens, "[[cracks]]\npoints = [[-1, 45], [15, 45]]\n"));
+  EXPECT_FALSE(note(softens + "holes = [\"gap\"]\n",
+                    "[[regions]]\nname = \"gap\"\nx = [20, 40]\ny = [30, 50]\n"));
+  EXPECT_FALSE(note(softens,
+                    "[[random]]\nproperty = \"tensile_strength\"\ndistribution = \"weibull\"\n"
+                    "variation = 0.1\ncorrelation_length = 50\n"));
 }
 
 /// A fracture energy a hundred million times too large makes bonds ten thousand times too strong.
