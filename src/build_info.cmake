@@ -18,14 +18,6 @@ perilink_header_version(PERILINK_CHOLMOD_VERSION ${SUITESPARSE_INCLUDE_DIR}/chol
 perilink_header_version(PERILINK_METIS_VERSION ${METIS_INCLUDE_DIR}/metis.h
                         METIS_VER_MAJOR METIS_VER_MINOR METIS_VER_SUBMINOR)
 
-# CHOLMOD calls whatever library stands behind this link.
-find_library(BLAS_LIBRARY NAMES blas openblas)
-if(BLAS_LIBRARY)
-  file(REAL_PATH ${BLAS_LIBRARY} PERILINK_BLAS_PATH)
-else()
-  set(PERILINK_BLAS_PATH "unknown")
-endif()
-
 # Optional backends. MPI is linked to perilink-mpi alone: it would double the start-up time.
 set(PERILINK_MPI_SUMMARY "no")
 set(PERILINK_GMSH_SUMMARY "no")

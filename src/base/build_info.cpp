@@ -2,7 +2,9 @@
 
 #include <dlfcn.h>
 
+#include <filesystem>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "base/build_config.hpp"
@@ -15,12 +17,16 @@ std::string program_commit() { return build_config::commit; }
 
 namespace {
 
-/// Returns the BLAS library and the processor that OpenBLAS chose its kernels for.
+/// Returns the BLAS library that is loaded and the processor that OpenBLAS chose its kernels for.
 std::string blas() {
+  Dl_info library;
+  void* product = dlsym(RTLD_DEFAULT, "dgemm_");
+  if (product == nullptr || dladdr(product, &library) == 0) return "unknown";
   using CoreName = const char* (*)();
   auto* name = reinterpret_cast<CoreName>(dlsym(RTLD_DEFAULT, "openblas_get_corename"));
-  const std::string library = build_config::blas;
-  return name == nullptr ? library : library + ", kernels for " + name();
+  std::error_code failed;
+  const std::string path = std::filesystem::canonical(library.dli_fname, failed).string();
+  return name == nullptr ? path : path + ", kernels for " + name();
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <string>
 
 /// \file
-/// Description of the build, fixed when the build was configured.
+/// Description of the build, and of the BLAS library that is loaded.
 
 namespace perilink {
 

@@ -61,6 +61,11 @@ struct Gmsh {
 
 Gmsh load_gmsh() {
   void* library = dlopen(PERILINK_GMSH_LIBRARY, RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) {  // a machine that runs the program without building it
+    library = dlopen(
+        fmt::format("libgmsh.so.{}.{}", GMSH_API_VERSION_MAJOR, GMSH_API_VERSION_MINOR).c_str(),
+        RTLD_NOW | RTLD_LOCAL);
+  }
   if (library == nullptr) {
     throw FileError(
         fmt::format("gmsh's library cannot be loaded: {}\n  install it (libgmsh), or mesh the "

@@ -1,0 +1,52 @@
+# Packs the program, unpacks it elsewhere and runs an example of the package there.
+function(do)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE failed OUTPUT_VARIABLE text ERROR_VARIABLE text)
+  if(failed)
+    message(FATAL_ERROR "${ARGN}\n${text}")
+  endif()
+endfunction()
+
+function(run_example prefix)
+  set(example ${prefix}/share/doc/perilink/meshes/block_tension.toml)
+  do(${prefix}/bin/perilink run ${example} --out ${prefix}/results --quiet)
+  do(${CMAKE_COMMAND} -E compare_files ${prefix}/results/history.csv ${WORK}/history.csv)
+  foreach(text man/man1/perilink.1 bash-completion/completions/perilink doc/perilink/copyright
+               doc/perilink/docs/README.md)
+    if(NOT EXISTS ${prefix}/share/${text})
+      message(FATAL_ERROR "${prefix}/share/${text} is missing")
+    endif()
+  endforeach()
+  if(EXISTS ${prefix}/include)
+    message(FATAL_ERROR "${prefix} holds the library for other projects")
+  endif()
+endfunction()
+
+file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK})
+do(${PROGRAM} run ${SOURCE}/meshes/block_tension.toml --out ${WORK}/built --quiet)
+file(COPY ${WORK}/built/history.csv DESTINATION ${WORK})
+
+do(${CPACK} --config ${BUILD}/CPackConfig.cmake -G TGZ -B ${WORK}/pack -D CPACK_STRIP_FILES=OFF)
+file(GLOB archive ${WORK}/pack/*.tar.gz)
+file(ARCHIVE_EXTRACT INPUT ${archive} DESTINATION ${WORK}/archive)
+file(GLOB folders ${WORK}/archive/*)
+run_example(${folders})  # one folder
+
+find_program(DPKG_DEB dpkg-deb)
+find_program(DPKG_SHLIBDEPS dpkg-shlibdeps)
+if(DPKG_DEB AND DPKG_SHLIBDEPS)
+  do(${CPACK} --config ${BUILD}/CPackConfig.cmake -G DEB -B ${WORK}/pack -D CPACK_STRIP_FILES=OFF
+     -D CPACK_DEBIAN_COMPRESSION_TYPE=none)
+  file(GLOB package ${WORK}/pack/*.deb)
+  do(${DPKG_DEB} -x ${package} ${WORK}/root)
+  run_example(${WORK}/root/usr)
+  # What Python adds to the package when it is imported goes when the package goes.
+  do(${DPKG_DEB} -e ${package} ${WORK}/control)
+  file(READ ${WORK}/control/prerm script)
+  file(MAKE_DIRECTORY ${WORK}/root/usr/lib/python3/dist-packages/perilink/__pycache__)
+  string(REPLACE " /usr/lib" " ${WORK}/root/usr/lib" script "${script}")
+  do(sh -c "${script}")
+  if(EXISTS ${WORK}/root/usr/lib/python3/dist-packages/perilink/__pycache__)
+    message(FATAL_ERROR "removing the package leaves compiled Python")
+  endif()
+endif()
