@@ -25,6 +25,7 @@
 #include "base/error.hpp"
 #include "base/files.hpp"
 #include "base/memory.hpp"
+#include "io/case/case_schema.hpp"
 #include "solver/dense/blas_kernels.hpp"
 
 namespace perilink {
@@ -172,7 +173,7 @@ void add_plot_command(CLI::App& app, PlotOptions& options) {
       ->type_name("COLUMN");
   command->add_option("--y", options.y, "Draw the curve of this column of history.csv [load]")
       ->type_name("COLUMN");
-  command->add_flag("--whole", options.whole, "Draw rows below 1 % of the peak at the end too");
+  command->add_flag("--whole", options.whole, "Draw the last rows of a failed body too");
   command->add_option("--at", options.at, "Draw the body at this row only: a number, peak or last")
       ->check(is_row_choice);
   command->add_option("--field", options.field,
@@ -297,10 +298,15 @@ int run_program(int argc, char** argv) {
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
     const std::vector<std::string> unknown = app.remaining();
+    std::string text = error.what();
     if (app.get_subcommands().empty() && !unknown.empty()) {
-      complain("unknown command or option " + unknown.front());
+      std::vector<std::string_view> commands;
+      for (const CLI::App* command : app.get_subcommands({}))
+        commands.push_back(command->get_name());
+      text = fmt::format("unknown command or option {}\n  {}", unknown.front(),
+                         suggest(unknown.front(), commands));
     }
-    app.exit(error);
+    complain(text + "\n  --help, also after a command, lists what can be given");
     return exit_bad_input;
   }
   return with_exit_status([&] {

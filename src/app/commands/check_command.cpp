@@ -60,21 +60,17 @@ double memory_without_factor(const Network& network, bool events) {
   return boxes + 8.0 * unknowns * static_cast<double>(columns);
 }
 
-/// Prints the least time per event. An event, or a batch of events, reads the factor twice;
-/// searches and sums over bonds come on top.
+/// Prints the least time per row, an event or a batch of events. It reads the factor twice; searches
+/// and sums over bonds come on top.
 void print_time_of_events(const CaseFile& input, const Network& network, double factor_bytes) {
-  const bool many = softens(network), batches = many && event_tolerance_of(input) > 0.0;
   const double seconds = 2.0 * factor_bytes / read_bytes_per_second;
-  fmt::print("#   time               at least {:.3g} ms per {}{}", 1e3 * seconds,
-             batches ? "batch of events"
-             : many  ? "event"
-                     : "broken bond",
+  fmt::print("#   time               at least {:.3g} ms for each row{}", 1e3 * seconds,
              input.elements ? " at first" : "");
-  if (input.stop.broken_bonds && !many) {
-    fmt::print(", {} for {} of them", time_text(*input.stop.broken_bonds * seconds),
-               *input.stop.broken_bonds);
+  if (input.stop.broken_bonds && !softens(network)) {
+    fmt::print(", {} for {}", time_text(*input.stop.broken_bonds * seconds),
+               counted(*input.stop.broken_bonds, "broken bond"));
   }
-  fmt::print("; it reads the factor twice\n");
+  fmt::print("\n");
 }
 
 /// \param factor  of the stiffness matrix; empty where the run uses conjugate gradients
@@ -110,14 +106,19 @@ void print_cost(const CaseFile& input, const Network& network,
 
 /// Prints the fundamental period, a time scale for choosing how slowly to load.
 /// \param period  computes it
+/// \param ramp    time in which the load grows
 template <class Period>
-void print_period(Index particles, Period period) {
+void print_period(Index particles, double ramp, Period period) {
   if (particles > most_particles) {
     fmt::print("#   fundamental period not computed for more than {} particles\n", most_particles);
     return;
   }
   try {
-    fmt::print("#   fundamental period {:.6g}\n", period());
+    const double time = period();
+    fmt::print("#   fundamental period {:.6g}{}\n", time,
+               ramp < time
+                   ? fmt::format(", ramp_time is {:.2g} of it: no quasistatic run", ramp / time)
+                   : "");
   } catch (const SolverError& error) {
     fmt::print("#   fundamental period not found: {}\n", error.what());
   }
@@ -160,7 +161,9 @@ void print_case(const std::string& path, const CaseFile& input) {
 
 void print_body(const CaseFile& input, const Model& model) {
   print_sizes(model, input.analysis.type == AnalysisType::damage);
+  print_bars(input, model);
   print_regions(input, model);
+  print_symmetry(input, model);
   print_stages(input, model);
   print_crack_tips(input, model);
 }
@@ -190,7 +193,8 @@ int check_explicit(const std::string& case_path, const CaseFile& input) {
     fmt::print("#   forces             {} on components of particles\n", loaded);
   }
   for (const std::string& note : built.notes) fmt::print("#   note               {}\n", note);
-  print_period(built.fundamental_period > 0.0 ? 0 : model.lattice.particles(), [&] {
+  const double ramp = built.options.ramp;
+  print_period(built.fundamental_period > 0.0 ? 0 : model.lattice.particles(), ramp, [&] {
     return built.fundamental_period > 0.0 ? built.fundamental_period : fundamental_period(model);
   });
   print_steps(built.critical_time_step, built.options, "", [&](const ExplicitOptions& options) {
@@ -211,7 +215,8 @@ int check_moving_bonds(const std::string& case_path, const CaseFile& input) {
   print_case(case_path, input);
   print_body(input, model);
   std::fflush(stdout);
-  print_period(model.network.particles.size(), [&] {
+  const double ramp = input.velocities.empty() ? built.options.ramp : infinity;
+  print_period(model.network.particles.size(), ramp, [&] {
     const auto free = free_motions(model.network, model.unknowns);
     return fundamental_period(model.network, model.unknowns, built.inertia, free);
   });
