@@ -301,8 +301,9 @@ int run_program(int argc, char** argv) {
     std::string text = error.what();
     if (app.get_subcommands().empty() && !unknown.empty()) {
       std::vector<std::string_view> commands;
-      for (const CLI::App* command : app.get_subcommands({}))
+      for (const CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
         commands.push_back(command->get_name());
+      }
       text = fmt::format("unknown command or option {}\n  {}", unknown.front(),
                          suggest(unknown.front(), commands));
     }

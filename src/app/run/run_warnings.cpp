@@ -76,10 +76,10 @@ std::vector<std::string> warnings_about(const ExplicitResult& result, const RunF
   const double difference = std::abs(load - reaction);
   if (carries && difference > most_difference * reaction) {
     warnings.push_back(
-        fmt::format("the peaks of load and reaction differ by {:.2g} %: the load includes "
+        fmt::format("the peaks of load and reaction differ by {:.{}g} %: the load includes "
                     "inertia or mass-proportional damping; load more slowly, damp less, or "
                     "use the reaction",
-                    100.0 * difference / reaction));
+                    100.0 * difference / reaction, difference < reaction ? 2 : 3));
   }
   warning_motion(result, facts, warnings);
   return warnings;

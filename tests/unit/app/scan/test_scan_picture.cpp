@@ -48,7 +48,7 @@ TEST(ScanPicture, KeysOfWordsGiveLines) {
 
 TEST(ScanPicture, WithoutNumbersTheMembersAreTheAxis) {
   const ScanPlot plot =
-      scan_plot(scan_with("a = [\"x\", \"y\"]\n"), with_numbers("peak_load", {1, 2}), "");
+      scan_plot(scan_with("a = [\"x\", \"y\"]\n"), with_numbers("peak_load", {10, 20}), "");
   EXPECT_EQ(plot.x_label, "member");
   ASSERT_EQ(plot.lines.size(), 2u);
   EXPECT_EQ(plot.lines[1].name, "a = y");
