@@ -246,6 +246,18 @@ int with_exit_status(const Command& command) {
   }
 }
 
+/// Returns why a command line cannot be read.
+std::string text_of(const CLI::ParseError& error, const CLI::App& app) {
+  const std::vector<std::string> unknown = app.remaining();
+  if (!app.get_subcommands().empty() || unknown.empty()) return error.what();
+  std::vector<std::string_view> commands;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    commands.push_back(command->get_name());
+  }
+  return fmt::format("unknown command or option {}\n  {}", unknown.front(),
+                     suggest(unknown.front(), commands));
+}
+
 /// Disables signals that would end the program.
 void set_up_process() {
   std::set_terminate(end_without_handler);
@@ -297,17 +309,7 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::Success& success) {
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
-    const std::vector<std::string> unknown = app.remaining();
-    std::string text = error.what();
-    if (app.get_subcommands().empty() && !unknown.empty()) {
-      std::vector<std::string_view> commands;
-      for (const CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
-        commands.push_back(command->get_name());
-      }
-      text = fmt::format("unknown command or option {}\n  {}", unknown.front(),
-                         suggest(unknown.front(), commands));
-    }
-    complain(text + "\n  --help, also after a command, lists what can be given");
+    complain(text_of(error, app) + "\n  --help, also after a command, lists what can be given");
     return exit_bad_input;
   }
   return with_exit_status([&] {
