@@ -25,6 +25,7 @@
 #include "base/error.hpp"
 #include "base/files.hpp"
 #include "base/memory.hpp"
+#include "io/case/case_schema.hpp"
 #include "solver/dense/blas_kernels.hpp"
 
 namespace perilink {
@@ -176,7 +177,7 @@ void add_plot_command(CLI::App& app, PlotOptions& options) {
       ->type_name("COLUMN");
   command->add_option("--y", options.y, "Draw the curve of this column of history.csv [load]")
       ->type_name("COLUMN");
-  command->add_flag("--whole", options.whole, "Draw rows below 1 % of the peak at the end too");
+  command->add_flag("--whole", options.whole, "Draw the last rows of a failed body too");
   command->add_option("--at", options.at, "Draw the body at this row only: a number, peak or last")
       ->check(is_row_choice);
   command->add_option("--field", options.field,
@@ -249,6 +250,18 @@ int with_exit_status(const Command& command) {
   }
 }
 
+/// Returns why a command line cannot be read.
+std::string text_of(const CLI::ParseError& error, const CLI::App& app) {
+  const std::vector<std::string> unknown = app.remaining();
+  if (!app.get_subcommands().empty() || unknown.empty()) return error.what();
+  std::vector<std::string_view> commands;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    commands.push_back(command->get_name());
+  }
+  return fmt::format("unknown command or option {}\n  {}", unknown.front(),
+                     suggest(unknown.front(), commands));
+}
+
 /// Disables signals that would end the program.
 void set_up_process() {
   std::set_terminate(end_without_handler);
@@ -300,11 +313,7 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::Success& success) {
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
-    const std::vector<std::string> unknown = app.remaining();
-    if (app.get_subcommands().empty() && !unknown.empty()) {
-      complain("unknown command or option " + unknown.front());
-    }
-    app.exit(error);
+    complain(text_of(error, app) + "\n  --help, also after a command, lists what can be given");
     return exit_bad_input;
   }
   return with_exit_status([&] {

@@ -110,6 +110,8 @@ TEST_F(Program, BadCommandLinesAreRefused) {
     EXPECT_EQ(end.out, "") << testing::PrintToString(arguments);
   }
   EXPECT_THAT(run({"simulate"}).err, HasSubstr("simulate"));
+  EXPECT_THAT(run({"chek"}).err, HasSubstr("option chek\n  did you mean `check`?"));
+  EXPECT_THAT(run({"run"}).err, testing::StartsWith("perilink: case is required\n"));
   EXPECT_EQ(names(), std::set<std::string>{"a.toml"}) << "a refused command left files behind";
 }
 
@@ -216,7 +218,8 @@ TEST_F(Program, CheckTellsSizesAndMakesNothing) {
   EXPECT_EQ(end.exit_status, 0) << end.err;
   for (const char* part :
        {"[body]", "particles          336", "bonds              2345", "unknowns           669",
-        "memory", "time               about ", "per broken bond", " for 30 of them\n", "spacing            ", " spacings\n",
+        "memory", "time               about ", "per broken bond", " for 30 of them\n",
+         "spacing            ", " spacings\n",
         "load               upper cap: (0, 100)",
         "region             upper cap: 40 particles, x 6.25 to 93.75, y 200 to 250\n"}) {
     EXPECT_THAT(end.out, HasSubstr(part));

@@ -243,6 +243,8 @@ TEST_F(Scan, RunsSamplesOfARandomCaseAlikeWithAnyNumberOfThreads) {
   EXPECT_THAT(end.out, HasSubstr("peak_load over 3 seeds: mean "));
   EXPECT_NE(number("results/scan", 1, 3), number("results/scan", 2, 3)) << "another seed";
   EXPECT_THAT(file("results/scan/scan.svg"), HasSubstr("3 seeds: mean "));
+  EXPECT_THAT(file("results/scan/scan_seeds.csv"),
+              HasSubstr("set,quantity,seeds,mean,standard_deviation\n,peak_load,3,"));
   ASSERT_EQ(scan(samples, {"--out", "again", "--threads", "2"}).exit_status, 0);
   EXPECT_EQ(results("again"), results("results/scan"));
   EXPECT_EQ(file("again/0002/history.csv"), file("results/scan/0002/history.csv"));

@@ -117,14 +117,19 @@ void print_cost(const CaseFile& input, const Network& network,
 
 /// Prints the fundamental period, a time scale for choosing how slowly to load.
 /// \param period  computes it
+/// \param ramp    time in which the load grows
 template <class Period>
-void print_period(Index particles, Period period) {
+void print_period(Index particles, double ramp, Period period) {
   if (particles > most_particles) {
     fmt::print("#   fundamental period not computed for more than {} particles\n", most_particles);
     return;
   }
   try {
-    fmt::print("#   fundamental period {:.6g}\n", period());
+    const double time = period();
+    fmt::print("#   fundamental period {:.6g}{}\n", time,
+               ramp < time
+                   ? fmt::format(", ramp_time is {:.2g} of it: no quasistatic run", ramp / time)
+                   : "");
   } catch (const SolverError& error) {
     fmt::print("#   fundamental period not found: {}\n", error.what());
   }
@@ -167,7 +172,9 @@ void print_case(const std::string& path, const CaseFile& input) {
 
 void print_body(const CaseFile& input, const Model& model) {
   print_sizes(model, input.analysis.type == AnalysisType::damage);
+  print_bars(input, model);
   print_regions(input, model);
+  print_symmetry(input, model);
   print_stages(input, model);
   print_crack_tips(input, model);
 }
@@ -197,7 +204,8 @@ int check_explicit(const std::string& case_path, const CaseFile& input) {
     fmt::print("#   forces             {} on components of particles\n", loaded);
   }
   for (const std::string& note : built.notes) fmt::print("#   note               {}\n", note);
-  print_period(built.fundamental_period > 0.0 ? 0 : model.lattice.particles(), [&] {
+  const double ramp = built.options.ramp;
+  print_period(built.fundamental_period > 0.0 ? 0 : model.lattice.particles(), ramp, [&] {
     return built.fundamental_period > 0.0 ? built.fundamental_period : fundamental_period(model);
   });
   print_steps(built.critical_time_step, built.options, "", [&](const ExplicitOptions& options) {
@@ -218,7 +226,8 @@ int check_moving_bonds(const std::string& case_path, const CaseFile& input) {
   print_case(case_path, input);
   print_body(input, model);
   std::fflush(stdout);
-  print_period(model.network.particles.size(), [&] {
+  const double ramp = input.velocities.empty() ? built.options.ramp : infinity;
+  print_period(model.network.particles.size(), ramp, [&] {
     const auto free = free_motions(model.network, model.unknowns);
     return fundamental_period(model.network, model.unknowns, built.inertia, free);
   });

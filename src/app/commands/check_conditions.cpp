@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -86,11 +87,54 @@ void print_regions(const CaseFile& input, const Model& model) {
     const std::string& name = input.regions[k].name;
     try {
       const auto members = particles_of_region(input, model, name, item_key("regions", k));
-      fmt::print("#   region             {}: {} particle{}, {}\n", name, members.size(),
-                 members.size() == 1 ? "" : "s", extent_text(particles, members));
+      const auto nodes = std::ranges::count_if(
+          members, [&](Index i) { return particles.kind[i] == ParticleKind::rebar; });
+      const auto solid_members = static_cast<Index>(members.size()) - nodes;
+      fmt::print("#   region             {}: {}{}, {}\n", name, counted(solid_members, "particle"),
+                 nodes > 0 ? ", " + counted(nodes, "bar node") : "",
+                 extent_text(particles, members));
     } catch (const InputError&) {
       fmt::print("#   region             {}: no particles\n", name);
     }
+  }
+}
+
+void print_symmetry(const CaseFile& input, const Model& model) {
+  const Particles& particles = model.network.places();
+  for (std::size_t k = 0; k < input.symmetry.size(); ++k) {
+    const SymmetrySection& plane = input.symmetry[k];
+    if (!plane.at) continue;
+    const double room = 0.5 * model.lattice.spacing;
+    std::array<bool, 2> beyond{};
+    for (Index i = 0; i < particles.size(); ++i) {
+      if (particles.kind[i] != ParticleKind::solid) continue;
+      const double height = particles.position(i)[plane.axis] - *plane.at;
+      if (std::abs(height) > room) beyond[height > 0.0 ? 1 : 0] = true;
+    }
+    if (!beyond[0] || !beyond[1]) continue;
+    fmt::print("#   symmetry           {} = {:.6g} lies inside the body: nothing is mirrored\n",
+               "xyz"[plane.axis], *plane.at);
+  }
+}
+
+void print_bars(const CaseFile& input, const Model& model) {
+  const Network& network = model.network;
+  double volume = 0.0;
+  for (Index i = 0; i < network.particles.size(); ++i) {
+    if (network.particles.kind[i] == ParticleKind::solid) volume += network.particles.volumes[i];
+  }
+  for (std::size_t k = 0; k < input.rebar.size(); ++k) {
+    const RebarSection& section = input.rebar[k];
+    double length = 0.0;
+    for (std::size_t s = 0; s < network.bars.bar.size(); ++s) {
+      if (model.entry_of_bar[network.bars.bar[s]] != k) continue;
+      length += network.bonds.length(network.first_bar_element + static_cast<Index>(s));
+    }
+    fmt::print(
+        "#   rebar {:<12} {}, area {:.5g}, length {:.6g} in all, {:.2g} % of the volume, "
+        "bond {}\n",
+        k + 1, counted(std::ranges::count(model.entry_of_bar, k), "bar"), section.area, length,
+        100.0 * section.area * length / volume, word_of(section.bond));
   }
 }
 

@@ -47,7 +47,7 @@ void print_breakable(const Network& network, const std::vector<double>& crack_co
     fmt::print("\n");
   }
   for (std::size_t m = 0; m < crack_cost.size() && breakable > 0; ++m) {
-    if (crack_cost[m] == 1.0) continue;  // softening bonds need no correction
+    if (network.strengths[m].segments != 1) continue;  // unbreakable or softening
     fmt::print(
         "#   energy correction  a crack dissipates {:.4g} of the energy of its "
         "bonds, material {}\n",

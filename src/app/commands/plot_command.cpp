@@ -212,8 +212,9 @@ bool begins_at_first_row(const std::string& column) {
 }
 
 /// Draws a column of the history over another. \throws FileError where one is missing
-void plot_columns(const CsvTable& table, std::span<const CurvePoint> load_curve,
-                  const PlottedRun& run, const PlotOptions& options, Pictures& pictures) {
+/// \param rows  drawn
+void plot_columns(const CsvTable& table, std::size_t rows, const PlottedRun& run,
+                  const PlotOptions& options, Pictures& pictures) {
   const std::string x = options.x.empty() ? "displacement" : options.x;
   const std::string y = options.y.empty() ? "load" : options.y;
   const fs::path case_path = run.directory / "case.toml";
@@ -227,30 +228,38 @@ void plot_columns(const CsvTable& table, std::span<const CurvePoint> load_curve,
                                 suggest(name, {table.columns.begin(), table.columns.end()})));
   };
   const std::size_t at_x = column("--x", x), at_y = column("--y", y);
-  const std::size_t rows = options.whole ? table.rows.size() : rows_before_tail(load_curve);
   ColumnCurve curve;
   curve.x_label = with_unit(in_words(x), unit_of_column(x, root, run.units));
   curve.y_label = with_unit(in_words(y), unit_of_column(y, root, run.units));
   for (const std::vector<double>& row : std::span(table.rows).first(rows)) {
     curve.points.push_back({row[at_x], row[at_y]});
   }
-  curve.from_origin =
-      run.labels.stages.empty() && !begins_at_first_row(x) && !begins_at_first_row(y);
+  curve.from_origin = !begins_at_first_row(x) && !begins_at_first_row(y);
   curve.note = note_of_tail(table.rows.size() - rows);
   pictures.save(draw_columns(curve, run.labels.title),
                 fmt::format("{}_over_{}", file_word(y), file_word(x)));
 }
 
-/// Reads the first peak from the summary. The history does not say when the body failed.
-std::optional<CurvePoint> first_peak_of(const std::optional<nlohmann::ordered_json>& summary) {
+/// Reads a peak from the summary: "peak", or "first_peak". The history does not say when the body
+/// failed.
+std::optional<CurvePoint> peak_of(const std::optional<nlohmann::ordered_json>& summary,
+                                  const std::string& name) {
   if (!summary) return std::nullopt;
-  const auto load = summary->find("first_peak_load");
-  const auto displacement = summary->find("first_peak_displacement");
+  const auto load = summary->find(name + "_load");
+  const auto displacement = summary->find(name + "_displacement");
   const auto known = [&](const auto& number) {
     return number != summary->end() && number->is_number();
   };
   if (!known(load) || !known(displacement)) return std::nullopt;
   return CurvePoint{displacement->get<double>(), load->get<double>()};
+}
+
+/// Returns the number of rows of the curves.
+std::size_t rows_drawn(std::span<const CurvePoint> curve, const PlottedRun& run,
+                       const std::optional<CurvePoint>& peak, bool whole) {
+  if (whole) return curve.size();
+  const std::size_t rows = rows_before_tail(curve);
+  return peak && run.labels.stages.empty() ? std::min(rows, rows_before_drift(curve, *peak)) : rows;
 }
 
 }  // namespace
@@ -275,14 +284,15 @@ int plot_results(const PlotOptions& options) {
         "rows and fields written so far");
   }
   Pictures pictures(options);
+  const std::size_t rows =
+      rows_drawn(points_of(records), run, peak_of(summary, "peak"), options.whole);
   const bool columns = !options.x.empty() || !options.y.empty();
   const bool body = !options.at.empty() || !options.field.empty() || !options.range.empty();
   if (columns) {
-    plot_columns(table, points_of(records), run, options, pictures);
+    plot_columns(table, rows, run, options, pictures);
   } else if (!body) {
-    pictures.save(
-        draw_load_displacement(records, run.labels, first_peak_of(summary), options.whole),
-        "load_displacement");
+    pictures.save(draw_load_displacement(records, run.labels, peak_of(summary, "first_peak"), rows),
+                  "load_displacement");
   }
   if (body || !columns) plot_series(run, options, pictures);
   return exit_done;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 #include "app/commands/commands.hpp"
 #include "app/process/console.hpp"
@@ -128,6 +129,8 @@ std::vector<std::string> words_of_member(const ScanRun& run, std::size_t member,
 
 void write_scan_table(const ScanRun& run) {
   write_whole_file((run.directory / "scan.csv").string(), scan_table(run.scan, run.results));
+  if (run.scan.seeds.empty()) return;
+  write_whole_file((run.directory / "scan_seeds.csv").string(), seed_table(run.scan, run.results));
 }
 
 void tell_member(const ScanRun& run, std::size_t member, std::size_t done) {
@@ -163,8 +166,9 @@ void run_members_of_scan(ScanRun& run, const RunOptions& options, std::size_t jo
       pool.stop();
     }
     if (!progress.is_due()) continue;
-    progress.draw(fmt::format("{} of {}", done, counted(run.to_run.size(), "member")),
-                  static_cast<double>(done) / static_cast<double>(run.to_run.size()));
+    std::optional<double> part = static_cast<double>(done) / static_cast<double>(run.to_run.size());
+    if (*part < 0.5) part.reset();  // members differ in size
+    progress.draw(fmt::format("{} of {}", done, counted(run.to_run.size(), "member")), part);
   }
   progress.finish();
   std::error_code ignored;

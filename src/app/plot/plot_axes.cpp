@@ -51,6 +51,15 @@ void draw_lines_and_labels(Svg& svg, const Frame& frame, const std::string& x_la
   svg.close_group();
 }
 
+/// \param room  number of labels that fit
+Ticks ticks_of(const Axis& axis, double room) {
+  int most = std::max(2, static_cast<int>(room));
+  // As many ticks as whole numbers: their step cannot be smaller.
+  const int whole = static_cast<int>(std::floor(axis.high) - std::ceil(axis.low)) + 1;
+  if (axis.counts) most = std::clamp(whole, 1, most);
+  return nice_ticks(axis.low, axis.high, most);
+}
+
 int decimal_exponent(double value) { return static_cast<int>(std::floor(std::log10(value))); }
 
 std::string power_of_ten(int exponent) {
@@ -173,10 +182,8 @@ void draw_axes(Svg& svg, const Axis& x, const Axis& y, const std::string& x_labe
   const Frame frame{x.pixel_low, x.pixel_high, y.pixel_low, y.pixel_high};
   const int x_exponent = common_exponent(x.low, x.high);
   const int y_exponent = common_exponent(y.low, y.high);
-  const Ticks x_ticks =
-      nice_ticks(x.low, x.high, std::max(2, static_cast<int>((frame.right - frame.left) / 75)));
-  const Ticks y_ticks =
-      nice_ticks(y.low, y.high, std::max(2, static_cast<int>((frame.bottom - frame.top) / 50)));
+  const Ticks x_ticks = ticks_of(x, (frame.right - frame.left) / 75);
+  const Ticks y_ticks = ticks_of(y, (frame.bottom - frame.top) / 50);
   for (const double value : x_ticks.values) {
     draw_x_tick(svg, frame, x.map(value), tick_label(value, x_ticks.step, x_exponent), grid);
   }

@@ -42,6 +42,7 @@ struct Axis {
   double high = 1.0;
   double pixel_low = 0.0;
   double pixel_high = 1.0;
+  bool counts = false;  ///< ticks at whole numbers only
 
   double map(double value) const {
     return pixel_low + (value - low) / (high - low) * (pixel_high - pixel_low);

@@ -15,8 +15,7 @@
 namespace perilink {
 namespace {
 
-/// Legend and page; plots with more bars than colours have no legend.
-constexpr double legend_step = 84.0, page_height = 720.0;  // [px]
+constexpr double legend_step = 40.0, page_height = 720.0;  // [px]
 
 /// Largest number drawn; squares of larger ones overflow double precision.
 constexpr double largest_drawn = 1e150;
@@ -66,7 +65,13 @@ Axis axis_over(const std::vector<BarCurve>& curves, Values values, double low_px
   return make_axis(low, high, low_px, high_px);
 }
 
-const char* color_of_bar(std::size_t bar) { return distinct_colors[bar % distinct_colors.size()]; }
+/// Bars beyond the number of colours are dashed.
+std::string style_of_bar(std::size_t bar) {
+  const std::size_t colors = distinct_colors.size();
+  return fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"1.4\" stroke-linejoin=\"round\"{}",
+                     distinct_colors[bar % colors],
+                     bar / colors % 2 == 1 ? " stroke-dasharray=\"6 4\"" : "");
+}
 
 void draw_frame(Svg& svg, const std::vector<BarCurve>& curves, Values values, const Axis& y,
                 const std::string& y_label, const std::string& x_label) {
@@ -78,20 +83,18 @@ void draw_frame(Svg& svg, const std::vector<BarCurve>& curves, Values values, co
       const SvgPoint point{x.map(curves[k].distance[s]), y.map((curves[k].*values)[s])};
       s == 0 ? path.move_to(point) : path.line_to(point);
     }
-    svg.path(path, fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"1.4\" "
-                               "stroke-linejoin=\"round\"",
-                               color_of_bar(k)));
+    svg.path(path, style_of_bar(k));
   }
 }
 
 void draw_legend_of_bars(Svg& svg, const std::vector<BarCurve>& curves) {
-  if (curves.size() < 2 || curves.size() > distinct_colors.size()) return;
+  if (curves.size() < 2 || curves.size() > 2 * distinct_colors.size()) return;
+  constexpr const char* style = "font-size=\"13\" fill=\"#444\"";
   double x = curve_figure_width - 32.0 - legend_step * static_cast<double>(curves.size());
+  svg.text({x - 6, 54}, "bar", "end", style);
   for (std::size_t k = 0; k < curves.size(); ++k, x += legend_step) {
-    svg.line({x, 50}, {x + 24, 50},
-             fmt::format("stroke=\"{}\" stroke-width=\"2\"", color_of_bar(k)));
-    svg.text({x + 30, 54}, fmt::format("bar {}", curves[k].bar), "start",
-             "font-size=\"13\" fill=\"#444\"");
+    svg.line({x, 50}, {x + 18, 50}, style_of_bar(k));
+    svg.text({x + 21, 54}, fmt::format("{}", curves[k].bar), "start", style);
   }
 }
 
@@ -100,17 +103,15 @@ void draw_legend_of_bars(Svg& svg, const std::vector<BarCurve>& curves) {
 Svg draw_bars(const CsvTable& table, const std::string& path, const std::string& caption,
               const PlotLabels& labels) {
   const std::vector<BarCurve> curves = curves_of_bars(table, path);
-  const bool known = !labels.force.empty() && !labels.length.empty();
-  const std::string unit = known ? labels.force + "/" + labels.length + "²" : "";
   const std::string along = with_unit("distance along the bar", labels.length);
   Svg svg(curve_figure_width, page_height);
   svg.text({92.0, 32.0}, labels.title, "start",
            "font-size=\"18\" font-weight=\"bold\" fill=\"#222\"");
   svg.text({92.0, 54.0}, caption, "start", "font-size=\"13.5\" fill=\"#444\"");
   draw_frame(svg, curves, &BarCurve::stress, axis_over(curves, &BarCurve::stress, 340.0, 76.0),
-             with_unit("axial stress", unit), along);
+             with_unit("axial stress", labels.stress()), along);
   draw_frame(svg, curves, &BarCurve::bond, axis_over(curves, &BarCurve::bond, 664.0, 400.0),
-             with_unit("bond stress", unit), along);
+             with_unit("bond stress", labels.stress()), along);
   draw_legend_of_bars(svg, curves);
   return svg;
 }

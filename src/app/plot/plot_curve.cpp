@@ -131,7 +131,7 @@ void draw_legend(Svg& svg, const Area& area) {
   }
   svg.path(smooth, envelope_style);
   svg.path(events, many_events_style);
-  svg.text({x + 40, y + 4.5}, "smoothed curve of equal energy", "start", note_style);
+  svg.text({x + 40, y + 4.5}, "smoothed curve", "start", note_style);
   svg.text({x + 40, y + 24.5}, "events", "start", note_style);
 }
 
@@ -169,9 +169,28 @@ std::size_t rows_before_tail(std::span<const CurvePoint> curve) {
   return rows;
 }
 
+std::size_t rows_before_drift(std::span<const CurvePoint> curve, const CurvePoint& peak) {
+  constexpr double digits = 1e-6, far = 10.0;
+  const auto load = [](const CurvePoint& row) { return std::abs(row.load); };
+  const auto reached = [](std::span<const CurvePoint> rows) {
+    double most = 0.0;
+    for (const CurvePoint& row : rows) most = std::max(most, std::abs(row.displacement));
+    return most;
+  };
+  const double highest = load(peak);
+  const auto at = std::ranges::find_if(
+      curve, [&](const CurvePoint& row) { return load(row) >= (1.0 - digits) * highest; });
+  const auto above = std::find_if(
+      at, curve.end(), [&](const CurvePoint& row) { return load(row) > (1.0 + digits) * highest; });
+  if (above == curve.end()) return curve.size();
+  const auto lowest = std::ranges::min_element(at, above, {}, load);
+  const auto rows = static_cast<std::size_t>(lowest - curve.begin()) + 1;
+  return reached(curve) > far * reached(curve.first(rows)) ? rows : curve.size();
+}
+
 std::string note_of_tail(std::size_t rows) {
   if (rows == 0) return "";
-  return fmt::format("{} last row{} below 1 % of the peak not drawn", rows, rows == 1 ? "" : "s");
+  return fmt::format("{} last row{} not drawn (--whole)", rows, rows == 1 ? "" : "s");
 }
 
 Svg draw_columns(const ColumnCurve& curve, const std::string& title) {
@@ -187,9 +206,10 @@ Svg draw_columns(const ColumnCurve& curve, const std::string& title) {
 }
 
 Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels& labels,
-                           const std::optional<CurvePoint>& first_peak, bool whole) {
+                           const std::optional<CurvePoint>& first_peak,
+                           std::optional<std::size_t> rows) {
   std::vector<CurvePoint> events = points_of(records);
-  const std::size_t tail = whole ? 0 : events.size() - rows_before_tail(events);
+  const std::size_t tail = events.size() - rows.value_or(rows_before_tail(events));
   records = records.first(records.size() - tail);
   events.resize(records.size());
   const CurveFrame frame = make_curve_frame(events, 62.0);

@@ -31,15 +31,20 @@ std::vector<CurvePoint> event_path_of(std::span<const StepRecord> records,
 /// hundredth of the peak up to the end, at displacements beyond those before.
 std::size_t rows_before_tail(std::span<const CurvePoint> curve);
 
+/// Returns the number of rows up to the smallest load behind a peak, if a later load exceeds the
+/// peak and later displacements are more than ten times larger; else that of all rows.
+std::size_t rows_before_drift(std::span<const CurvePoint> curve, const CurvePoint& peak);
+
 /// Returns the note that a picture leaves out rows of a tail; empty for none.
 std::string note_of_tail(std::size_t rows);
 
 /// Draws load over displacement with the peak marked; a path of more than 200 events has its
 /// envelope.
 /// \param first_peak  from the run's summary; marked where it is not the peak
-/// \param whole       draws the tail too
+/// \param rows        drawn; absent: rows_before_tail()
 Svg draw_load_displacement(std::span<const StepRecord> records, const PlotLabels& labels,
-                           const std::optional<CurvePoint>& first_peak = {}, bool whole = false);
+                           const std::optional<CurvePoint>& first_peak = {},
+                           std::optional<std::size_t> rows = {});
 
 /// Two columns of a history.
 struct ColumnCurve {

@@ -205,7 +205,7 @@ double drawn_opening(const Scene& scene, const Ends& ends) {
 
 /// Draws broken bonds as hairlines, fainter the more there are. On coarse lattices they show long
 /// bonds that broke first. Bonds across a visible gap are not drawn.
-void draw_bond_hairlines(Svg& svg, const Scene& scene) {
+void draw_bond_hairlines(Svg& svg, const Scene& scene, std::vector<KeyEntry>& key) {
   constexpr std::size_t too_many = 2000;
   constexpr double visible_gap = 0.5;
   const std::size_t count = scene.body.broken_bonds.size();
@@ -219,8 +219,11 @@ void draw_bond_hairlines(Svg& svg, const Scene& scene) {
     path.line_to(scene.at(ends.second));
   }
   const double opacity = std::clamp(60.0 / static_cast<double>(count + 1), 0.15, 0.6);
-  svg.path(path, fmt::format("fill=\"none\" stroke=\"#8b1020\" stroke-opacity=\"{:.2f}\" {}",
-                             opacity, stroke_width(0.8)));
+  if (path.empty()) return;
+  const std::string style = fmt::format(
+      "fill=\"none\" stroke=\"#8b1020\" stroke-opacity=\"{:.2f}\" {}", opacity, stroke_width(0.8));
+  svg.path(path, style);
+  key.push_back({"broken bond", style});
 }
 
 /// Draws finite elements over the particles that they constrain, unless intact particles have
@@ -242,7 +245,8 @@ std::string bar_width(const Scene& scene) {
 
 /// Draws bars coloured by stress where the file has it: grey to red in tension, to blue in
 /// compression.
-void draw_bars(Svg& svg, const Scene& scene, std::vector<KeyEntry>& key) {
+/// \param labels  for the unit of stress
+void draw_bars(Svg& svg, const Scene& scene, const PlotLabels& labels, std::vector<KeyEntry>& key) {
   if (scene.body.segments.empty()) return;
   const std::vector<double>& stress = scene.body.bar_stress;
   constexpr int steps = 8;  // on either side of zero
@@ -272,12 +276,14 @@ void draw_bars(Svg& svg, const Scene& scene, std::vector<KeyEntry>& key) {
     key.push_back({"reinforcing bar", style(0)});
     return;
   }
-  if (most > 0.0) key.push_back({"bar, stress to " + short_number(most), style(steps)});
-  if (least < 0.0) key.push_back({"bar, stress to " + short_number(least), style(-steps)});
+  const auto name = [&](double value) {
+    return "bar, stress to " + in_unit(short_number(value), labels.stress());
+  };
+  if (most > 0.0) key.push_back({name(most), style(steps)});
+  if (least < 0.0) key.push_back({name(least), style(-steps)});
 }
 
-/// \param length  unit of length; empty: unknown
-std::vector<KeyEntry> draw_body(Svg& svg, const Scene& scene, const std::string& length) {
+std::vector<KeyEntry> draw_body(Svg& svg, const Scene& scene, const PlotLabels& labels) {
   std::vector<KeyEntry> key;
   SvgPath ghosts;
   for (Index i = 0; i < scene.body.size(); ++i) {
@@ -286,7 +292,7 @@ std::vector<KeyEntry> draw_body(Svg& svg, const Scene& scene, const std::string&
   if (scene.body.dim == 3) {
     draw_balls(svg, scene);
     // In solid bodies bonds of the far side would be visible.
-    if (scene.body.is_mid_surface) draw_bond_hairlines(svg, scene);
+    if (scene.body.is_mid_surface) draw_bond_hairlines(svg, scene, key);
   } else {
     if (scene.square) {
       draw_squares(svg, scene);
@@ -295,15 +301,19 @@ std::vector<KeyEntry> draw_body(Svg& svg, const Scene& scene, const std::string&
     }
     draw_elements(svg, scene);
     if (scene.body.elements.rows() > 0) key.push_back({"finite element", element_style});
-    draw_bond_hairlines(svg, scene);
+    draw_bond_hairlines(svg, scene, key);
     draw_crack_faces(svg, scene);
-    if (!scene.body.broken_bonds.empty()) key.push_back({"crack face", face_style(0, 2.0)});
-    if (const double widest = largest_opening(scene.body); widest > 0.0) {
-      key.push_back({"crack face, opened by " + in_unit(short_number(widest), length),
-                     face_style(opening_steps, 2.0)});
+    const double widest = largest_opening(scene.body);
+    if (!scene.body.broken_bonds.empty()) {
+      key.push_back({widest > 0.0 ? "crack face: closed" : "crack face", face_style(0, 2.0)});
+    }
+    if (widest > 0.0) {
+      key.push_back(
+          {fmt::format("open by {} (largest)", in_unit(short_number(widest), labels.length)),
+           face_style(opening_steps, 2.0)});
     }
   }
-  draw_bars(svg, scene, key);
+  draw_bars(svg, scene, labels, key);
   if (!ghosts.empty()) {
     const std::string style = std::string(ghost_style) + " " +
                               stroke_width(std::clamp(0.22 * scene.spacing_px(), 1.0, 5.0));
@@ -331,11 +341,8 @@ std::string caption_text(const FieldsCaption& caption, const PlotBody& body,
 ParticleColors usual_colors(const PlotBody& body, const PlotLabels& labels) {
   if (body.stress.empty()) return {body.damage, {}, true};
   ParticleColors colors{body.stress, {}, false};
-  const bool known = !labels.force.empty() && !labels.length.empty();
-  colors.bar.label =
-      body.is_mid_surface
-          ? with_unit("displacement", labels.length)
-          : with_unit("von Mises stress", known ? labels.force + "/" + labels.length + "²" : "");
+  colors.bar.label = body.is_mid_surface ? with_unit("displacement", labels.length)
+                                         : with_unit("von Mises stress", labels.stress());
   const double largest = *std::max_element(body.stress.begin(), body.stress.end());
   if (largest > 0.0) colors.bar.high = largest;
   return colors;
@@ -353,7 +360,7 @@ Svg draw_fields(const PlotBody& body, const FieldsCaption& caption, const PlotLa
   Svg svg(page.width, page.height);
   svg.clip_rect("body", {page.left, page.top}, page.right - page.left, page.bottom - page.top);
   svg.open_group("clip-path=\"url(#body)\"");
-  std::vector<KeyEntry> key = draw_body(svg, scene, labels.length);
+  std::vector<KeyEntry> key = draw_body(svg, scene, labels);
   const std::vector<KeyEntry> conditions =
       draw_conditions(svg, page, body, seen, visible_particles(scene, 1));
   svg.close_group();

@@ -19,6 +19,11 @@ struct PlotLabels {
   std::string length;         ///< unit; empty: none is known
   std::string analysis = {};  ///< analysis type; empty: written by an earlier version
   std::vector<StageLabel> stages = {};
+
+  /// Returns the unit of stress, "N/mm²"; empty: none is known.
+  std::string stress() const {
+    return force.empty() || length.empty() ? "" : force + "/" + length + "²";
+  }
 };
 
 /// Returns the last part of a path to a directory, "beam" for "results/beam/".

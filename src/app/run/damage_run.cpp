@@ -198,8 +198,11 @@ void DamageRun::tell_stresses(Summary& summary, Equilibria& found) const {
   if (softened_.cracks + softened_.diffuse > 0.0) {
     summary.add("diffuse_energy", softened_.diffuse);
   }
+  const bool short_horizon = std::ranges::any_of(
+      model_.network.strengths,
+      [&](const MaterialStrength& strength) { return is_short_horizon(model_.horizon, strength); });
   for (auto& warning : {warning_about_compression(at(result_.peaks.highest().load)),
-                        warning_about_diffuse_softening(softened_)}) {
+                        warning_about_diffuse_softening(softened_, short_horizon)}) {
     if (warning) found.warnings.push_back(*warning);
   }
 }

@@ -82,7 +82,8 @@ class ElasticRun final : public NetworkRun {
     state.internal = answer_.solution.forces;
     const FieldMoment moment = moment_of(row, input, model_);
     Csr neighbourhoods;
-    files_->add_row(row, gauge_values(model_, state, neighbourhoods));
+    gauges_ = gauge_values(model_, state, neighbourhoods);
+    files_->add_row(row, gauges_);
     write_reactions(row, support_regions(input, model_), state, balance_);
     std::optional<BarState> bars;
     if (!model_.network.bars.bar.empty()) {
@@ -110,6 +111,9 @@ class ElasticRun final : public NetworkRun {
     }
     if (auto warning = balance_.warning()) found.warnings.push_back(std::move(*warning));
     tell_quasistatic(summary, input, model_, found, seconds.analysis);
+    for (std::size_t k = 0; k < gauges_.size(); ++k) {
+      summary.line("gauge", "{}: {:.6g}", model_.gauges[k].name, gauges_[k]);
+    }
     const ElasticResult& solution = answer_.solution;
     if (solution.subdomains == 0) return;
     summary.add("iterations", solution.iterations);
@@ -120,6 +124,7 @@ class ElasticRun final : public NetworkRun {
  private:
   ElasticAnswer answer_;
   std::vector<RegionForce> places_;
+  std::vector<double> gauges_;
   ReactionBalance balance_;
 };
 

@@ -61,7 +61,7 @@ RunFacts run_facts(const CaseFile& input, double length, double peak_load) {
 }
 
 std::vector<std::string> warnings_about(const ExplicitResult& result, const RunFacts& facts) {
-  constexpr double most_surplus = 0.01, most_difference = 0.05;
+  constexpr double most_surplus = 0.01, most_difference = 0.05, negligible = 0.1;
   std::vector<std::string> warnings;
   if (result.largest_surplus > most_surplus) {
     warnings.push_back(
@@ -72,14 +72,14 @@ std::vector<std::string> warnings_about(const ExplicitResult& result, const RunF
   }
   const double load = std::abs(facts.peak_load), reaction = std::abs(result.peak_load);
   // Supports that only enforce symmetry carry a negligible part of the load.
-  const bool carries = reaction > 0.5 * load && load > 0.0;
+  const bool carries = reaction > negligible * load && load > 0.0;
   const double difference = std::abs(load - reaction);
   if (carries && difference > most_difference * reaction) {
     warnings.push_back(
-        fmt::format("the peaks of load and reaction differ by {:.2g} %: the load includes "
+        fmt::format("the peaks of load and reaction differ by {:.{}g} %: the load includes "
                     "inertia or mass-proportional damping; load more slowly, damp less, or "
                     "use the reaction",
-                    100.0 * difference / reaction));
+                    100.0 * difference / reaction, difference < reaction ? 2 : 3));
   }
   warning_motion(result, facts, warnings);
   return warnings;
@@ -197,7 +197,8 @@ SoftenedEnergy softened_energy(const Network& network, Secants secants) {
   return energy;
 }
 
-std::optional<std::string> warning_about_diffuse_softening(const SoftenedEnergy& energy) {
+std::optional<std::string> warning_about_diffuse_softening(const SoftenedEnergy& energy,
+                                                           bool short_horizon) {
   constexpr double most = 0.1, of_open_crack = 0.5;
   if (!(energy.cracks > of_open_crack * energy.fracture)) return std::nullopt;
   if (energy.diffuse <= most * energy.cracks) return std::nullopt;
@@ -205,9 +206,10 @@ std::optional<std::string> warning_about_diffuse_softening(const SoftenedEnergy&
       "diffuse softening: bonds that softened outside the cracks dissipated "
       "{:.4g}, {:.0f} % of the energy of the cracks: the body dissipates "
       "more energy than fracture_energy times the area of its cracks, and "
-      "loads may be too large; {}, or make bonds breakable only where cracks "
+      "loads may be too large; {}make bonds breakable only where cracks "
       "may run (fracture_energy = \"infinite\" elsewhere)",
-      energy.diffuse, 100.0 * energy.diffuse / energy.cracks, horizon_advice);
+      energy.diffuse, 100.0 * energy.diffuse / energy.cracks,
+      short_horizon ? std::string(horizon_advice) + ", or " : "");
 }
 
 std::vector<std::string> warnings_of_balance(double energy_error, double largest_residual,

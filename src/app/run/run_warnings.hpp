@@ -96,7 +96,8 @@ SoftenedEnergy softened_energy(const Network& network, Secants secants);
 
 /// Returns a warning about diffuse softening above a tenth of the energy of the cracks. A process
 /// zone that is still without a crack has lost less than half of its fracture energy: no warning.
-std::optional<std::string> warning_about_diffuse_softening(const SoftenedEnergy& energy);
+std::optional<std::string> warning_about_diffuse_softening(const SoftenedEnergy& energy,
+                                                           bool short_horizon);
 
 /// Returns a warning about the largest load of a run with bonds compressed beyond small strains.
 std::string warning_about_crushing(const CurvePoint& largest);

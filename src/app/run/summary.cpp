@@ -28,7 +28,9 @@ void tell_peaks(Summary& summary, const CaseFile& input, const PeakWatch& peaks,
   summary.add("largest_load_displacement", largest.displacement);
   if (reaction) summary.add("peak_reaction", *reaction);
   const bool bears = reaction.value_or(0.0) != 0.0;
-  summary.line("peak load", "{:.6g} at displacement {:.6g}{}{}", peak.load, peak.displacement,
+  const bool breaks = input.analysis.type != AnalysisType::elastic;
+  summary.line(breaks ? "peak load" : "load", "{:.6g} at displacement {:.6g}{}{}", peak.load,
+               peak.displacement,
                bears ? fmt::format(", reaction of supports {:.6g}", *reaction) : "",
                input.units.empty() ? "" : "  [" + input.units + "]");
   if (largest.load != peak.load) {
@@ -97,7 +99,8 @@ void tell_motion(Summary& summary, const CaseFile& input, const RunFiles& files,
 namespace {
 
 std::int64_t bonds_and_slip_springs(const Model& model) {
-  return model.network.first_bar_element - model.network.num_edges_of_cells();
+  const Network& network = model.network;
+  return network.num_bonds() + network.first_bar_element - network.first_slip_spring;
 }
 
 std::string cells_text(const Network& network) {

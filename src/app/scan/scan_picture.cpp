@@ -15,8 +15,11 @@
 namespace perilink {
 namespace {
 
-/// Most members with a line each, where no key has several numbers.
-constexpr std::size_t most_named = 12;
+/// Most members with a name each, where no key has several numbers, and their longest name.
+constexpr std::size_t most_named = 12, longest_name = 40;
+
+/// Labels of axes that count members.
+constexpr const char *by_member = "member", *number_of_members = "members";
 
 constexpr double scan_left = 92.0, scan_right = 640.0;
 constexpr double scan_top = 62.0, scan_height = 560.0;
@@ -58,12 +61,11 @@ std::vector<ScanPlot::Point> outline_of(std::span<const double> values, double l
     const double at = std::floor((value - low) / width);
     counts[static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(bins - 1)))] += 1.0;
   }
-  std::vector<ScanPlot::Point> points = {{low, 0.0}};
+  std::vector<ScanPlot::Point> points;
   for (std::size_t k = 0; k < bins; ++k) {
-    points.push_back({low + width * static_cast<double>(k), counts[k]});
-    points.push_back({low + width * static_cast<double>(k + 1), counts[k]});
+    const double left = low + width * static_cast<double>(k), right = left + width;
+    points.insert(points.end(), {{left, 0.0}, {left, counts[k]}, {right, counts[k]}, {right, 0.0}});
   }
-  points.push_back({points.back().x, 0.0});
   return points;
 }
 
@@ -102,19 +104,23 @@ ScanPlot scan_plot(const ScanFile& scan, std::span<const ScanResult> results,
   const std::string force = breaks ? units.substr(0, units.find(',')) : "";
   ScanPlot plot;
   plot.title = scan.title;
-  plot.x_label = key.empty() ? "member" : key;
+  plot.x_label = key.empty() ? by_member : key;
   plot.y_label = breaks ? "peak load" : "strain energy";
   if (!force.empty()) plot.y_label += " (" + force + ")";
   if (!scan.seeds.empty()) {
-    plot.x_label = std::exchange(plot.y_label, "members");
+    plot.x_label = std::exchange(plot.y_label, number_of_members);
     add_histograms(samples_of(scan, results, quantity), plot);
     return plot;
   }
+  const bool is_named =
+      !key.empty() || (results.size() <= most_named &&
+                       std::ranges::all_of(scan.members, [](const ScanMember& member) {
+                         return member_text(member.settings).size() <= longest_name;
+                       }));
   for (std::size_t k = 0; k < results.size(); ++k) {
     const double value = number_of(results[k].numbers, quantity);
     std::vector<CaseSetting> others = scan.members[k].settings;
     std::erase_if(others, [&](const CaseSetting& other) { return other.key == key; });
-    const bool is_named = !key.empty() || results.size() <= most_named;
     ScanPlot::Line& line = line_of(plot, is_named ? member_text(others) : "");
     if (!std::isfinite(value)) continue;
     line.points.push_back(
@@ -136,8 +142,10 @@ Svg draw_scan(const ScanPlot& plot) {
     }
   }
   if (low.x > high.x) low = high = {1.0, 1.0};  // no point is drawn
-  const Axis x = axis_of_data(low.x, high.x, scan_left, scan_right);
-  const Axis y = make_axis(low.y, high.y, scan_height - 72.0, scan_top);
+  Axis x = axis_of_data(low.x, high.x, scan_left, scan_right);
+  Axis y = make_axis(low.y, high.y, scan_height - 72.0, scan_top);
+  x.counts = plot.x_label == by_member;
+  y.counts = plot.y_label == number_of_members;
   std::vector<MarkedLine> lines;
   for (const ScanPlot::Line& line : plot.lines) {
     MarkedLine& marked = lines.emplace_back(MarkedLine{line.name, {}, line.mean.has_value()});

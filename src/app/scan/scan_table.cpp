@@ -163,6 +163,20 @@ std::string scan_table(const ScanFile& scan, std::span<const ScanResult> results
   return table;
 }
 
+std::string seed_table(const ScanFile& scan, std::span<const ScanResult> results) {
+  std::string table = "set,quantity,seeds,mean,standard_deviation\n";
+  for (const std::string_view name : scan_quantities) {
+    const std::string quantity(name);
+    for (const ScanSample& sample : samples_of(scan, results, quantity)) {
+      if (sample.values.empty()) continue;
+      CsvRow row;
+      row.text(sample.name).text(quantity).number(static_cast<double>(sample.values.size()));
+      table += row.number(sample.mean()).number(sample.deviation()).end();
+    }
+  }
+  return table;
+}
+
 std::string scan_report(const ScanFile& scan, std::span<const ScanResult> results) {
   std::vector<std::vector<std::string>> rows = {{"member"}};
   rows[0].insert(rows[0].end(), scan.keys.begin(), scan.keys.end());

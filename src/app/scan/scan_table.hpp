@@ -32,6 +32,9 @@ std::string sample_text(const ScanSample& sample);
 /// Returns scan.csv: a row for each member, with the seconds in the last column.
 std::string scan_table(const ScanFile& scan, std::span<const ScanResult> results);
 
+/// Returns scan_seeds.csv: mean and standard deviation of each number over each set of seeds.
+std::string seed_table(const ScanFile& scan, std::span<const ScanResult> results);
+
 /// Returns the table that is printed, the reasons of failures and a summary.
 std::string scan_report(const ScanFile& scan, std::span<const ScanResult> results);
 

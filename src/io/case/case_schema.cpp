@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "base/error.hpp"
 #include "io/case/case_file.hpp"
@@ -159,6 +160,10 @@ int edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string suggest(const std::string& word, const std::vector<std::string_view>& allowed) {
+  const auto lower = [](std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+  };
   std::string_view nearest;
   int least = 1 + std::max(2, static_cast<int>(word.size()) / 3);
   std::string list;
@@ -167,7 +172,7 @@ std::string suggest(const std::string& word, const std::vector<std::string_view>
     if (i < longest_list) list += (i > 0 ? ", " : "") + std::string(candidate);
     if (i == longest_list) list += fmt::format(", and {} more", allowed.size() - i);
     if (word.size() > longest_word || candidate.size() > longest_word) continue;
-    const int distance = edit_distance(word, candidate);
+    const int distance = edit_distance(lower(word), lower(std::string(candidate)));
     if (distance < least && distance < static_cast<int>(candidate.size())) {
       least = distance;
       nearest = candidate;

@@ -60,7 +60,7 @@ void check_against_schema(const TomlValue& document, const std::string& path,
                           const std::vector<TableSchema>& schema, std::string_view document_name);
 
 /// Returns "did you mean `horizon`? Allowed: ..." with the nearest allowed word, if one is near in
-/// spelling.
+/// spelling, whatever the case of letters.
 std::string suggest(const std::string& word, const std::vector<std::string_view>& allowed);
 
 /// Returns the least number of insertions, deletions, replacements and exchanges of neighbouring

@@ -5,12 +5,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <regex>
 #include <utility>
 #include <vector>
@@ -56,6 +58,7 @@ struct Gmsh {
   decltype(&gmshModelGetEntities) entities = nullptr;
   decltype(&gmshModelMeshGetElementTypes) element_types = nullptr;
   decltype(&gmshModelMeshGenerate) generate = nullptr;
+  decltype(&gmshModelGetBoundingBox) box = nullptr;
   decltype(&gmshLoggerGetLastError) last_error = nullptr;
 };
 
@@ -85,6 +88,7 @@ Gmsh load_gmsh() {
   find(gmsh.entities, "gmshModelGetEntities");
   find(gmsh.element_types, "gmshModelMeshGetElementTypes");
   find(gmsh.generate, "gmshModelMeshGenerate");
+  find(gmsh.box, "gmshModelGetBoundingBox");
   find(gmsh.last_error, "gmshLoggerGetLastError");
   return gmsh;
 }
@@ -139,6 +143,17 @@ class Session {
     check();
     return count > 0 && num_types > 0;
   }
+  /// Returns the number of cubes or squares of a size in the box around the geometry.
+  double cells_in_box(int dim, double size) {
+    std::array<double, 3> low{}, high{}, sides{};
+    gmsh_.box(-1, -1, &low[0], &low[1], &low[2], &high[0], &high[1], &high[2], &error_);
+    check();
+    for (int a = 0; a < 3; ++a) sides[a] = std::max(0.0, high[a] - low[a]);
+    std::ranges::sort(sides, std::greater());
+    double cells = 1.0;
+    for (int a = 0; a < dim; ++a) cells *= sides[a] / size;
+    return cells;
+  }
   /// Writes format 4.1, even where the script sets another format.
   void write(const std::string& target) {
     set("Mesh.MshFileVersion", 4.1);
@@ -160,6 +175,17 @@ class Session {
   int error_ = 0;
 };
 
+/// Refuses a size that would keep gmsh busy for hours.
+/// \param cells  Session::cells_in_box()
+void refuse_small_size(double cells, int dim, double size) {
+  const double most = dim == 2 ? 1e8 : 1e9;  // bodies fill a part of their box
+  if (cells <= most) return;
+  throw Error(
+      fmt::format("mesh_size {:g} fills the box around it with {:.1e} cells, at most {:.0e} "
+                  "are possible; is it in the unit of the geometry?",
+                  size, cells, most));
+}
+
 void write_mesh(const std::string& path, int dim, std::optional<double> size,
                 const std::string& target) {
   const bool script = is_gmsh_script(path);
@@ -171,7 +197,10 @@ void write_mesh(const std::string& path, int dim, std::optional<double> size,
   }
   // A script that meshes by itself may have changed its mesh afterwards, for example by
   // Plugin(Crack).
-  if (!session.is_meshed(dim) || (dim == 2 && session.is_meshed(3))) session.generate(dim);
+  if (!session.is_meshed(dim) || (dim == 2 && session.is_meshed(3))) {
+    if (size) refuse_small_size(session.cells_in_box(dim, *size), dim, *size);
+    session.generate(dim);
+  }
   session.write(target);
 }
 
@@ -253,14 +282,16 @@ class TemporaryFile {
   std::string path_;
 };
 
-void check_script(const std::string& path) {
+void check_script(const std::string& path, double size) {
   const std::string text = read_regular_file(path);
   static const std::regex constant(R"(DefineConstant\s*\[(?:[^\]]*[\s,])?h\s*=)");
   if (std::regex_search(text, constant)) return;
   throw InputError(
       {path, 0, ""}, "has no constant `h` for mesh_size to set",
-      "write DefineConstant[ h = 0.1 ]; in it and use h as the size of points, or delete "
-      "mesh_size");
+      fmt::format(
+          "write DefineConstant[ h = {:g} ]; in it, instead of h = ...; if it has that, and "
+          "use h as the size of points, or delete mesh_size",
+          size));
 }
 
 /// gmsh cannot mesh a geometry.
@@ -289,7 +320,7 @@ bool has_gmsh() { return true; }
 Mesh mesh_geometry(const std::string& path, int dim, std::optional<double> size, bool trusted) {
   read_regular_file(path, 0);  // refuses pipes, on which gmsh would block
   if (!trusted) refuse_unsafe_geometry(path);
-  if (is_gmsh_script(path) && size) check_script(path);
+  if (is_gmsh_script(path) && size) check_script(path, *size);
   try {
     return mesh_checked(path, dim, size, path);
   } catch (const MeshingError& error) {

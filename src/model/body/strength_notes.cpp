@@ -108,6 +108,10 @@ std::optional<std::string> note_of_bar(const RebarSection& bar, double softest, 
 
 }  // namespace
 
+bool is_short_horizon(double horizon, const MaterialStrength& strength) {
+  return strength.segments > 1 && horizon < least_horizon * strength.process_zone;
+}
+
 std::optional<std::string> path_note(const CaseFile& input, const Model& model) {
   const Network& network = model.network;
   if (network.is_beam() || !input.interfaces.empty()) return std::nullopt;
@@ -169,9 +173,13 @@ std::vector<std::string> random_notes(const NetworkInput& input, const Network& 
     const double mean = sum / count;
     notes.push_back(fmt::format(
         "random {} with seed {}: over {} bonds the factor has mean {:.4g}, standard deviation "
-        "{:.4g}, least {:.4g}, largest {:.4g}",
+        "{:.4g}, least {:.4g}, largest {:.4g}{}",
         word_of(random.property), random.field.seed, count, 1.0 + mean,
-        std::sqrt(std::max(0.0, squares / count - mean * mean)), least, most));
+        std::sqrt(std::max(0.0, squares / count - mean * mean)), least, most,
+        random.field.correlation_length < input.horizon
+            ? "; correlation_length is below the horizon, over which bonds average: take several "
+              "horizons"
+            : ""));
   }
   return notes;
 }

@@ -17,10 +17,6 @@ namespace {
 /// Distance within which a particle lies inside a region, in spacings.
 constexpr double on_side = 1e-6;
 
-/// Fraction of the strain energy that may be dissipated; below it the units are probably
-/// inconsistent.
-constexpr double far = 1e-3;
-
 /// Marks the particles of a region that the case names.
 void mark(const CaseFile& input, const Body& body, const std::string& name, std::uint8_t side,
           std::vector<std::uint8_t>& sides) {
@@ -145,11 +141,9 @@ void refuse_unfit_strength(const CaseFile& input, const NetworkInput& network,
                   "times the energy at this stress that it may dissipate by "
                   "fracture_energy",
                   strength, network.horizon, 1.0 / error.share),
-      fmt::format("take a horizon below {:.4g}, a strength below {:.4g} or a larger "
-                  "fracture_energy; the strength of brittle bonds follows from the "
-                  "horizon{}",
-                  network.horizon * error.share, strength * std::sqrt(error.share),
-                  error.share < far ? "; are the numbers in units of one system?" : ""));
+      fmt::format("take a horizon below {:.4g}, a strength below {:.4g}, or a larger "
+                  "fracture_energy or youngs_modulus; are the numbers in units of one system?",
+                  network.horizon * error.share, strength * std::sqrt(error.share)));
 }
 
 }  // namespace perilink

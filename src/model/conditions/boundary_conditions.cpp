@@ -124,6 +124,22 @@ void pin(const CaseFile& input, Model& model, Fragment fragment, Prescription& p
       "particle is held");
 }
 
+/// Names the free translations of a fragment; its other free modes are rotations.
+std::string text_of_free_modes(const Network& network, const Fragment& fragment,
+                               const std::vector<std::uint8_t>& held) {
+  const std::vector<std::uint8_t> resisted = held_or_sprung(network, held);
+  std::vector<std::string> names;
+  for (int a = 0; a < network.dim(); ++a) {
+    const bool is_free = std::ranges::none_of(fragment.particles, [&](Index i) {
+      return resisted[static_cast<std::size_t>(i) * network.width() + a] != 0;
+    });
+    if (is_free) names.push_back(fmt::format("translation along {}", "xyz"[a]));
+  }
+  const auto rotations = fragment.free_modes - static_cast<int>(names.size());
+  if (rotations > 0) names.push_back(counted(rotations, "rotation"));
+  return joined(names);
+}
+
 /// \param off  CutOffParts::particles
 void hold_rigid_modes(const CaseFile& input, Model& model, Prescription& prescription,
                       const std::vector<std::uint8_t>& off) {
@@ -148,9 +164,10 @@ void hold_rigid_modes(const CaseFile& input, Model& model, Prescription& prescri
       if (fragments.size() > 1) refuse_cut_off(input, model, fragment.particles);
       throw InputError(
           input.where(input.supports.empty() ? "analysis" : "supports[1]"),
-          fmt::format("{} of the {} rigid-body modes of {} {} free", fragment.free_modes, all,
+          fmt::format("{} of the {} rigid-body modes of {} {} free: {}", fragment.free_modes, all,
                       fragments.size() == 1 ? "the body" : where,
-                      fragment.free_modes == 1 ? "is" : "are"),
+                      fragment.free_modes == 1 ? "is" : "are",
+                      text_of_free_modes(model.network, fragment, prescription.held)),
           fmt::format("hold the body with [[supports]], [[symmetry]] or [[springs]]{}",
                       fragment.free_modes < all ? ""
                                                 : ", or, when the loads balance by themselves, set "

@@ -27,17 +27,21 @@ TEST(PlotBars, DrawsBothStressesOfEveryBar) {
   const std::string svg = draw_bars(two_bars(), "bars.csv", "row 7", {"Beam", "N", "mm"}).str();
   EXPECT_EQ(count_of(svg, "<path"), 4);
   for (const char* text : {">Beam<", ">row 7<", ">axial stress (N/mm²)<", ">bond stress (N/mm²)<",
-                           ">distance along the bar (mm)<", ">bar 1<", ">bar 2<"}) {
+                           ">distance along the bar (mm)<", ">bar<", ">1<", ">2<"}) {
     EXPECT_NE(svg.find(text), std::string::npos) << text;
   }
   EXPECT_EQ(draw_bars(two_bars(), "", "", {"", "", ""}).str().find("N/mm²"), std::string::npos);
 }
 
-TEST(PlotBars, ALegendOfManyBarsIsLeftOut) {
+TEST(PlotBars, BarsBeyondTheColoursAreDashedAndALongLegendIsLeftOut) {
   CsvTable many = two_bars();
   many.rows.clear();
-  for (int bar = 1; bar <= 9; ++bar) many.rows.push_back({static_cast<double>(bar), 1, 2, 3});
-  EXPECT_EQ(draw_bars(many, "", "", {"", "", ""}).str().find("bar 1<"), std::string::npos);
+  for (double bar = 1; bar <= 9; ++bar) many.rows.push_back({bar, 1, 2, 3});
+  const std::string nine = draw_bars(many, "", "", {"", "", ""}).str();
+  EXPECT_NE(nine.find(">9<"), std::string::npos);
+  EXPECT_EQ(count_of(nine, "stroke-dasharray"), 9) << "three in both frames and in the legend";
+  for (double bar = 10; bar <= 13; ++bar) many.rows.push_back({bar, 1, 2, 3});
+  EXPECT_EQ(draw_bars(many, "", "", {"", "", ""}).str().find(">bar<"), std::string::npos);
 }
 
 TEST(PlotBars, TablesThatNoRunWritesAreRefused) {

@@ -45,11 +45,24 @@ TEST(LoadDisplacement, LeavesOutTheTailOfAFailedBody) {
   }
   const PlotLabels labels{"Beam", "kip", "in"};
   const std::string cut = draw_load_displacement(records, labels).str();
-  EXPECT_NE(cut.find("2 last rows below 1 % of the peak not drawn"), std::string::npos);
+  EXPECT_NE(cut.find("2 last rows not drawn"), std::string::npos);
   EXPECT_EQ(cut.find(">8000<"), std::string::npos);
-  const std::string whole = draw_load_displacement(records, labels, {}, true).str();
+  const std::string whole = draw_load_displacement(records, labels, {}, records.size()).str();
   EXPECT_EQ(whole.find("not drawn"), std::string::npos);
   EXPECT_NE(whole.find(">8000<"), std::string::npos);
+}
+
+TEST(LoadDisplacement, LeavesOutLoadsOfFragmentsFarBehindTheFailure) {
+  const CurvePoint peak{1.0, 100.0};
+  const std::vector<CurvePoint> curve = {
+      {0.5, 60.0}, peak, {1.5, 20.0}, {2.0, 30.0}, {16.0, 101.0}};
+  EXPECT_EQ(rows_before_drift(curve, peak), 3u);
+  EXPECT_EQ(rows_before_drift(std::span(curve).first(4), peak), 4u) << "no load above the peak";
+  std::vector<CurvePoint> near = curve;
+  near.back().displacement = 15.0;
+  EXPECT_EQ(rows_before_drift(near, peak), 5u);
+  EXPECT_EQ(rows_before_drift(curve, {16.0, 101.0}), 5u) << "bars: the largest load";
+  EXPECT_EQ(rows_before_drift({}, peak), 0u);
 }
 
 TEST(LoadDisplacement, DrawsColumnsFromTheirFirstRow) {

@@ -117,7 +117,10 @@ TEST(PlotFields, CrackFacesAreColouredByTheirOpening) {
   const std::string svg = draw_fields(read_body(grid, ""), {}, {"", "kip", "in"}, 0.0).str();
   EXPECT_NE(svg.find("#128cff"), std::string::npos) << "the widest";
   EXPECT_NE(svg.find("#5a0a12"), std::string::npos) << "those that are closed";
-  EXPECT_NE(svg.find("opened by 0.25 in<"), std::string::npos);
+  for (const char* name :
+       {">crack face: closed<", ">open by 0.25 in (largest)<", ">broken bond<"}) {
+    EXPECT_NE(svg.find(name), std::string::npos) << name;
+  }
 }
 
 TEST(PlotFields, LargeBodiesStayBelowFiveMegabytes) {

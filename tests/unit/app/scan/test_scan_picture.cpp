@@ -48,11 +48,20 @@ TEST(ScanPicture, KeysOfWordsGiveLines) {
 
 TEST(ScanPicture, WithoutNumbersTheMembersAreTheAxis) {
   const ScanPlot plot =
-      scan_plot(scan_with("a = [\"x\", \"y\"]\n"), with_numbers("peak_load", {1, 2}), "");
+      scan_plot(scan_with("a = [\"x\", \"y\"]\n"), with_numbers("peak_load", {10, 20}), "");
   EXPECT_EQ(plot.x_label, "member");
   ASSERT_EQ(plot.lines.size(), 2u);
   EXPECT_EQ(plot.lines[1].name, "a = y");
   EXPECT_EQ(plot.lines[1].points.at(0).x, 2.0);
+  EXPECT_THAT(draw_scan(plot).str(), Not(HasSubstr(">1.5<")));
+}
+
+TEST(ScanPicture, LongListsGiveOneLineOverTheMembers) {
+  const std::string lists = "a = [[1000000, 2000000, 3000000, 4000000, 5000000], [1, 2]]\n";
+  const ScanPlot plot = scan_plot(scan_with(lists), with_numbers("peak_load", {1, 2}), "");
+  ASSERT_EQ(plot.lines.size(), 1u);
+  EXPECT_EQ(plot.lines[0].name, "");
+  EXPECT_EQ(plot.lines[0].points.size(), 2u);
 }
 
 TEST(ScanPicture, MembersWithoutResultAreLeftOut) {
@@ -77,7 +86,8 @@ TEST(ScanPicture, SeedsGiveAHistogram) {
   ASSERT_EQ(plot.lines.size(), 1u);
   EXPECT_EQ(plot.lines[0].mean, 3.5);
   std::vector<double> heights;
-  for (std::size_t k = 1; k + 1 < plot.lines[0].points.size(); k += 2) {
+  for (std::size_t k = 1; k + 1 < plot.lines[0].points.size(); k += 4) {
+    EXPECT_EQ(plot.lines[0].points[k - 1].y, 0.0) << "bins have edges";
     EXPECT_EQ(plot.lines[0].points[k].y, plot.lines[0].points[k + 1].y);
     heights.push_back(plot.lines[0].points[k].y);
   }

@@ -77,6 +77,9 @@ TEST(ScanTable, TellsMeanAndDeviationOverSeedsWithOtherValuesAlike) {
   EXPECT_THAT(text,
               HasSubstr("peak_load over a = 1, 3 seeds: mean 4, standard deviation 2 (50 %)"));
   EXPECT_THAT(text, HasSubstr("peak_load over a = 2, 1 seed: 8"));
+  EXPECT_EQ(seed_table(scan, results),
+            "set,quantity,seeds,mean,standard_deviation\n"
+            "a = 1,peak_load,3,4,2\na = 2,peak_load,1,8,\n");
   EXPECT_THAT(scan_report(scan, std::vector<ScanResult>(6)), HasSubstr("no seed with a result"));
   EXPECT_TRUE(samples_of(parse_scan(three_runs, ""), three_results(), "peak_load").empty());
 }

@@ -27,6 +27,7 @@ TEST(CaseSchema, MeasuresEditDistance) {
 TEST(CaseSchema, SuggestsTheNearestWord) {
   EXPECT_EQ(suggest("horizn", {"spacing", "horizon"}),
             "did you mean `horizon`? Allowed: spacing, horizon");
+  EXPECT_EQ(suggest("CMOD", {"load", "cmod"}), "did you mean `cmod`? Allowed: load, cmod");
   EXPECT_EQ(suggest("qqqq", {"spacing", "horizon"}), "Allowed: spacing, horizon");
   EXPECT_EQ(suggest("q", {"x", "y"}), "Allowed: x, y") << "every letter is one slip from another";
 }

@@ -51,7 +51,10 @@ TEST(GmshMesher, SaysWhatIsWrong) {
   const std::string path = (directory / "body.geo").string();
   EXPECT_THAT(refusal(path, {}), HasSubstr("body.geo: cannot be opened"));
   test::write_text(path, "DefineConstant[ size = 0.1 ];\n");
-  EXPECT_THAT(refusal(path, 0.1), HasSubstr("has no constant `h`"));
+  EXPECT_THAT(refusal(path, 0.1),
+              AllOf(HasSubstr("has no constant `h`"), HasSubstr("[ h = 0.1 ]")));
+  EXPECT_THAT(refusal(meshes + "disc.geo", 1e-5),
+              HasSubstr("fills the box around it with 4.0e+10"));
   test::write_text(path, "Plane Surface(1) = {7};\n");
   EXPECT_THAT(refusal(path, {}), HasSubstr("body.geo"));
   test::write_text(path, "// nothing\n");

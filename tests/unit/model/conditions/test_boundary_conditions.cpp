@@ -196,12 +196,15 @@ TEST(BoundaryConditions, PinningHoldsTheRigidModesAndNoMore) {
 TEST(BoundaryConditions, FreeBodiesAreRefusedUnlessTheyMayBePinned) {
   CaseFile input = free_strip_case();
   input.analysis.rigid_body_modes = RigidBodyModes::refuse;
-  expect_refused(input, "analysis", "3 of the 3 rigid-body modes of the body are free");
+  expect_refused(input, "analysis",
+                 "3 of the 3 rigid-body modes of the body are free: translation along x, "
+                 "translation along y, 1 rotation");
   SupportSection roller;
   roller.region = "lower end";
   roller.fix = {false, true, false};
   input.supports.push_back(roller);
-  expect_refused(input, "supports[1]", "1 of the 3 rigid-body modes");
+  expect_refused(input, "supports[1]",
+                 "1 of the 3 rigid-body modes of the body is free: translation along x");
   input.analysis.rigid_body_modes = RigidBodyModes::pin;
   expect_refused(input, "analysis.rigid_body_modes", "partly supported");
 }
