@@ -13,6 +13,7 @@
 #include "base/memory.hpp"
 #include "base/plain_text.hpp"
 #include "io/checkpoint/pack.hpp"
+#include "model/body/strength_notes.hpp"
 #include "model/from_case/separated_body.hpp"
 #include "model/gauges.hpp"
 #include "network/expected_events.hpp"
