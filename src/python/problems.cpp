@@ -23,7 +23,7 @@ std::unique_ptr<BuiltCase> build_case(const CaseFile& input, int threads) {
     const py::gil_scoped_acquire lock;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   };
-  return std::make_unique<BuiltCase>(BuiltCase{input, build(input, raise_on_signal)});
+  return std::make_unique<BuiltCase>(BuiltCase{input, build(input, {raise_on_signal})});
 }
 
 const Network& network_of(const py::object& self) {
