@@ -8,6 +8,8 @@
 
 #include "base/error.hpp"
 #include "base/plain_text.hpp"
+#include "discretization/lattices/triangulate.hpp"
+#include "io/case/sections/case_kinds.hpp"
 #include "model/body/lattice_model.hpp"
 
 namespace perilink {
@@ -18,7 +20,14 @@ void build_particles(const CaseFile& input, Body& body, Model& model) {
   for (const MaterialSection& material : input.materials) {
     materials.push_back({material.youngs_modulus, *material.poissons_ratio});
   }
+  // Neighbours are found with the triangles of the cells. Tractions on the rectangles of a lattice
+  // are symmetric, on triangles they are not.
+  Facets loaded = body.facets;
+  if (!has_cells(input.body)) {
+    body.facets = facets_of(body.cells, body.particles.positions, thickness);
+  }
   ParticleNetwork built = make_particle_network(body, model.problem, materials, thickness);
+  body.facets = std::move(loaded);
   model.network = std::move(built.network);
   model.particle_fit = built.report;
   model.notes.push_back(fit_text(built.report, model.network.particles));
