@@ -299,7 +299,8 @@ INSTANTIATE_TEST_SUITE_P(
         RankCase{"BreakingInTwo", driven(breaking_case(false, "", "", ""))},
         RankCase{"BreakingBySteps",
                  breaking_case(false, "", "", "control = \"steps\"\nload_factors = [1, 2, 3]\n")},
-        RankCase{"Softening", breaking_case(false, "", softening, "[stop]\nbroken_bonds = 5\n")},
+        RankCase{"Softening", breaking_case(false, "", softening, "[stop]\nbroken_bonds = 5\n") +
+                                  "closing = false\n"},
         RankCase{"MicropolarBreaking", breaking_case(false, "model = \"micropolar\"\n", "",
                                                      "[stop]\nbroken_bonds = 20\n")}),
     [](const auto& instance) { return instance.param.name; });
