@@ -21,7 +21,7 @@ namespace {
 std::string blas() {
   Dl_info library;
   void* product = dlsym(RTLD_DEFAULT, "dgemm_");
-  if (product == nullptr || dladdr(product, &library) == 0) return "unknown";
+  if (product == nullptr || dladdr(product, &library) == 0) return "not loaded";
   using CoreName = const char* (*)();
   auto* name = reinterpret_cast<CoreName>(dlsym(RTLD_DEFAULT, "openblas_get_corename"));
   std::error_code failed;

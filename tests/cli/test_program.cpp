@@ -76,6 +76,7 @@ TEST_F(Program, VersionNamesTheProgram) {
   const ProcessEnd end = run({"--version"});
   EXPECT_EQ(end.exit_status, 0);
   EXPECT_TRUE(end.out.starts_with("perilink ")) << end.out;
+  EXPECT_THAT(end.out, testing::ContainsRegex("\n +BLAS +/.*[.]so"));
 }
 
 TEST_F(Program, BadCommandLinesAreRefused) {

@@ -220,7 +220,7 @@ TEST_P(RankMemory, EndsTogetherWhereOneHasNone) {
   }
   for (const std::string& both : pairs) {
     const std::string command = fmt::format(
-        "cd '{}' && timeout 60 env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+        "cd '{}' && timeout 300 env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
         "OMPI_MCA_rmaps_base_oversubscribe=1 mpiexec {} >out 2>&1",
         work().string(), both);
     EXPECT_NE(WEXITSTATUS(std::system(command.c_str())), 124) << both << ": they wait";
@@ -299,7 +299,8 @@ INSTANTIATE_TEST_SUITE_P(
         RankCase{"BreakingInTwo", driven(breaking_case(false, "", "", ""))},
         RankCase{"BreakingBySteps",
                  breaking_case(false, "", "", "control = \"steps\"\nload_factors = [1, 2, 3]\n")},
-        RankCase{"Softening", breaking_case(false, "", softening, "[stop]\nbroken_bonds = 5\n")},
+        RankCase{"Softening", breaking_case(false, "", softening, "[stop]\nbroken_bonds = 5\n") +
+                                  "closing = false\n"},
         RankCase{"MicropolarBreaking", breaking_case(false, "model = \"micropolar\"\n", "",
                                                      "[stop]\nbroken_bonds = 20\n")}),
     [](const auto& instance) { return instance.param.name; });
