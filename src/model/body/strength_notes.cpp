@@ -147,9 +147,9 @@ std::optional<std::string> unnotched_note(const CaseFile& input, const Model& mo
   const double volume = std::accumulate(particles.volumes.begin(), particles.volumes.end(), 0.0);
   constexpr double round_off = 1e-6;
   if (volume < (1.0 - round_off) * box) return std::nullopt;
-  return "the body has no notch, hole or pre-crack: its strength exceeds that of a single cohesive "
-         "crack by 10 to 30 %, the more the shorter the horizon; a random tensile_strength "
-         "([[random]], variation 0.1) reduces the excess to 5 to 10 %";
+  return "the body has no notch, hole or pre-crack: in bending its strength exceeds that of one "
+         "cohesive crack by 10 to 30 %, the more the shorter the horizon; random strength "
+         "([[random]], variation 0.1, correlation_length of one horizon) leaves about 9 %";
 }
 
 std::vector<std::string> random_notes(const NetworkInput& input, const Network& network) {
