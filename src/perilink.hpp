@@ -12,6 +12,7 @@
 #include "base/error.hpp"
 #include "discretization/bonds.hpp"
 #include "io/case/case_file.hpp"
+#include "io/case/case_json_schema.hpp"
 #include "io/fields/vtu.hpp"
 #include "io/text/csv.hpp"
 #include "model/from_case/configure.hpp"

@@ -144,28 +144,34 @@ std::optional<int> CaseTable::integer(const std::string& key, int lowest, int hi
   return checked_integer(key, *value, lowest, highest);
 }
 
-std::optional<double> CaseTable::number(const std::string& key) const {
+std::optional<double> CaseTable::number(const std::string& key, const Range& range,
+                                        std::string_view hint) const {
   const TomlValue* value = table_.find(key);
   if (value == nullptr) return std::nullopt;
-  return checked_number(key, *value);
+  const double number = checked_number(key, *value);
+  check_range(key, number, range, hint);
+  return number;
 }
 
-std::optional<double> CaseTable::positive(const std::string& key) const {
-  const std::optional<double> value = number(key);
-  if (value && *value <= 0.0) {
-    refuse(key, fmt::format("is {}, but must be greater than zero", *value),
-           "give a positive number");
-  }
-  return value;
-}
-
-std::optional<double> CaseTable::fraction(const std::string& key) const {
-  const std::optional<double> value = positive(key);
-  if (value && *value >= 1.0) {
-    refuse(key, fmt::format("is {}, but must be less than 1", *value),
-           "give a number between 0 and 1");
-  }
-  return value;
+void CaseTable::check_range(const std::string& key, double value, const Range& range,
+                            std::string_view hint) const {
+  if (range.contains(value)) return;
+  const double least = range.least;
+  const double most = range.most;
+  const bool low = value <= least;
+  const std::string limit =
+      !low           ? fmt::format("be {} {}", range.below ? "less than" : "at most", most)
+      : least == 0.0 ? range.above ? "be greater than zero" : "not be negative"
+                     : fmt::format("be {} {}", range.above ? "more than" : "at least", least);
+  const std::string advice =
+      most == infinity
+          ? least == 0.0 ? fmt::format("give {}a positive number", range.above ? "" : "zero or ")
+                         : fmt::format("give {} or more", least)
+      : range.above
+          ? fmt::format("give a number between {} and {}", least, most)
+          : fmt::format("give a number from {} to {}{}", least, range.below ? "below " : "", most);
+  refuse(key, fmt::format("is {}, but must {}", value, limit),
+         hint.empty() ? advice : std::string(hint));
 }
 
 const TomlValue* CaseTable::array(const std::string& key, const char* of) const {

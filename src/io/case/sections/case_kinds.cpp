@@ -125,9 +125,9 @@ std::vector<NamedGroup> named_groups(const CaseFile& input) {
   return groups;
 }
 
-double read_energy(const CaseTable& table, const std::string& key, const std::string& meaning) {
+double read_energy(const CaseTable& table, const std::string& key) {
   const TomlValue* value = table.value(key);
-  if (value != nullptr && value->kind == TomlValue::Kind::text) {
+  if (value->kind == TomlValue::Kind::text) {
     if (value->text == infinite_energy) return infinity;
     if (is_number(value->text)) {
       table.refuse(
@@ -139,17 +139,20 @@ double read_energy(const CaseTable& table, const std::string& key, const std::st
         key, fmt::format("is {}, neither a number nor \"infinite\"", quoted(value->text)),
         "write numbers without quotes and units. " + suggest(value->text, {infinite_energy}));
   }
-  if (value != nullptr && value->kind == TomlValue::Kind::number && std::isinf(value->number)) {
+  if (value->kind == TomlValue::Kind::number && std::isinf(value->number)) {
     table.refuse(key, fmt::format("is {}", describe(*value)),
                  fmt::format("write {} = \"infinite\"", key));
   }
-  return table.need(key, table.positive(key), meaning);
+  return *table.positive(key);
 }
 
-double read_fracture_energy(const CaseTable& table, AnalysisType type) {
-  if (type == AnalysisType::elastic && !table.has("fracture_energy")) return infinity;
-  return read_energy(table, "fracture_energy",
-                     "the fracture energy, or \"infinite\" for a material that cannot break");
+void need_fracture_energy(const CaseTable& table, AnalysisType type, MaterialSection& material) {
+  if (table.has("fracture_energy")) return;
+  if (type != AnalysisType::elastic) {
+    table.refuse_missing("fracture_energy",
+                         "the fracture energy, or \"infinite\" for a material that cannot break");
+  }
+  material.fracture_energy = infinity;
 }
 
 }  // namespace perilink
