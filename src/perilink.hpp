@@ -12,7 +12,6 @@
 #include "base/error.hpp"
 #include "discretization/bonds.hpp"
 #include "io/case/case_file.hpp"
-#include "io/case/case_json_schema.hpp"
 #include "io/fields/vtu.hpp"
 #include "io/text/csv.hpp"
 #include "model/from_case/configure.hpp"
@@ -20,6 +19,7 @@
 #include "model/gauges.hpp"
 #include "model/model_regions.hpp"
 #include "model/reactions.hpp"
+#include "results/case_json_schema.hpp"
 #include "results/result_directory.hpp"
 #include "results/state_file.hpp"
 

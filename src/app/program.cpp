@@ -25,7 +25,7 @@
 #include "base/error.hpp"
 #include "base/files.hpp"
 #include "base/memory.hpp"
-#include "io/case/case_json_schema.hpp"
+#include "results/case_json_schema.hpp"
 #include "solver/dense/blas_kernels.hpp"
 
 namespace perilink {

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "io/case/case_json_schema.hpp"
 #include "io/case/case_keys.hpp"
 #include "io/case/case_page.hpp"
 #include "quality/source_tree.hpp"
+#include "results/case_json_schema.hpp"
 
 namespace perilink::quality {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/build_info.hpp"
-#include "io/case/case_json_schema.hpp"
+#include "results/case_json_schema.hpp"
 
 namespace perilink {
 namespace {

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <stdexcept>
 
 #include "base/plain_text.hpp"
@@ -25,6 +27,13 @@ constexpr std::size_t longest_path = 4096;
 
 /// Characters, enough for body forces of manufactured solutions.
 constexpr std::size_t longest_formula = 2000;
+
+bool is_number(const std::string& text) {
+  char* end = nullptr;
+  std::strtod(text.c_str(), &end);
+  return !text.empty() && std::isdigit(static_cast<unsigned char>(text.back())) != 0 &&
+         end == text.c_str() + text.size();
+}
 
 }  // namespace
 
@@ -172,6 +181,26 @@ void CaseTable::check_range(const std::string& key, double value, const Range& r
           : fmt::format("give a number from {} to {}{}", least, range.below ? "below " : "", most);
   refuse(key, fmt::format("is {}, but must {}", value, limit),
          hint.empty() ? advice : std::string(hint));
+}
+
+double CaseTable::energy(const std::string& key) const {
+  const TomlValue* value = table_.find(key);
+  if (value->kind == TomlValue::Kind::text) {
+    if (value->text == infinite_energy) return infinity;
+    if (is_number(value->text)) {
+      refuse(
+          key,
+          fmt::format("is the text {}, but must be a number or \"infinite\"", quoted(value->text)),
+          fmt::format("write the number without quotes: {} = {}", key, value->text));
+    }
+    refuse(key, fmt::format("is {}, neither a number nor \"infinite\"", quoted(value->text)),
+           "write numbers without quotes and units. " + suggest(value->text, {infinite_energy}));
+  }
+  if (value->kind == TomlValue::Kind::number && std::isinf(value->number)) {
+    refuse(key, fmt::format("is {}", describe(*value)),
+           fmt::format("write {} = \"infinite\"", key));
+  }
+  return *positive(key);
 }
 
 const TomlValue* CaseTable::array(const std::string& key, const char* of) const {

@@ -16,6 +16,9 @@
 
 namespace perilink {
 
+/// Word for the fracture energy of unbreakable materials.
+inline constexpr const char* infinite_energy = "infinite";
+
 /// Reads checked values of one table of a case. Every reader returns std::nullopt where the key is
 /// absent. It throws InputError for a wrong type or a value out of range.
 class CaseTable {
@@ -53,6 +56,8 @@ class CaseTable {
   std::optional<double> positive(const std::string& key) const {
     return number(key, allowed::positive);
   }
+  /// Reads a positive number, or infinity for the word "infinite", where the table has the key.
+  double energy(const std::string& key) const;
   std::optional<std::vector<double>> numbers(const std::string& key) const;
   /// Reads as many numbers as the body has dimensions.
   std::optional<Vector3> vector(const std::string& key, int dim) const;

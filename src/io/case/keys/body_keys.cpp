@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "io/case/keys/key_binding.hpp"
+#include "io/case/binding/key_binding.hpp"
 #include "io/case/keys/key_tables.hpp"
 #include "io/case/sections/case_lattice.hpp"
 #include "io/case/sections/laws/case_softening.hpp"

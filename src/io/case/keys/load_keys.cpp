@@ -1,6 +1,6 @@
 // Keys of supports and loads.
 
-#include "io/case/keys/key_binding.hpp"
+#include "io/case/binding/key_binding.hpp"
 #include "io/case/keys/key_tables.hpp"
 
 namespace perilink {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <string>
 
+#include "io/case/binding/key_binding.hpp"
 #include "io/case/case_words.hpp"
-#include "io/case/keys/key_binding.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_lattice.hpp"
 #include "io/case/sections/case_sections.hpp"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "io/case/keys/key_binding.hpp"
+#include "io/case/binding/key_binding.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/text/toml_tree.hpp"
 

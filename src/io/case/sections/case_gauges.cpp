@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/plain_text.hpp"
+#include "io/case/binding/key_binding.hpp"
 #include "io/case/case_schema.hpp"
 #include "io/case/case_words.hpp"
-#include "io/case/keys/key_binding.hpp"
 #include "io/case/sections/case_gauges.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_sections.hpp"

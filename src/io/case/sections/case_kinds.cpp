@@ -3,24 +3,10 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include <cctype>
-#include <cmath>
-#include <cstdlib>
-
 #include "base/types.hpp"
 #include "io/case/case_words.hpp"
 
 namespace perilink {
-namespace {
-
-bool is_number(const std::string& text) {
-  char* end = nullptr;
-  std::strtod(text.c_str(), &end);
-  return !text.empty() && std::isdigit(static_cast<unsigned char>(text.back())) != 0 &&
-         end == text.c_str() + text.size();
-}
-
-}  // namespace
 
 Kinds kinds_of(const CaseFile& input) {
   const auto bit = [](Kinds first, auto value) { return first << static_cast<Kinds>(value); };
@@ -123,27 +109,6 @@ std::vector<NamedGroup> named_groups(const CaseFile& input) {
   add("interfaces", input.interfaces);
   add("rebar", input.rebar);
   return groups;
-}
-
-double read_energy(const CaseTable& table, const std::string& key) {
-  const TomlValue* value = table.value(key);
-  if (value->kind == TomlValue::Kind::text) {
-    if (value->text == infinite_energy) return infinity;
-    if (is_number(value->text)) {
-      table.refuse(
-          key,
-          fmt::format("is the text {}, but must be a number or \"infinite\"", quoted(value->text)),
-          fmt::format("write the number without quotes: {} = {}", key, value->text));
-    }
-    table.refuse(
-        key, fmt::format("is {}, neither a number nor \"infinite\"", quoted(value->text)),
-        "write numbers without quotes and units. " + suggest(value->text, {infinite_energy}));
-  }
-  if (value->kind == TomlValue::Kind::number && std::isinf(value->number)) {
-    table.refuse(key, fmt::format("is {}", describe(*value)),
-                 fmt::format("write {} = \"infinite\"", key));
-  }
-  return *table.positive(key);
 }
 
 void need_fracture_energy(const CaseTable& table, AnalysisType type, MaterialSection& material) {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <string>
 
+#include "io/case/binding/key_binding.hpp"
 #include "io/case/case_words.hpp"
-#include "io/case/keys/key_binding.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_sections.hpp"
 

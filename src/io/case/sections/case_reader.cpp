@@ -5,11 +5,11 @@
 #include <array>
 #include <type_traits>
 
+#include "io/case/binding/key_binding.hpp"
 #include "io/case/case_keys.hpp"
 #include "io/case/case_overrides.hpp"
 #include "io/case/case_settings.hpp"
 #include "io/case/case_table.hpp"
-#include "io/case/keys/key_binding.hpp"
 #include "io/case/sections/case_elements.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_rebar.hpp"
@@ -151,10 +151,10 @@ CaseFile parse_case(const std::string& text, const std::string& path,
   CaseFile input;
   input.path = path;
   collect_lines(root, "", input.lines);
+  input = read_section("", document.top(), Kinds{}, std::move(input));
   read_kind(document, input);
   const Kinds kind = kinds_of(input);
   input.unused = find_unused(root, input);
-  input = read_section("", document.top(), kind, std::move(input));
   input.body = read_body(document.table("body"), input.body, kind);
   const auto each = [&](const char* name, auto reader, const auto& known) {
     return document.list(name,

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/plain_text.hpp"
-#include "io/case/keys/key_binding.hpp"
+#include "io/case/binding/key_binding.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_stages.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "io/case/keys/key_binding.hpp"
+#include "io/case/binding/key_binding.hpp"
 #include "io/case/sections/laws/case_interfaces.hpp"
 
 namespace perilink {

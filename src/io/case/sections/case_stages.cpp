@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "io/case/binding/key_binding.hpp"
 #include "io/case/case_schema.hpp"
-#include "io/case/keys/key_binding.hpp"
 #include "io/case/sections/case_sections.hpp"
 #include "io/text/toml_tree.hpp"
 

@@ -3,9 +3,9 @@
 #include <string>
 #include <string_view>
 
+#include "io/case/binding/key_binding.hpp"
 #include "io/case/case_file.hpp"
 #include "io/case/case_words.hpp"
-#include "io/case/keys/key_binding.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_sections.hpp"
 #include "io/text/toml_writer.hpp"

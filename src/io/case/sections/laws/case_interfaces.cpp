@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "io/case/binding/key_binding.hpp"
 #include "io/case/case_words.hpp"
-#include "io/case/keys/key_binding.hpp"
 #include "io/case/sections/laws/case_softening.hpp"
 
 namespace perilink {

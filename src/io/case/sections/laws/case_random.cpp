@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/case/binding/key_binding.hpp"
 #include "io/case/case_schema.hpp"
 #include "io/case/case_words.hpp"
-#include "io/case/keys/key_binding.hpp"
 #include "io/case/sections/laws/case_softening.hpp"
 
 namespace perilink {

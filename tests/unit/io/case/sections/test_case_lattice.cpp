@@ -309,7 +309,7 @@ TEST(CaseLatticeYielding, ReadsAndWritesTheCurve) {
 
 TEST(CaseLatticeYielding, RefusesWhatMakesNoSense) {
   EXPECT_THAT(yielding_refusal(yielding_case("ultimate_strength = 0.03\n")),
-              HasSubstr("does not yield"));
+              HasSubstr("is given without `yield_strength`"));
   EXPECT_THAT(yielding_refusal(yielding_case("yield_strength = 0.02\n")),
               HasSubstr("ultimate_strength"));
   EXPECT_THAT(yielding_refusal(yielding_case(yielding)), HasSubstr("crushing_energy"));

@@ -1,6 +1,6 @@
 // One row of a table of keys gives reading, ranges, defaults, writing and the keys of other kinds.
 
-#include "io/case/keys/key_binding.hpp"
+#include "io/case/binding/key_binding.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "io/case/case_json_schema.hpp"
+#include "results/case_json_schema.hpp"
 
 namespace perilink {
 namespace {
@@ -81,7 +81,7 @@ TEST(KeyBinding, ReadsByTheTypeOfTheMember) {
 TEST(KeyBinding, RefusesWhatTheRowExcludes) {
   EXPECT_THAT(toy_refusal("size = 1\ncount = 10"), HasSubstr("an integer from 1 to 9"));
   EXPECT_THAT(toy_refusal("size = 0"),
-              HasSubstr("toy.toml:1: toy[1].size is 0, but must be greater"));
+              HasSubstr("toy.toml:1: toy[1].size: is 0, but must be greater"));
   EXPECT_THAT(toy_refusal("count = 2"), HasSubstr("give the size of the toy"));
   EXPECT_THAT(toy_refusal("size = 1\ntimes = [1, -1]"),
               HasSubstr("is -1, but must not be negative"));

@@ -1,4 +1,4 @@
-#include "io/case/case_json_schema.hpp"
+#include "results/case_json_schema.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

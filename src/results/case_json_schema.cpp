@@ -1,4 +1,4 @@
-#include "io/case/case_json_schema.hpp"
+#include "results/case_json_schema.hpp"
 
 #include <fmt/format.h>
 

@@ -14,7 +14,6 @@
 #include "io/case/case_keys.hpp"
 #include "io/case/case_schema.hpp"
 #include "io/case/case_table.hpp"
-#include "io/case/sections/case_kinds.hpp"
 #include "io/text/toml_writer.hpp"
 
 /// \file Binds keys to members of the sections of a case.
@@ -95,7 +94,7 @@ void read_value(const KeySchema& key, const CaseTable& table, Kinds kind, T& val
                 ? *table.integer(name, lowest, highest)
                 : table.choice(name, {axis_names.begin(), axis_names.begin() + size})->at(0) - 'x';
   } else if constexpr (std::same_as<T, double>) {
-    value = values.kind == Kind::energy ? read_energy(table, name)
+    value = values.kind == Kind::energy ? table.energy(name)
                                         : *table.number(name, values.range, key.hint);
   } else if constexpr (std::same_as<T, std::string>) {
     value = *table.text(name);

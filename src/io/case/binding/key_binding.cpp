@@ -1,4 +1,4 @@
-#include "io/case/keys/key_binding.hpp"
+#include "io/case/binding/key_binding.hpp"
 
 #include <fmt/format.h>
 
