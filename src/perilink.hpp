@@ -19,6 +19,7 @@
 #include "model/gauges.hpp"
 #include "model/model_regions.hpp"
 #include "model/reactions.hpp"
+#include "results/case_json_schema.hpp"
 #include "results/result_directory.hpp"
 #include "results/state_file.hpp"
 

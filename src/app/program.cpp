@@ -25,7 +25,7 @@
 #include "base/error.hpp"
 #include "base/files.hpp"
 #include "base/memory.hpp"
-#include "io/case/case_schema.hpp"
+#include "results/case_json_schema.hpp"
 #include "solver/dense/blas_kernels.hpp"
 
 namespace perilink {
@@ -64,6 +64,14 @@ const CLI::Validator is_row_choice(
 bool steers_terminal(std::string_view word) {
   return std::any_of(word.begin(), word.end(),
                      [](unsigned char c) { return c < 0x20 || c == 0x7F; });
+}
+
+/// Returns whether a word was refused.
+bool refuse_control_characters(std::span<char*> words) {
+  const auto found = std::ranges::find_if(words, steers_terminal);
+  if (found == words.end()) return false;
+  complain(fmt::format("{}: names must not contain control characters", *found));
+  return true;
 }
 
 void add_trust_option(CLI::App& command, bool& trust_geometry) {
@@ -202,6 +210,18 @@ const CLI::App* add_report_command(CLI::App& app, ReportOptions& options) {
   return command;
 }
 
+const CLI::App* add_schema_command(CLI::App& app, bool& as_text) {
+  CLI::App* command = app.add_subcommand(
+      "schema", "Print the JSON schema of case files, by which editors complete and check them");
+  command->add_flag("--text", as_text, "Print tables and keys with values and meanings instead");
+  return command;
+}
+
+int print_schema(bool as_text) {
+  say(as_text ? case_reference() : case_json_schema());
+  return exit_done;
+}
+
 /// Adds the option by which the build gets the manual page and the completions.
 void add_describe_option(CLI::App& app) {
   app.add_option_function<std::string>("--describe",
@@ -300,14 +320,13 @@ int run_program(int argc, char** argv) {
   ReportOptions report;
   const CLI::App* report_command = add_report_command(app, report);
 
+  bool schema_as_text = false;
+  const CLI::App* schema_command = add_schema_command(app, schema_as_text);
+
   PlotOptions plot;
   add_plot_command(app, plot);
 
-  for (const char* word : std::span(argv, argc)) {
-    if (!steers_terminal(word)) continue;
-    complain(fmt::format("{}: names must not contain control characters", word));
-    return exit_bad_input;
-  }
+  if (refuse_control_characters(std::span(argv, argc))) return exit_bad_input;
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
@@ -323,6 +342,7 @@ int run_program(int argc, char** argv) {
     if (check_command->parsed()) return check_case(checked);
     if (scan_command->parsed()) return scan(scanned);
     if (report_command->parsed()) return make_report(report);
+    if (schema_command->parsed()) return print_schema(schema_as_text);
     return plot_results(plot);
   });
 }

@@ -65,6 +65,8 @@ PYBIND11_MODULE(_core, module) {
       .def("resolved", write_case);
   module.def("parse_case", read_text, py::arg("text"), py::arg("path"), py::arg("has_lines"));
   module.def("read_case", read_case, py::arg("path"));
+  module.def("case_json_schema", case_json_schema);
+  module.def("case_reference", case_reference);
   bind_runs(module);
   bind_problems(module);
   bind_events(module);

@@ -46,7 +46,7 @@ class OptionTexts : public testing::Test {
 };
 
 const std::vector<std::string> commands = {"run",   "converge", "compare", "scan",
-                                           "check", "report",   "plot"};
+                                           "check", "report",   "schema",  "plot"};
 
 TEST_F(OptionTexts, NameEveryCommandAndOption) {
   for (const std::string kind : {"man", "bash", "zsh", "fish"}) {
@@ -85,6 +85,8 @@ TEST_F(OptionTexts, BashCompletesCommandsAndOptions) {
   EXPECT_EQ(completed("perilink co", 1), "converge compare\n");
   EXPECT_EQ(completed("perilink run --re", 2), "--resume\n");
   EXPECT_EQ(completed("perilink plot --re", 2), "\n");
+  EXPECT_EQ(completed("perilink run --set body.horizon_", 3),
+            "body.horizon_level= body.horizon_ratio=\n");
   write_text(work() / "beam.toml", "");
   EXPECT_EQ(completed("perilink run bea", 2), "beam.toml\n");
 }
@@ -92,6 +94,17 @@ TEST_F(OptionTexts, BashCompletesCommandsAndOptions) {
 TEST_F(OptionTexts, OtherKindsAreRefused) {
   const ProcessEnd end = run_program(work(), {"--describe", "csh"});
   EXPECT_EQ(end.exit_status, 2);
+}
+
+TEST_F(OptionTexts, CompleteKeysOfCases) {
+  for (const std::string kind : {"bash", "fish"}) {
+    EXPECT_THAT(output({"--describe", kind}), HasSubstr("body.spacing= ")) << kind;
+  }
+}
+
+TEST_F(OptionTexts, SchemaHasTheKeysOfTheProgram) {
+  EXPECT_THAT(output({"schema"}), HasSubstr("\"event_tolerance\": {"));
+  EXPECT_THAT(output({"schema", "--text"}), HasSubstr("  event_tolerance: relative distance"));
 }
 
 }  // namespace

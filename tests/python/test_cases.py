@@ -115,6 +115,13 @@ class Cases(unittest.TestCase):
         self.assertTrue(str(caught.exception).startswith("case: materials[1].youngs_modulus: "))
         self.assertIsInstance(caught.exception, ValueError)
 
+    def test_help_and_schema_have_every_key(self):
+        schema = perilink.case_schema()["properties"]
+        self.assertEqual(schema["analysis"]["properties"]["rows"]["default"], 500)
+        for name, table in schema.items():
+            for key in table.get("items", table).get("properties", {}):
+                self.assertIn(f"  {key}: ", perilink.Case.__doc__, name)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/build_info.hpp"
+#include "results/case_json_schema.hpp"
 
 namespace perilink {
 namespace {
@@ -104,6 +105,13 @@ std::string names_of_options(const CLI::App& command) {
   return names;
 }
 
+/// Returns KEY= of every key that --set may have, separated by spaces.
+std::string settings() {
+  std::string text;
+  for (const std::string& key : settable_keys()) text += (text.empty() ? "" : " ") + key + "=";
+  return text;
+}
+
 std::string for_bash(const CLI::App& app) {
   std::string cases, names;
   for (const CLI::App* command : commands_of(app)) {
@@ -115,12 +123,14 @@ std::string for_bash(const CLI::App& app) {
       "_perilink() {{\n  local word=\"${{COMP_WORDS[COMP_CWORD]}}\" words\n"
       "  case \"${{COMP_WORDS[1]}}\" in\n{}    *) words=\"\" ;;\n  esac\n"
       "  if [ \"$COMP_CWORD\" -eq 1 ]; then words=\"{}{}\"; fi\n"
+      "  if [ \"${{COMP_WORDS[COMP_CWORD-1]}}\" = --set ]; then\n    compopt -o nospace\n"
+      "    mapfile -t COMPREPLY < <(compgen -W \"{}\" -- \"$word\")\n    return\n  fi\n"
       "  if [ \"$COMP_CWORD\" -eq 1 ] || [[ \"$word\" == -* ]]; then\n"
       "    mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$word\")\n  else\n"
       "    compopt -o filenames\n"
       "    mapfile -t COMPREPLY < <(compgen -f -- \"$word\")\n  fi\n}}\n"
       "complete -F _perilink perilink\n",
-      cases, names, names_of_options(app));
+      cases, names, names_of_options(app), settings());
 }
 
 std::string for_zsh(const CLI::App& app) {
@@ -154,7 +164,10 @@ std::string for_fish(const CLI::App& app) {
       text +=
           fmt::format("complete -c perilink -n '__fish_seen_subcommand_from {}' -l {}{} -d '{}'\n",
                       command->get_name(), option->get_lnames().front(),
-                      has_value(*option) ? " -r" : "", escaped(option->get_description(), "\\'"));
+                      option->get_lnames().front() == "set" ? " -x -a '" + settings() + "'"
+                      : has_value(*option)                  ? " -r"
+                                                            : "",
+                      escaped(option->get_description(), "\\'"));
     }
   }
   return text;

@@ -30,11 +30,6 @@ std::string join_path(std::string_view table, const std::string& key) {
   return table.empty() ? shown : fmt::format("{}.{}", table, shown);
 }
 
-std::string header(const TableSchema& schema) {
-  if (schema.name.empty()) return "the top of the file";
-  return schema.list ? fmt::format("[[{}]]", schema.name) : fmt::format("[{}]", schema.name);
-}
-
 bool has_key(const TableSchema& schema, const std::string& key) {
   return std::any_of(schema.keys.begin(), schema.keys.end(),
                      [&](const KeySchema& known) { return known.name == key; });
@@ -53,7 +48,7 @@ std::string suggest_key(const SchemaDocument& document, const TableSchema& here,
   std::string homes;
   for (const TableSchema& other : document.schema) {
     if (!has_key(other, key)) continue;
-    homes += (homes.empty() ? "" : ", ") + header(other);
+    homes += (homes.empty() ? "" : ", ") + header_of(other);
   }
   std::vector<std::string_view> keys;
   for (const KeySchema& known : here.keys) keys.push_back(known.name);
@@ -66,13 +61,13 @@ void check_keys(const SchemaDocument& document, const TableSchema& schema, const
   if (table.kind != TomlValue::Kind::table) {
     throw InputError({document.path, table.line, table_path},
                      fmt::format("is {}, but must be a table", describe(table)),
-                     fmt::format("write {} and its keys on the lines below", header(schema)));
+                     fmt::format("write {} and its keys on the lines below", header_of(schema)));
   }
   for (const TomlValue& value : table.entries) {
     const std::string& key = value.key;
     if (has_key(schema, key)) continue;
     throw InputError({document.path, value.line, join_path(table_path, key)},
-                     fmt::format("{} has no such key", header(schema)),
+                     fmt::format("{} has no such key", header_of(schema)),
                      suggest_key(document, schema, key));
   }
 }
@@ -82,9 +77,10 @@ void check_table(const SchemaDocument& document, const TableSchema& schema,
   const std::string name(schema.name);
   if (!schema.list) {
     if (value.kind == TomlValue::Kind::array) {
-      throw InputError({document.path, value.line, name},
-                       fmt::format("is written as a list of tables [[{}]]", name),
-                       fmt::format("a {} has only one; write {}", document.name, header(schema)));
+      throw InputError(
+          {document.path, value.line, name},
+          fmt::format("is written as a list of tables [[{}]]", name),
+          fmt::format("a {} has only one; write {}", document.name, header_of(schema)));
     }
     check_keys(document, schema, value, name);
     return;
@@ -92,7 +88,7 @@ void check_table(const SchemaDocument& document, const TableSchema& schema,
   if (value.kind != TomlValue::Kind::array) {
     throw InputError({document.path, value.line, name},
                      fmt::format("is {}, but must be a list of tables", describe(value)),
-                     fmt::format("write {} with two brackets, once for each", header(schema)));
+                     fmt::format("write {} with two brackets, once for each", header_of(schema)));
   }
   for (std::size_t i = 0; i < value.items.size(); ++i) {
     check_keys(document, schema, value.items[i], item_key(name, i));
@@ -109,6 +105,21 @@ bool NotFor::holds(Kinds kind) const {
     if ((kinds & group) != 0 && (kinds & group & kind) == 0) return false;
   }
   return true;
+}
+
+std::string header_of(const TableSchema& schema) {
+  if (schema.name.empty()) return "the top of the file";
+  return schema.list ? fmt::format("[[{}]]", schema.name) : fmt::format("[{}]", schema.name);
+}
+
+bool Range::contains(double value) const {
+  return (above ? value > least : value >= least) && (below ? value < most : value <= most);
+}
+
+const NotFor* exception_of(const std::vector<NotFor>& exceptions, Kinds kind) {
+  const auto found = std::ranges::find_if(
+      exceptions, [&](const NotFor& exception) { return exception.holds(kind); });
+  return found == exceptions.end() ? nullptr : &*found;
 }
 
 void check_against_schema(const TomlValue& document, const std::string& path,

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <stdexcept>
 
 #include "base/plain_text.hpp"
@@ -25,6 +27,13 @@ constexpr std::size_t longest_path = 4096;
 
 /// Characters, enough for body forces of manufactured solutions.
 constexpr std::size_t longest_formula = 2000;
+
+bool is_number(const std::string& text) {
+  char* end = nullptr;
+  std::strtod(text.c_str(), &end);
+  return !text.empty() && std::isdigit(static_cast<unsigned char>(text.back())) != 0 &&
+         end == text.c_str() + text.size();
+}
 
 }  // namespace
 
@@ -144,28 +153,54 @@ std::optional<int> CaseTable::integer(const std::string& key, int lowest, int hi
   return checked_integer(key, *value, lowest, highest);
 }
 
-std::optional<double> CaseTable::number(const std::string& key) const {
+std::optional<double> CaseTable::number(const std::string& key, const Range& range,
+                                        std::string_view hint) const {
   const TomlValue* value = table_.find(key);
   if (value == nullptr) return std::nullopt;
-  return checked_number(key, *value);
+  const double number = checked_number(key, *value);
+  check_range(key, number, range, hint);
+  return number;
 }
 
-std::optional<double> CaseTable::positive(const std::string& key) const {
-  const std::optional<double> value = number(key);
-  if (value && *value <= 0.0) {
-    refuse(key, fmt::format("is {}, but must be greater than zero", *value),
-           "give a positive number");
-  }
-  return value;
+void CaseTable::check_range(const std::string& key, double value, const Range& range,
+                            std::string_view hint) const {
+  if (range.contains(value)) return;
+  const double least = range.least;
+  const double most = range.most;
+  const bool low = value <= least;
+  const std::string limit =
+      !low           ? fmt::format("be {} {}", range.below ? "less than" : "at most", most)
+      : least == 0.0 ? range.above ? "be greater than zero" : "not be negative"
+                     : fmt::format("be {} {}", range.above ? "more than" : "at least", least);
+  const std::string advice =
+      most == infinity
+          ? least == 0.0 ? fmt::format("give {}a positive number", range.above ? "" : "zero or ")
+                         : fmt::format("give {} or more", least)
+      : range.above
+          ? fmt::format("give a number between {} and {}", least, most)
+          : fmt::format("give a number from {} to {}{}", least, range.below ? "below " : "", most);
+  refuse(key, fmt::format("is {}, but must {}", value, limit),
+         hint.empty() ? advice : std::string(hint));
 }
 
-std::optional<double> CaseTable::fraction(const std::string& key) const {
-  const std::optional<double> value = positive(key);
-  if (value && *value >= 1.0) {
-    refuse(key, fmt::format("is {}, but must be less than 1", *value),
-           "give a number between 0 and 1");
+double CaseTable::energy(const std::string& key) const {
+  const TomlValue* value = table_.find(key);
+  if (value->kind == TomlValue::Kind::text) {
+    if (value->text == infinite_energy) return infinity;
+    if (is_number(value->text)) {
+      refuse(
+          key,
+          fmt::format("is the text {}, but must be a number or \"infinite\"", quoted(value->text)),
+          fmt::format("write the number without quotes: {} = {}", key, value->text));
+    }
+    refuse(key, fmt::format("is {}, neither a number nor \"infinite\"", quoted(value->text)),
+           "write numbers without quotes and units. " + suggest(value->text, {infinite_energy}));
   }
-  return value;
+  if (value->kind == TomlValue::Kind::number && std::isinf(value->number)) {
+    refuse(key, fmt::format("is {}", describe(*value)),
+           fmt::format("write {} = \"infinite\"", key));
+  }
+  return *positive(key);
 }
 
 const TomlValue* CaseTable::array(const std::string& key, const char* of) const {

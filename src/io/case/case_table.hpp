@@ -9,11 +9,15 @@
 
 #include "base/error.hpp"
 #include "base/types.hpp"
+#include "io/case/case_schema.hpp"
 #include "io/case/case_words.hpp"
 #include "io/text/formula.hpp"
 #include "io/text/toml_tree.hpp"
 
 namespace perilink {
+
+/// Word for the fracture energy of unbreakable materials.
+inline constexpr const char* infinite_energy = "infinite";
 
 /// Reads checked values of one table of a case. Every reader returns std::nullopt where the key is
 /// absent. It throws InputError for a wrong type or a value out of range.
@@ -46,10 +50,14 @@ class CaseTable {
   std::optional<bool> boolean(const std::string& key) const;
   std::optional<int> integer(const std::string& key, int lowest, int highest) const;
   /// Reads a number; integers are allowed.
-  std::optional<double> number(const std::string& key) const;
-  std::optional<double> positive(const std::string& key) const;
-  /// Reads a number above zero and below one.
-  std::optional<double> fraction(const std::string& key) const;
+  /// \param hint  suggestion for numbers out of range; empty: the range
+  std::optional<double> number(const std::string& key, const Range& range = {},
+                               std::string_view hint = {}) const;
+  std::optional<double> positive(const std::string& key) const {
+    return number(key, allowed::positive);
+  }
+  /// Reads a positive number, or infinity for the word "infinite", where the table has the key.
+  double energy(const std::string& key) const;
   std::optional<std::vector<double>> numbers(const std::string& key) const;
   /// Reads as many numbers as the body has dimensions.
   std::optional<Vector3> vector(const std::string& key, int dim) const;
@@ -70,13 +78,12 @@ class CaseTable {
     return *std::move(value);
   }
 
-  /// Returns the name of a region. \param use  purpose of the region: "that is held"
-  std::string need_region(const std::string& use) const {
-    return need("region", text("region"), "the name of the region " + use);
-  }
-
   /// Refuses a table that does not have exactly one of these keys.
   void need_one_of(const std::vector<std::string>& keys) const;
+
+  /// Refuses a number out of range.
+  void check_range(const std::string& key, double value, const Range& range,
+                   std::string_view hint = {}) const;
 
   [[noreturn]] void refuse(const std::string& key, const std::string& fault,
                            const std::string& suggestion) const;

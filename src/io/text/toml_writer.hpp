@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -34,6 +35,11 @@ class TomlWriter {
   void write(std::string_view key, const Expression& value) { line(key, element(value)); }
   void write(std::string_view key, const ExpressionVector& value, int dim) {
     line(key, list(std::vector<Expression>(value.begin(), value.begin() + dim)));
+  }
+  void write(std::string_view key, const std::vector<Vector3>& points, int dim) {
+    std::vector<std::vector<double>> rows;
+    for (const Vector3& x : points) rows.emplace_back(x.begin(), x.begin() + dim);
+    line(key, list(rows));
   }
   template <class T>
   void write(std::string_view key, const std::vector<T>& values) {
@@ -68,6 +74,9 @@ class TomlWriter {
     return value.is_constant() ? element(value.number) : text(value.formula);
   }
   static std::string element(const std::vector<double>& value) { return list(value); }
+  static std::string element(const std::array<double, 2>& value) {
+    return list(std::vector<double>(value.begin(), value.end()));
+  }
 
   template <class T>
   static std::string list(const std::vector<T>& values) {

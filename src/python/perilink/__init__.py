@@ -13,7 +13,7 @@ docs/case_file.md.
 """
 
 from ._core import Problem, Row, __version__, build_summary
-from .case import Case, parse_case, read_case
+from .case import Case, case_schema, parse_case, read_case
 from .errors import Error, FileError, InputError, SolverError
 from .events import DamageState, EventRow, EventRun
 from .mesh import Mesh
@@ -37,6 +37,7 @@ __all__ = [
     "__version__",
     "build",
     "build_summary",
+    "case_schema",
     "parse_case",
     "read_case",
     "read_result",

@@ -115,6 +115,15 @@ class Case(dict[str, Any]):
         return paths
 
 
+# help(Case) lists every key.
+Case.__doc__ = f"{Case.__doc__}\n    Tables and keys (units in L, F, T, M):\n{_core.case_reference()}"
+
+
+def case_schema() -> dict[str, Any]:
+    """Returns the JSON schema of case files: types, ranges, defaults and meanings of all keys."""
+    return json.loads(_core.case_json_schema())
+
+
 def parse_case(text: str, path: str | PathLike[str] = "case") -> Case:
     """Reads and checks a case from the text of a case file.
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
+#include "io/case/binding/key_binding.hpp"
 #include "io/case/case_words.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_lattice.hpp"
@@ -15,9 +15,6 @@
 
 namespace perilink {
 namespace {
-
-constexpr int fewest_columns = 2;
-constexpr int most_columns = 100000;
 
 void check_pattern(const CaseTable& table, const BodySection& body) {
   const bool flat = is_flat(body.pattern);
@@ -32,7 +29,7 @@ void check_pattern(const CaseTable& table, const BodySection& body) {
 /// Reads keys of bodies whose particles are the vertices of cells.
 void read_cells(const CaseTable& table, BodySection& body) {
   body.pattern = Pattern::irregular;
-  body.micromodulus = Constants::continuum;
+  if (!table.has("micromodulus")) body.micromodulus = Constants::continuum;
   const auto name = [&](const char* mesh, const char* set) {
     return table.has("mesh") ? mesh : set;
   };
@@ -49,14 +46,10 @@ void read_cells(const CaseTable& table, BodySection& body) {
   }
 }
 
-void read_lattice(const CaseTable& table, BodySection& body) {
-  if (dimension_of(body) == 3) body.pattern = Pattern::cubic;
-  assign(body.pattern, table.choice<Pattern>("pattern"));
+void check_lattice_of_bonds(const CaseTable& table, BodySection& body) {
   check_pattern(table, body);
-  assign(body.surface, table.choice<Surface>("surface"));
   if (has_cells(body)) {
     read_cells(table, body);
-    assign(body.seed, table.integer("seed", 0, std::numeric_limits<int>::max()));
   } else if (table.has("seed")) {
     table.refuse(
         "seed", fmt::format("is given, but the pattern \"{}\" is a lattice", word_of(body.pattern)),
@@ -66,25 +59,10 @@ void read_lattice(const CaseTable& table, BodySection& body) {
     table.refuse("surface", "is \"ghost\", but the ghost layer is for two-dimensional bodies",
                  "Allowed in three dimensions: calibrated, energy, none");
   }
-  body.columns = table.integer("columns", fewest_columns, most_columns);
-  body.spacing = table.positive("spacing");
 }
 
-/// Reads the mesh, which determines the particles and excludes keys of lattices.
-void read_mesh(const CaseTable& table, BodySection& body) {
-  read_mesh_file(table, body);
-  for (const char* key : {"pattern", "seed"}) {
-    if (!table.has(key)) continue;
-    table.refuse(key, "is given together with `mesh`", "delete it: the mesh places the particles");
-  }
-  assign(body.surface, table.choice<Surface>("surface"));
-  read_cells(table, body);
-}
-
-/// Reads the source of the bonds' constants.
-void read_constants(const CaseTable& table, BodySection& body) {
-  assign(body.micromodulus, table.choice<Constants>("micromodulus"));
-  assign(body.critical_stretch, table.choice<CriticalStretch>("critical_stretch"));
+/// Refuses the constants of a lattice where there is none.
+void check_constants(const CaseTable& table, const BodySection& body) {
   if (!has_cells(body)) return;
   const auto refuse_lattice = [&](const char* key, bool counts) {
     if (!counts) return;
@@ -97,9 +75,7 @@ void read_constants(const CaseTable& table, BodySection& body) {
   refuse_lattice("critical_stretch", body.critical_stretch == CriticalStretch::lattice);
 }
 
-void read_horizon(const CaseTable& table, BodySection& body) {
-  table.need_one_of({"horizon", "horizon_level", "horizon_ratio"});
-  body.horizon = table.positive("horizon");
+void check_horizon(const CaseTable& table, const BodySection& body) {
   if (body.horizon && body.spacing && *body.horizon < *body.spacing) {
     table.refuse("horizon",
                  fmt::format("is {}, less than the spacing {}: no particle would have a neighbour",
@@ -111,14 +87,6 @@ void read_horizon(const CaseTable& table, BodySection& body) {
         "horizon_level",
         fmt::format("is given, but the pattern \"{}\" has no levels", word_of(body.pattern)),
         "give `horizon` or `horizon_ratio`");
-  }
-  body.horizon_level = table.integer("horizon_level", 0, 8);
-  body.horizon_ratio = table.positive("horizon_ratio");
-  if (body.horizon_ratio && *body.horizon_ratio < 1.0) {
-    table.refuse(
-        "horizon_ratio",
-        fmt::format("is {}, less than 1: no particle would have a neighbour", *body.horizon_ratio),
-        "2 to 4 is usual");
   }
 }
 
@@ -176,18 +144,19 @@ void check_micropolar_ratio(const CaseTable& table, const BodySection& body, dou
                "no bonds of this version have other ratios" + other_model(given));
 }
 
-std::optional<double> read_poissons_ratio(const CaseTable& table, const BodySection& body) {
-  if (is_beam(body)) return std::nullopt;
-  std::optional<double> given = table.number("poissons_ratio");
+void check_poissons_ratio(const CaseTable& table, const BodySection& body,
+                          const std::optional<double>& given) {
   if (body.method == BodyMethod::linear_elements) {
     if (given) check_element_ratio(table, *given);
   } else if (body.model == BodyModel::micropolar) {
-    given = table.need("poissons_ratio", given, "Poisson's ratio, which micropolar bonds need");
+    if (is_beam(body)) return;
+    if (!given) {
+      table.refuse_missing("poissons_ratio", "Poisson's ratio, which micropolar bonds need");
+    }
     check_micropolar_ratio(table, body, *given);
   } else if (given) {
     check_bond_based_ratio(table, body, *given);
   }
-  return given;
 }
 
 /// Bonds of shells and beams extend through the thickness. In bending, one side of a crack is in
@@ -204,10 +173,8 @@ void settle_thick_softening(const CaseTable& table, SofteningMaterial& softening
   softening.closes = false;
 }
 
-std::vector<std::string> read_material_regions(const CaseTable& table) {
-  table.need_one_of({"region", "regions"});
-  if (const auto single = table.text("region")) return {*single};
-  std::vector<std::string> names = *table.texts("regions");
+void read_material_regions(const CaseTable& table, std::vector<std::string>& names) {
+  if (const auto single = table.text("region")) names = {*single};
   if (names.empty()) {
     table.refuse("regions", "names no region", "name at least one region, or delete the material");
   }
@@ -217,49 +184,52 @@ std::vector<std::string> read_material_regions(const CaseTable& table) {
   if (twice != sorted.end()) {
     table.refuse("regions", fmt::format("names {} twice", quoted(*twice)), "name it once");
   }
-  return names;
 }
 
-std::vector<std::string> read_holes(const CaseTable& table, const BodySection& body) {
-  const std::vector<std::string> holes = table.texts("holes").value_or(std::vector<std::string>{});
-  if (table.has("holes") && holes.empty()) {
-    table.refuse("holes", "names no region", "name one, or delete the key");
-  }
-  if (!holes.empty() && body.mesh && !is_lattice(body)) {
+void check_holes(const CaseTable& table, const std::vector<std::string>& holes,
+                 const BodySection& body) {
+  if (!table.has("holes")) return;
+  if (holes.empty()) table.refuse("holes", "names no region", "name one, or delete the key");
+  if (body.mesh && !is_lattice(body)) {
     table.refuse("holes", "is given, but the mesh is the body",
                  "leave the hole out of the geometry");
   }
-  return holes;
 }
 
 }  // namespace
 
-BodySection read_body(const CaseTable& table, const BodySection& kind) {
-  BodySection body = kind;
-  assign(body.thickness, table.positive("thickness"));
+BodySection read_body(const CaseTable& table, BodySection body, Kinds kind) {
   if ((is_shell(body) || is_beam(body)) && !table.has("thickness")) {
     table.refuse_missing("thickness", is_beam(body) ? "the width of the beam, across the plane"
                                                     : "the thickness of the shell");
   }
-  if (is_shell(body)) body.radius = table.positive("radius");
+  const bool flat = dimension_of(body) == 2;
   if (is_lattice(body)) {
-    read_lattice_body(table, body);
+    body.pattern = flat ? Pattern::hexagonal : Pattern::face_centred;
+  } else if (!flat) {
+    body.pattern = Pattern::cubic;
+  }
+  const Pattern usual = body.pattern;
+  body = read_section("body", table, kind, body);
+  read_mesh_file(table, body);
+  if (has_state_based_particles(body)) body.surface = Surface::none;
+  if (is_lattice(body)) {
+    check_lattice_body(table, body, usual);
     return body;
   }
-  assign(body.torsion, table.positive("torsion"));
   table.need_one_of({"columns", "spacing", "mesh"});
-  if (table.has("mesh")) {
-    read_mesh(table, body);
+  if (body.mesh) {
+    if (table.has("pattern")) {
+      table.refuse("pattern", "is given together with `mesh`",
+                   "delete it: the mesh places the particles");
+    }
+    read_cells(table, body);
   } else {
-    read_mesh_file(table, body);
-    read_lattice(table, body);
+    check_lattice_of_bonds(table, body);
   }
-  if (is_particles(body)) {
-    body.surface = Surface::none;
-    return body;
-  }
-  if (body.method == BodyMethod::bonds) read_horizon(table, body);
-  read_constants(table, body);
+  if (is_particles(body)) return body;
+  if (body.method == BodyMethod::bonds) check_horizon(table, body);
+  check_constants(table, body);
   refuse_unused_micromodulus(table, body);
   if (is_shell(body) && body.surface == Surface::ghost) {
     table.refuse("surface", "is \"ghost\", but the ghost layer is for bodies in a plane",
@@ -271,25 +241,24 @@ BodySection read_body(const CaseTable& table, const BodySection& kind) {
 MaterialSection read_material(const CaseTable& table, const CaseFile& input, std::size_t index) {
   const BodySection& body = input.body;
   MaterialSection material;
-  material.name = table.text("name").value_or(fmt::format("material {}", index + 1));
+  material.name = fmt::format("material {}", index + 1);
+  if (has_state_based_particles(body)) material.lattice = usual_state_material(body.variant);
+  material = read_section("materials", table, kinds_of(input), std::move(material));
   if (material.name.empty()) {
     table.refuse("name", "is empty", "name the material, or delete the key");
   }
-  material.regions = read_material_regions(table);
-  material.holes = read_holes(table, body);
-  material.youngs_modulus =
-      table.need("youngs_modulus", table.positive("youngs_modulus"), "Young's modulus");
-  if (has_state_based_particles(body)) {
-    read_state_material(table, input, material);
+  read_material_regions(table, material.regions);
+  check_holes(table, material.holes, body);
+  if (material.lattice) {
+    check_state_material(table, input, material);
     return material;
   }
-  material.poissons_ratio = read_poissons_ratio(table, body);
+  check_poissons_ratio(table, body, material.poissons_ratio);
   material.softening = read_softening(table);
   if (is_shell(body) || is_beam(body)) settle_thick_softening(table, material.softening);
-  material.fracture_energy =
-      has_stretches(material.softening) ? 0.0 : read_fracture_energy(table, input.analysis.type);
+  if (!has_stretches(material.softening))
+    need_fracture_energy(table, input.analysis.type, material);
   if (std::isinf(material.fracture_energy) && table.has("fracture_energy")) refuse_softening(table);
-  material.density = table.positive("density");
   return material;
 }
 

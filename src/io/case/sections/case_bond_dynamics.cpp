@@ -9,11 +9,6 @@
 namespace perilink {
 namespace {
 
-constexpr int most_iterations = 2000000000;
-
-/// A converged run has a residual of about 1e-15 of its forces.
-constexpr double least_tolerance = 1e-13;
-
 void check_strain(const CaseFile& input) {
   if (input.analysis.strain != Strain::green || input.body.model == BodyModel::bond_based) return;
   const SourceLocation where = input.where("analysis.strain");
@@ -44,39 +39,6 @@ void check_velocities(const CaseFile& input) {
 }
 
 }  // namespace
-
-void read_strain(const CaseTable& table, AnalysisSection& analysis) {
-  assign(analysis.strain, table.choice<Strain>("strain"));
-}
-
-double read_tolerance(const CaseTable& table, double usual) {
-  const double tolerance = table.positive("tolerance").value_or(usual);
-  if (tolerance >= 1.0) {
-    table.refuse("tolerance", fmt::format("is {}, but must be less than 1", tolerance),
-                 fmt::format("{} is the default", usual));
-  }
-  if (tolerance < least_tolerance) {
-    table.refuse("tolerance", fmt::format("is {}, below the round-off of the forces", tolerance),
-                 fmt::format("give at least {}; {} is the default", least_tolerance, usual));
-  }
-  return tolerance;
-}
-
-void read_relaxation(const CaseTable& table, AnalysisSection& analysis) {
-  analysis.tolerance = read_tolerance(table, 1e-6);
-  assign(analysis.iterations, table.integer("iterations", 1, most_iterations));
-}
-
-void write_relaxation(TomlWriter& out, const CaseFile& input) {
-  out.write("load_factors", input.analysis.load_factors);
-  out.write("strain", word_of(input.analysis.strain));
-  out.write("tolerance", *input.analysis.tolerance);
-  out.write("iterations", input.analysis.iterations);
-  out.write("rigid_body_modes", word_of(input.analysis.rigid_body_modes));
-  if (!input.output.checkpoint_every) return;
-  out.header("[output]");
-  out.write("checkpoint_every", input.output.checkpoint_every);
-}
 
 void check_moving_bonds(const CaseFile& input) {
   check_strain(input);

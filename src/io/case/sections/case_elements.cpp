@@ -2,32 +2,19 @@
 
 #include <fmt/format.h>
 
-#include "io/case/case_schema.hpp"
+#include "io/case/binding/key_binding.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/text/toml_tree.hpp"
 
 namespace perilink {
 
-std::optional<ElementsSection> read_elements(const CaseTable& table) {
-  constexpr int most_spacings = 1000;
+std::optional<ElementsSection> read_elements(const CaseTable& table, Kinds kind) {
   if (!table.exists()) return std::nullopt;
-  ElementsSection elements;
-  elements.spacings = table.integer("spacings", 2, most_spacings);
-  elements.size = table.positive("size");
+  auto elements = read_section<ElementsSection>("elements", table, kind);
   read_mesh_file(table, elements);
-  assign(elements.tied, table.texts("glued"));
   if (elements.tied.empty() || elements.mesh || elements.mesh_size) {
     table.need_one_of({"spacings", "size", "mesh"});
   }
-  assign(elements.order, table.integer("order", 1, 2));
-  assign(elements.regions, table.texts("regions"));
-  assign(elements.particles, table.texts("particles"));
-  assign(elements.release_threshold, table.fraction("alert"));
-  elements.release_strain = table.positive("alert_strain");
-  if (elements.release_strain && table.has("alert")) {
-    table.refuse("alert_strain", "is given together with `alert`", "delete one of the two");
-  }
-  elements.buffer_zone = table.positive("halo");
   return elements;
 }
 
@@ -81,20 +68,6 @@ void check_elements(const CaseFile& input) {
                      "proportion",
                      "give `alert` instead");
   }
-}
-
-void write_elements(TomlWriter& out, const ElementsSection& elements) {
-  out.header("[elements]");
-  out.write("spacings", elements.spacings);
-  out.write("size", elements.size);
-  write_mesh_file(out, elements);
-  out.write("order", elements.order);
-  if (!elements.regions.empty()) out.write("regions", elements.regions);
-  if (!elements.particles.empty()) out.write("particles", elements.particles);
-  if (!elements.tied.empty()) out.write("glued", elements.tied);
-  if (!elements.release_strain) out.write("alert", elements.release_threshold);
-  out.write("alert_strain", elements.release_strain);
-  out.write("halo", elements.buffer_zone);
 }
 
 }  // namespace perilink

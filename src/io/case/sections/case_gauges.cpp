@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/plain_text.hpp"
+#include "io/case/binding/key_binding.hpp"
 #include "io/case/case_schema.hpp"
 #include "io/case/case_words.hpp"
 #include "io/case/sections/case_gauges.hpp"
@@ -52,27 +53,16 @@ std::string stress_name(const std::array<int, 2>& axes) {
   return std::string(axis_names[axes[0]]) + axis_names[axes[1]];
 }
 
-GaugeSection read_gauge(const CaseTable& table, const BodySection& body) {
-  const int dim = dimension_of(body);
-  GaugeSection gauge;
-  gauge.name = table.need("name", table.text("name"), "the heading of its column");
+GaugeSection read_gauge(const CaseTable& table, Kinds kind) {
+  const int dim = dimension_of(kind);
+  auto gauge = read_section<GaugeSection>("gauges", table, kind);
   if (!is_plain(gauge.name)) {
     table.refuse("name", fmt::format("is {}", quoted(gauge.name)),
                  "use letters, digits, _ and - (not as the first), since it heads a column");
   }
-  table.need_one_of({"between", "at", "region", "reaction"});
-  assign(gauge.between, table.vectors("between", dim));
   if (table.has("between") && gauge.between.size() != 2) {
     table.refuse("between", "holds " + counted(gauge.between.size(), "point"),
                  "give two: [[0, 0], [0, 1]]");
-  }
-  gauge.at = table.vector("at", dim);
-  assign(gauge.region, table.text("region"));
-  assign(gauge.reaction, table.text("reaction"));
-  gauge.about = table.vector("about", dim);
-  if (gauge.about && gauge.reaction.empty()) {
-    table.refuse("about", "is given without `reaction`",
-                 "it is the point about which the moment of a reaction counts");
   }
   if (table.has("reaction")) {
     read_reaction(table, dim, gauge);
@@ -84,31 +74,10 @@ GaugeSection read_gauge(const CaseTable& table, const BodySection& body) {
   } else {
     table.need_one_of({"axis", "stress"});
   }
-  std::vector<std::string_view> axes(axis_names.begin(), axis_names.begin() + axes_of(body));
-  if (const auto axis = table.choice("axis", axes)) gauge.axis = (*axis)[0] - 'x';
   if (const auto stress = table.choice("stress", stress_names(dim))) {
     gauge.stress = {(*stress)[0] - 'x', (*stress)[1] - 'x'};
   }
   return gauge;
-}
-
-void write_gauges(TomlWriter& out, const CaseFile& input) {
-  const int dim = dimension_of(input.body);
-  for (const GaugeSection& gauge : input.gauges) {
-    out.header("[[gauges]]");
-    out.write("name", gauge.name);
-    std::vector<std::vector<double>> points;
-    for (const Vector3& point : gauge.between) {
-      points.emplace_back(point.begin(), point.begin() + dim);
-    }
-    if (!points.empty()) out.write("between", points);
-    if (gauge.at) out.write("at", *gauge.at, dim);
-    if (!gauge.region.empty()) out.write("region", gauge.region);
-    if (!gauge.reaction.empty()) out.write("reaction", gauge.reaction);
-    if (gauge.about) out.write("about", *gauge.about, dim);
-    if (gauge.axis) out.write("axis", axis_names[*gauge.axis]);
-    if (gauge.stress) out.write("stress", stress_name(*gauge.stress));
-  }
 }
 
 namespace {

@@ -3,24 +3,10 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include <cctype>
-#include <cmath>
-#include <cstdlib>
-
 #include "base/types.hpp"
 #include "io/case/case_words.hpp"
 
 namespace perilink {
-namespace {
-
-bool is_number(const std::string& text) {
-  char* end = nullptr;
-  std::strtod(text.c_str(), &end);
-  return !text.empty() && std::isdigit(static_cast<unsigned char>(text.back())) != 0 &&
-         end == text.c_str() + text.size();
-}
-
-}  // namespace
 
 Kinds kinds_of(const CaseFile& input) {
   const auto bit = [](Kinds first, auto value) { return first << static_cast<Kinds>(value); };
@@ -125,31 +111,13 @@ std::vector<NamedGroup> named_groups(const CaseFile& input) {
   return groups;
 }
 
-double read_energy(const CaseTable& table, const std::string& key, const std::string& meaning) {
-  const TomlValue* value = table.value(key);
-  if (value != nullptr && value->kind == TomlValue::Kind::text) {
-    if (value->text == infinite_energy) return infinity;
-    if (is_number(value->text)) {
-      table.refuse(
-          key,
-          fmt::format("is the text {}, but must be a number or \"infinite\"", quoted(value->text)),
-          fmt::format("write the number without quotes: {} = {}", key, value->text));
-    }
-    table.refuse(
-        key, fmt::format("is {}, neither a number nor \"infinite\"", quoted(value->text)),
-        "write numbers without quotes and units. " + suggest(value->text, {infinite_energy}));
+void need_fracture_energy(const CaseTable& table, AnalysisType type, MaterialSection& material) {
+  if (table.has("fracture_energy")) return;
+  if (type != AnalysisType::elastic) {
+    table.refuse_missing("fracture_energy",
+                         "the fracture energy, or \"infinite\" for a material that cannot break");
   }
-  if (value != nullptr && value->kind == TomlValue::Kind::number && std::isinf(value->number)) {
-    table.refuse(key, fmt::format("is {}", describe(*value)),
-                 fmt::format("write {} = \"infinite\"", key));
-  }
-  return table.need(key, table.positive(key), meaning);
-}
-
-double read_fracture_energy(const CaseTable& table, AnalysisType type) {
-  if (type == AnalysisType::elastic && !table.has("fracture_energy")) return infinity;
-  return read_energy(table, "fracture_energy",
-                     "the fracture energy, or \"infinite\" for a material that cannot break");
+  material.fracture_energy = infinity;
 }
 
 }  // namespace perilink

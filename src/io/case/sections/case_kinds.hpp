@@ -62,13 +62,7 @@ struct NamedGroup {
 /// Returns the groups that the tables of a case name.
 std::vector<NamedGroup> named_groups(const CaseFile& input);
 
-/// Word for the fracture energy of unbreakable materials.
-inline constexpr const char* infinite_energy = "infinite";
-
-/// Reads a positive number, or infinity for the word "infinite".
-/// \param meaning  description of the key, for the message where it is missing
-double read_energy(const CaseTable& table, const std::string& key, const std::string& meaning);
-/// Reads the fracture energy. Elastic analyses do not need it: infinity where it is missing.
-double read_fracture_energy(const CaseTable& table, AnalysisType type);
+/// Refuses a material without fracture energy; elastic analyses do not need it: infinity.
+void need_fracture_energy(const CaseTable& table, AnalysisType type, MaterialSection& material);
 
 }  // namespace perilink

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <string_view>
 
@@ -15,39 +14,41 @@
 namespace perilink {
 namespace {
 
-constexpr int most_rows = 1000000;
 /// Keys of [[materials]] that unbreakable materials cannot have.
 constexpr std::array softening_keys = {"tensile_strength",      "knee_stress_ratio",
                                        "knee_opening_ratio",    "compression_ratio",
                                        "compression_threshold", "boundary_factor"};
-std::optional<double> not_negative(const CaseTable& table, const std::string& key) {
-  const std::optional<double> value = table.number(key);
-  if (value && *value < 0.0) {
-    table.refuse(key, fmt::format("is {}, but must not be negative", *value),
-                 "give zero or a positive number");
+/// Checks the yield strength and the keys of hardening.
+void check_lattice_yielding(const CaseTable& table, const BodySection& body,
+                            const LatticeMaterialSection& section) {
+  if (!section.yield_strength) return;
+  if (dimension_of(body) == 3 && body.variant == LatticeRules::least_2018) {
+    table.refuse("yield_strength", "is given, but the rules of 2018 have no yielding in space",
+                 "choose another variant in [body], or a body in the plane");
   }
-  return value;
-}
-
-void read_crack_opening(const CaseTable& table, const BodySection& body,
-                        LatticeMaterialSection& section) {
-  section.tensile_strength = table.need("tensile_strength", table.positive("tensile_strength"),
-                                        "the tensile strength at which damage begins");
-  section.critical_opening = table.positive("critical_opening");
-  assign(section.knee_stress_ratio, table.fraction("knee_stress_ratio"));
-  assign(section.knee_opening_ratio, table.fraction("knee_opening_ratio"));
-  assign(section.compression_ratio, table.positive("compression_ratio"));
-  // Defaults of the papers of each variant.
-  section.compression_threshold = body.variant == LatticeRules::least_2018 ? 0.8 : 1.0 / 3.0;
-  section.boundary_factor = body.variant == LatticeRules::consistent ? 1.0 : 0.2;
-  assign(section.compression_threshold, table.fraction("compression_threshold"));
-  assign(section.boundary_factor, table.positive("boundary_factor"));
-}
-
-void read_damping(const CaseTable& table, LatticeMaterialSection& section) {
-  assign(section.internal_damping, not_negative(table, "internal_damping"));
-  assign(section.external_damping, not_negative(table, "external_damping"));
-  section.fundamental_period = table.positive("fundamental_period");
+  const auto need = [&](const char* key, const auto& value, const char* meaning) {
+    if (!value) table.refuse_missing(key, meaning);
+  };
+  need("ultimate_strength", section.ultimate_strength,
+       "the yield stress where hardening ends; equal to `yield_strength` without hardening");
+  need("ultimate_plastic_strain", section.ultimate_plastic_strain,
+       "the plastic strain at the ultimate strength");
+  if (*section.ultimate_strength < *section.yield_strength) {
+    table.refuse("ultimate_strength",
+                 fmt::format("is {}, less than the yield strength {}", *section.ultimate_strength,
+                             *section.yield_strength),
+                 "give at least the yield strength");
+  }
+  if (body.variant == LatticeRules::consistent) {
+    need("crushing_energy", section.crushing_energy,
+         "the energy per area that crushing takes, or \"infinite\" for a material that keeps its "
+         "ultimate strength");
+  } else if (section.crushing_energy) {
+    table.refuse("crushing_energy",
+                 fmt::format("is given, but the rules of {} have their own softening",
+                             word_of(body.variant)),
+                 "delete it, or set variant = \"consistent\" in [body]");
+  }
 }
 
 void check_times(const CaseFile& input) {
@@ -84,129 +85,68 @@ void refuse_surfaces(const CaseFile& input, const std::string& table,
 
 }  // namespace
 
-void read_lattice_body(const CaseTable& table, BodySection& body) {
-  const int dim = dimension_of(body);
-  read_mesh_file(table, body);
-  body.surface = Surface::none;
-  body.pattern = dim == 2 ? Pattern::hexagonal : Pattern::face_centred;
-  const std::string_view only = word_of(body.pattern);
-  if (const auto given = table.choice<Pattern>("pattern"); given && *given != body.pattern) {
-    table.refuse("pattern",
-                 fmt::format("is \"{}\", but lattice particles in {} need another", word_of(*given),
-                             dim == 2 ? "the plane" : "space"),
-                 fmt::format("Allowed here: {}", only));
+void check_lattice_body(const CaseTable& table, const BodySection& body, Pattern only) {
+  if (body.pattern != only) {
+    table.refuse(
+        "pattern",
+        fmt::format("is \"{}\", but lattice particles in {} need another", word_of(body.pattern),
+                    dimension_of(body) == 2 ? "the plane" : "space"),
+        fmt::format("Allowed here: {}", word_of(only)));
   }
-  body.spacing =
-      table.need("spacing", table.positive("spacing"), "the distance of neighbouring particles");
-  assign(body.rotation, table.number("rotation"));
-  if (std::abs(body.rotation) > 360.0) {
-    table.refuse("rotation", fmt::format("is {} degrees", body.rotation),
-                 "give an angle from -360 to 360");
-  }
-  assign(body.offset, table.vector("offset", dim));
-  assign(body.variant, table.choice<LatticeRules>("variant"));
+  if (!body.spacing) table.refuse_missing("spacing", "the distance of neighbouring particles");
 }
 
-void read_state_material(const CaseTable& table, const CaseFile& input, MaterialSection& material) {
+LatticeMaterialSection usual_state_material(LatticeRules rules) {
+  LatticeMaterialSection section;
+  section.compression_threshold = rules == LatticeRules::least_2018 ? 0.8 : 1.0 / 3.0;
+  section.boundary_factor = rules == LatticeRules::consistent ? 1.0 : 0.2;
+  return section;
+}
+
+void check_state_material(const CaseTable& table, const CaseFile& input,
+                          MaterialSection& material) {
   const BodySection& body = input.body;
-  const double ratio =
-      table.need("poissons_ratio", table.number("poissons_ratio"), "Poisson's ratio");
-  if (!(ratio > -1.0 && ratio < 0.5)) {
+  if (!material.poissons_ratio) table.refuse_missing("poissons_ratio", "Poisson's ratio");
+  if (const double ratio = *material.poissons_ratio; !(ratio > -1.0 && ratio < 0.5)) {
     table.refuse("poissons_ratio",
                  fmt::format("is {}, but {} particles have ratios above -1 and below 1/2", ratio,
                              is_lattice(body) ? "lattice" : "state-based"),
                  "0.2 is usual for concrete");
   }
-  material.poissons_ratio = ratio;
-  LatticeMaterialSection& section = material.lattice.emplace();
-  material.density = table.need("density", table.positive("density"), "mass per volume");
-  const bool given = table.has("fracture_energy") || table.has("critical_opening");
+  if (!material.density) table.refuse_missing("density", "mass per volume");
+  LatticeMaterialSection& section = *material.lattice;
+  section.critical_opening = table.positive("critical_opening");
+  const bool given = table.has("fracture_energy") || section.critical_opening;
   if (given || input.analysis.type != AnalysisType::elastic) {
     table.need_one_of({"fracture_energy", "critical_opening"});
   }
-  material.fracture_energy =
-      table.has("critical_opening") ? 0.0 : read_fracture_energy(table, input.analysis.type);
+  if (!section.critical_opening) need_fracture_energy(table, input.analysis.type, material);
   const bool breakable = !std::isinf(material.fracture_energy);
   if (breakable && dimension_of(body) == 3 && body.variant == LatticeRules::least_2018) {
     table.refuse(table.has("fracture_energy") ? "fracture_energy" : "critical_opening",
                  "is finite, but the rules of 2018 have no damage in space",
                  "write fracture_energy = \"infinite\", or choose another variant in [body]");
   }
-  if (breakable) read_crack_opening(table, body, section);
+  if (breakable) {
+    section.tensile_strength = table.need("tensile_strength", table.positive("tensile_strength"),
+                                          "the tensile strength at which damage begins");
+    assign(section.knee_stress_ratio, table.number("knee_stress_ratio", allowed::fraction));
+    assign(section.knee_opening_ratio, table.number("knee_opening_ratio", allowed::fraction));
+  }
   for (const char* key : softening_keys) {
     if (breakable || !given || !table.has(key)) continue;
     table.refuse(key, "is given, but the material is unbreakable",
                  "delete it, or give a finite fracture_energy");
   }
-  if (!is_lattice(body)) return;
-  read_lattice_yielding(table, body, section);
-  read_damping(table, section);
+  check_lattice_yielding(table, body, section);
 }
 
-void read_explicit_analysis(const CaseTable& table, AnalysisSection& analysis) {
-  const bool runs = analysis.type == AnalysisType::explicit_;  // other types only check these keys
-  const auto duration = table.positive("duration");
-  if (runs) analysis.duration = table.need("duration", duration, "the time that the run covers");
-  analysis.ramp_time = analysis.duration;
-  assign(analysis.ramp_time, table.positive("ramp_time"));
-  analysis.time_step = table.positive("time_step");
-  if (runs && analysis.time_step && table.has("safety")) {
-    table.refuse("safety", "is given together with `time_step`",
-                 "give the time step, or its part of the critical one; delete one of the two");
-  }
-  assign(analysis.safety, table.positive("safety"));
-  if (analysis.safety > 1.0) {
-    table.refuse(
-        "safety",
-        fmt::format("is {}, but steps above the critical one are unstable", analysis.safety),
-        "give a number up to 1; 0.9 is the default");
-  }
-  assign(analysis.rows, table.integer("rows", 1, most_rows));
-  assign(analysis.damping_rate, not_negative(table, "damping_rate"));
-  assign(analysis.masses, table.choice<MassScaling>("masses"));
-}
-
-void write_lattice_body(TomlWriter& out, const BodySection& body) {
-  write_mesh_file(out, body);
-  out.write("pattern", word_of(body.pattern));
-  out.write("spacing", body.spacing);
-  out.write("rotation", body.rotation);
-  out.write("offset", body.offset, dimension_of(body));
-  out.write("variant", word_of(body.variant));
-}
-
-void write_state_material(TomlWriter& out, const LatticeMaterialSection& section, bool on_lattice) {
-  if (section.tensile_strength) {
-    out.write("tensile_strength", section.tensile_strength);
-    out.write("critical_opening", section.critical_opening);
-    out.write("knee_stress_ratio", section.knee_stress_ratio);
-    out.write("knee_opening_ratio", section.knee_opening_ratio);
-    out.write("compression_ratio", section.compression_ratio);
-    out.write("compression_threshold", section.compression_threshold);
-    if (on_lattice) out.write("boundary_factor", section.boundary_factor);
-  }
-  if (!on_lattice) return;
-  write_lattice_yielding(out, section);
-  out.write("internal_damping", section.internal_damping);
-  out.write("external_damping", section.external_damping);
-  out.write("fundamental_period", section.fundamental_period);
-}
-
-void write_explicit_analysis(TomlWriter& out, const CaseFile& input) {
-  const AnalysisSection& analysis = input.analysis;
-  out.write("duration", analysis.duration);
-  out.write("ramp_time", analysis.ramp_time);
-  if (analysis.time_step) {
-    out.write("time_step", analysis.time_step);
-  } else {
-    out.write("safety", analysis.safety);
-  }
-  out.write("rows", analysis.rows);
-  if (is_lattice(input.body)) return;
-  out.write("damping_rate", analysis.damping_rate);
-  out.write("masses", word_of(analysis.masses));
-  out.write("strain", word_of(analysis.strain));
-  out.write("rigid_body_modes", word_of(analysis.rigid_body_modes));
+void write_state_law(TomlWriter& out, const LatticeMaterialSection& section) {
+  if (!section.tensile_strength) return;
+  out.write("tensile_strength", section.tensile_strength);
+  out.write("critical_opening", section.critical_opening);
+  out.write("knee_stress_ratio", section.knee_stress_ratio);
+  out.write("knee_opening_ratio", section.knee_opening_ratio);
 }
 
 void check_lattice(const CaseFile& input) {

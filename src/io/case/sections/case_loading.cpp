@@ -1,10 +1,11 @@
-// Loads and supports: [[tractions]], [[point_loads]], [[symmetry]], [[springs]].
+// [[supports]], [[displacements]] and loads.
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <string>
 
+#include "io/case/binding/key_binding.hpp"
 #include "io/case/case_words.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_sections.hpp"
@@ -12,83 +13,102 @@
 namespace perilink {
 namespace {
 
+/// Returns the index in SupportSection::fix of a name.
+std::size_t find_held_component(const CaseTable& table, const BodySection& body,
+                                const std::string& name) {
+  const int dim = axes_of(body);
+  const bool rotates = body.model == BodyModel::micropolar;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (name == axis_names[axis]) {
+      if (axis == 2 && dim == 2) {
+        table.refuse(
+            "fix",
+            fmt::format("names {}, which is an axis that a two-dimensional body does not have",
+                        quoted(name)),
+            "delete it, or set problem = \"three_dimensional\" in [body]");
+      }
+      return axis;
+    }
+    const bool turns = dim == 3 || axis == 2;
+    if (!turns || name != rotation_name(dim, axis)) continue;
+    if (!rotates) {
+      table.refuse("fix", fmt::format("names {}, but {}", quoted(name), why_nothing_rotates(body)),
+                   "delete it, or " + what_rotates(body));
+    }
+    return 3 + axis;
+  }
+  table.refuse("fix", fmt::format("names {}, which is no axis", quoted(name)),
+               dim == 2 ? (rotates ? "Allowed: x, y, rotation" : "Allowed: x, y")
+                        : (rotates ? "Allowed: x, y, z, rx, ry, rz" : "Allowed: x, y, z"));
+}
+
 /// Reads a moment: a number (about z) in two dimensions, a vector in three.
-Vector3 read_moment(const CaseTable& table, const BodySection& body) {
-  if (!table.has("moment")) return {};
-  if (axes_of(body) == 2) return {0.0, 0.0, *table.number("moment")};
+Vector3 read_moment(const CaseTable& table, Kinds kind) {
+  if (axes_of(kind) == 2) return {0.0, 0.0, *table.number("moment")};
   return *table.vector("moment", 3);
 }
 
-/// Reads a stiffness along each axis, which must not be negative.
-std::optional<Vector3> read_stiffness(const CaseTable& table, const std::string& key, int dim) {
-  const std::optional<Vector3> values = table.vector(key, dim);
-  if (!values) return values;
-  if (std::any_of(values->begin(), values->end(), [](double k) { return k < 0.0; })) {
-    table.refuse(key, "holds a negative stiffness", "give stiffnesses that are zero or positive");
-  }
-  if (*values == Vector3{}) {
-    table.refuse(key, "is zero in every direction", "give a stiffness, or delete the table");
-  }
-  return values;
+/// Refuses a load or a stiffness of zero.
+void refuse_zero(const CaseTable& table, const char* key, bool zero, const char* what) {
+  if (!zero) return;
+  table.refuse(key, "is zero in every direction",
+               std::string("give the ") + what + ", or delete the table");
 }
+constexpr const char* load_at_one = "load at load factor 1";
 
 }  // namespace
 
-TractionSection read_traction(const CaseTable& table, const BodySection& body) {
-  const int dim = dimension_of(body);
-  TractionSection section;
-  section.region = table.need_region("whose surface is loaded");
-  table.need_one_of({"traction", "pressure"});
-  section.traction = table.expressions("traction", axes_of(body), dim);
-  section.pressure = table.expression("pressure", dim);
-  assign(section.stage, table.text("stage"));
-  if (section.traction ? section.traction->is_zero() : section.pressure->is_zero()) {
-    table.refuse(section.traction ? "traction" : "pressure",
-                 section.traction ? "is zero in every direction" : "is zero",
-                 "give the load at load factor 1, or delete the table");
-  }
+LoadSection read_load(const CaseTable& table, Kinds kind) {
+  const auto load = read_section<LoadSection>("loads", table, kind);
+  refuse_zero(table, load.force ? "force" : "body_force",
+              load.force ? *load.force == Vector3{} : load.body_force->is_zero(), load_at_one);
+  return load;
+}
+
+TractionSection read_traction(const CaseTable& table, Kinds kind) {
+  const auto section = read_section<TractionSection>("tractions", table, kind);
+  refuse_zero(table, section.traction ? "traction" : "pressure",
+              section.traction ? section.traction->is_zero() : section.pressure->is_zero(),
+              load_at_one);
   return section;
 }
 
-PointLoadSection read_point_load(const CaseTable& table, const BodySection& body) {
-  const int dim = dimension_of(body);
-  PointLoadSection section;
-  section.at = table.need("at", table.vector("at", dim), "the point that is loaded");
-  if (!table.has("moment")) {
-    section.force =
-        table.need("force", table.vector("force", axes_of(body)), "the force at load factor 1");
-  }
-  assign(section.force, table.vector("force", axes_of(body)));
-  assign(section.stage, table.text("stage"));
-  section.moment = read_moment(table, body);
-  if (section.force == Vector3{} && section.moment == Vector3{}) {
-    table.refuse(table.has("moment") ? "moment" : "force", "is zero in every direction",
-                 "give the load at load factor 1, or delete the table");
-  }
+PointLoadSection read_point_load(const CaseTable& table, Kinds kind) {
+  auto section = read_section<PointLoadSection>("point_loads", table, kind);
+  const bool turns = table.has("moment");
+  if (turns) section.moment = read_moment(table, kind);
+  if (!turns && !table.has("force")) table.refuse_missing("force", "the force at load factor 1");
+  refuse_zero(table, turns ? "moment" : "force",
+              section.force == Vector3{} && section.moment == Vector3{}, load_at_one);
   return section;
 }
 
-SymmetrySection read_symmetry(const CaseTable& table, int dim) {
-  SymmetrySection section;
-  const std::string axis = table.need("axis", table.choice("axis", {"x", "y", "z"}),
-                                      "the axis normal to the plane of symmetry");
-  section.axis = axis[0] - 'x';
-  if (section.axis >= dim) {
-    table.refuse("axis", "is an axis that a two-dimensional body does not have", "Allowed: x, y");
-  }
-  table.need_one_of({"at", "region"});
-  section.at = table.number("at");
-  assign(section.region, table.text("region"));
+SpringSection read_springs(const CaseTable& table, Kinds kind) {
+  const auto section = read_section<SpringSection>("springs", table, kind);
+  const auto& given = section.stiffness ? section.stiffness : section.total;
+  refuse_zero(table, section.stiffness ? "stiffness" : "total", *given == Vector3{}, "stiffness");
   return section;
 }
 
-SpringSection read_springs(const CaseTable& table, int dim) {
-  SpringSection section;
-  section.region = table.need_region("that is held elastically");
-  table.need_one_of({"stiffness", "total"});
-  section.stiffness = read_stiffness(table, "stiffness", dim);
-  section.total = read_stiffness(table, "total", dim);
-  return section;
+SupportSection read_support(const CaseTable& table, const CaseFile& input) {
+  auto support = read_section<SupportSection>("supports", table, kinds_of(input));
+  const std::vector<std::string> names = *table.texts("fix");
+  if (names.empty()) table.refuse("fix", "names no axis", "write fix = [\"x\", \"y\"]");
+  for (const std::string& name : names) {
+    bool& fixed = support.fix[find_held_component(table, input.body, name)];
+    if (fixed) table.refuse("fix", fmt::format("names \"{}\" twice", name), "name it once");
+    fixed = true;
+  }
+  return support;
+}
+
+DisplacementSection read_displacement(const CaseTable& table, const char* name, Kinds kind) {
+  const auto driven = read_section<DisplacementSection>(name, table, kind);
+  if (std::ranges::none_of(driven.value, [](const auto& value) { return value.has_value(); })) {
+    table.refuse("", "moves no axis",
+                 axes_of(kind) == 2 ? "give x or y or both" : "give one or more of x, y, z");
+  }
+  return driven;
 }
 
 }  // namespace perilink

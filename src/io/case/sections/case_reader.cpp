@@ -5,6 +5,7 @@
 #include <array>
 #include <type_traits>
 
+#include "io/case/binding/key_binding.hpp"
 #include "io/case/case_keys.hpp"
 #include "io/case/case_overrides.hpp"
 #include "io/case/case_settings.hpp"
@@ -67,11 +68,10 @@ class Document {
     return result;
   }
 
-  template <class Reader>
-  auto needed_list(const std::string& name, Reader reader) const {
-    auto result = list(name, reader);
-    if (result.empty()) refuse_missing("[[" + name + "]]");
-    return result;
+  /// Refuses a case without an entry of a list of tables.
+  void need(const std::string& name) const {
+    const TomlValue* found = root_.find(name);
+    if (found == nullptr || found->items.empty()) refuse_missing("[[" + name + "]]");
   }
 
  private:
@@ -151,46 +151,46 @@ CaseFile parse_case(const std::string& text, const std::string& path,
   CaseFile input;
   input.path = path;
   collect_lines(root, "", input.lines);
-  assign(input.title, document.top().text("title"));
-  assign(input.units, document.top().text("units"));
+  input = read_section("", document.top(), Kinds{}, std::move(input));
   read_kind(document, input);
+  const Kinds kind = kinds_of(input);
   input.unused = find_unused(root, input);
-  input.body = read_body(document.table("body"), input.body);
-  const int dim = dimension_of(input.body);
-  const auto about = [](auto reader, const auto& known) {
-    return [reader, &known](const CaseTable& table, std::size_t) { return reader(table, known); };
+  input.body = read_body(document.table("body"), input.body, kind);
+  const auto each = [&](const char* name, auto reader, const auto& known) {
+    return document.list(name,
+                         [&](const CaseTable& table, std::size_t) { return reader(table, known); });
   };
-  input.regions = document.needed_list("regions", about(read_region, dim));
-  input.materials =
-      document.needed_list("materials", [&input](const CaseTable& table, std::size_t index) {
-        return read_material(table, input, index);
-      });
-  input.supports = document.list("supports", about(read_support, input.body));
-  input.displacements = document.list("displacements", about(read_displacement, input.body));
-  input.velocities = document.list("velocities", about(read_displacement, input.body));
-  input.loads = document.list("loads", about(read_load, input.body));
-  input.tractions = document.list("tractions", about(read_traction, input.body));
-  input.point_loads = document.list("point_loads", about(read_point_load, input.body));
-  input.symmetry = document.list("symmetry", about(read_symmetry, dim));
-  const int axes = axes_of(input.body);
-  input.springs = document.list("springs", about(read_springs, axes));
-  input.cracks = document.list("cracks", about(read_crack, dim));
-  input.interfaces = document.list("interfaces", about(read_interface, dim));
-  input.random = document.list(
-      "random", [](const CaseTable& table, std::size_t) { return read_random(table); });
-  input.rebar = document.list("rebar", about(read_rebar, dim));
-  input.gauges = document.list("gauges", about(read_gauge, input.body));
-  input.elements = read_elements(document.table("elements"));
-  input.analysis = read_analysis(document.table("analysis"), input.analysis.type);
-  const StopSection stop = read_stop(document.table("stop"));
-  if (input.analysis.type == AnalysisType::damage) {
-    input.stop = stop;
-  } else if (input.analysis.type != AnalysisType::elastic) {
-    input.stop = {{}, {}, {}, stop.gauge, stop.above, stop.below};
-  }
-  input.stages = document.list(
-      "stages", [](const CaseTable& table, std::size_t) { return read_stage(table); });
-  input.output = read_output(document.table("output"), input.analysis.type);
+  const auto driven = [&](const char* name) {
+    return document.list(name, [&](const CaseTable& table, std::size_t) {
+      return read_displacement(table, name, kind);
+    });
+  };
+  document.need("regions");
+  input.regions = each("regions", read_region, dimension_of(kind));
+  document.need("materials");
+  input.materials = document.list("materials", [&input](const CaseTable& table, std::size_t index) {
+    return read_material(table, input, index);
+  });
+  input.supports = each("supports", read_support, input);
+  input.displacements = driven("displacements");
+  input.velocities = driven("velocities");
+  input.loads = each("loads", read_load, kind);
+  input.tractions = each("tractions", read_traction, kind);
+  input.point_loads = each("point_loads", read_point_load, kind);
+  input.symmetry = document.list("symmetry", [&](const CaseTable& table, std::size_t) {
+    return read_section<SymmetrySection>("symmetry", table, kind);
+  });
+  input.springs = each("springs", read_springs, kind);
+  input.cracks = each("cracks", read_crack, kind);
+  input.interfaces = each("interfaces", read_interface, kind);
+  input.random = each("random", read_random, kind);
+  input.rebar = each("rebar", read_rebar, kind);
+  input.gauges = each("gauges", read_gauge, kind);
+  input.elements = read_elements(document.table("elements"), kind);
+  input.analysis = read_analysis(document.table("analysis"), kind);
+  input.stop = read_stop(document.table("stop"), kind);
+  input.stages = each("stages", read_stage, kind);
+  input.output = read_output(document.table("output"), kind);
   resolve_stages(input);
   check_rules(input);
   return input;

@@ -8,46 +8,15 @@
 #include <utility>
 
 #include "base/plain_text.hpp"
-#include "io/case/case_schema.hpp"
+#include "io/case/binding/key_binding.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_stages.hpp"
 
 namespace perilink {
 namespace {
 
-constexpr int most_bars = 100000;
-
 /// Relative tolerance between Young's modulus and the first point of a stress-strain curve.
 constexpr double same_modulus = 1e-3;
-
-std::vector<std::vector<double>> rows(const std::vector<Vector3>& vectors, int dim) {
-  std::vector<std::vector<double>> list;
-  for (const Vector3& vector : vectors) list.emplace_back(vector.begin(), vector.begin() + dim);
-  return list;
-}
-
-/// Reads a list of pairs of numbers.
-std::vector<std::array<double, 2>> read_curve(const CaseTable& table, const std::string& key) {
-  std::vector<std::array<double, 2>> curve;
-  for (const Vector3& point : table.vectors(key, 2).value_or(std::vector<Vector3>())) {
-    curve.push_back({point[0], point[1]});
-  }
-  if (!table.has(key)) return curve;
-  try {
-    check_curve({curve});
-  } catch (const std::invalid_argument& error) {
-    table.refuse(key, fmt::format("is not a valid curve: {}", error.what()),
-                 "write points from the end of the first straight line on: [[0.1, 4], [1, 10]]");
-  }
-  return curve;
-}
-
-void write_curve(TomlWriter& out, const char* key,
-                 const std::vector<std::array<double, 2>>& curve) {
-  std::vector<std::vector<double>> list;
-  for (const auto& [x, y] : curve) list.push_back({x, y});
-  if (!list.empty()) out.write(key, list);
-}
 
 BarLayout read_layout(const CaseTable& table, int dim) {
   BarLayout layout;
@@ -73,7 +42,7 @@ BarLayout read_layout(const CaseTable& table, int dim) {
     table.refuse("face", "is not parallel to the bars",
                  "give a face with another normal than `along`");
   }
-  assign(layout.number, table.integer("number", 1, most_bars));
+  assign(layout.number, table.integer("number", 1, 100000));
   if (dim == 2 && layout.number > 1) {
     table.refuse("number", "is above one, but a layer in the plane is one bar",
                  "give the area of all bars, or lay `copies`");
@@ -102,9 +71,6 @@ void read_place(const CaseTable& table, int dim, RebarSection& bar) {
   if (table.has("inside")) {
     bar.layout = read_layout(table, dim);
   } else {
-    for (const char* key : {"along", "cover", "face", "number", "spacing"}) {
-      if (table.has(key)) table.refuse(key, "is given without `inside`", "delete it");
-    }
     if (bar.points.size() < 2 && !table.has("group")) {
       table.refuse("points", "has fewer than two points", "give the ends of the bar and its bends");
     }
@@ -113,8 +79,6 @@ void read_place(const CaseTable& table, int dim, RebarSection& bar) {
       table.refuse("points", fmt::format("has point {} twice", k), "give every point once");
     }
   }
-  assign(bar.copies, table.integers("copies", 1, most_bars));
-  assign(bar.steps, table.vectors("steps", dim));
   if (bar.copies.size() != bar.steps.size()) {
     table.refuse(table.has("steps") ? "steps" : "copies",
                  fmt::format("`copies` has {} and `steps` has {}, but they must be equal",
@@ -127,23 +91,12 @@ void read_place(const CaseTable& table, int dim, RebarSection& bar) {
                  fmt::format("has a step {} of zero, which puts bars at the same place", k + 1),
                  "give the vector from one bar to the next");
   }
-  assign(bar.across_gaps, table.boolean("across_gaps"));
 }
 
-void read_steel(const CaseTable& table, RebarSection& bar) {
-  bar.youngs_modulus =
-      table.need("youngs_modulus", table.positive("youngs_modulus"), "Young's modulus of the bar");
-  bar.area = table.need("area", table.positive("area"), "the area of the bar's cross-section");
-  bar.yield_strength = table.positive("yield_strength");
-  assign(bar.yields, table.boolean("yields"));
-  bar.curve = read_curve(table, "stress_strain");
-  bar.rupture_strain = table.positive("rupture_strain");
-  if (const auto slope = table.number("hardening_modulus")) {
-    bar.hardening_modulus = *slope;
-    if (!(*slope >= 0.0 && *slope < bar.youngs_modulus)) {
-      table.refuse("hardening_modulus", fmt::format("is {}", *slope),
-                   "it lies between zero and Young's modulus");
-    }
+void check_steel(const CaseTable& table, const RebarSection& bar) {
+  if (!(bar.hardening_modulus >= 0.0 && bar.hardening_modulus < bar.youngs_modulus)) {
+    table.refuse("hardening_modulus", fmt::format("is {}", bar.hardening_modulus),
+                 "it lies between zero and Young's modulus");
   }
   const bool has_limit = bar.yield_strength || !bar.curve.empty();
   if (table.has("yields") && bar.yields && !has_limit) {
@@ -151,10 +104,6 @@ void read_steel(const CaseTable& table, RebarSection& bar) {
                  "give `yield_strength`, or leave `yields` out for an elastic bar");
   }
   if (!bar.curve.empty()) {
-    for (const char* key : {"yield_strength", "hardening_modulus"}) {
-      if (table.has(key))
-        table.refuse(key, "is given together with `stress_strain`", "delete one of them");
-    }
     const double modulus = bar.curve.front()[1] / bar.curve.front()[0];
     if (std::abs(modulus - bar.youngs_modulus) > same_modulus * bar.youngs_modulus) {
       table.refuse("stress_strain",
@@ -177,64 +126,6 @@ void read_steel(const CaseTable& table, RebarSection& bar) {
   }
 }
 
-/// Refuses keys of other kinds of bond.
-void refuse_keys_of_others(const CaseTable& table, RebarBond bond) {
-  const std::vector<std::pair<const char*, RebarBond>> owners = {
-      {"bond_stiffness", RebarBond::linear},
-      {"bond_strength", RebarBond::linear},
-      {"concrete_strength", RebarBond::model_code},
-      {"rib_spacing", RebarBond::model_code},
-      {"bond_failure", RebarBond::model_code},
-      {"bond_conditions", RebarBond::model_code},
-      {"megapascal", RebarBond::model_code},
-      {"millimetre", RebarBond::model_code},
-      {"bond_curve", RebarBond::curve},
-      {"ties_break", RebarBond::concrete}};
-  for (const auto& [key, owner] : owners) {
-    if (bond == owner || !table.has(key)) continue;
-    table.refuse(key, fmt::format("is given, but the bond is \"{}\"", word_of(bond)),
-                 fmt::format("delete it, or set bond = \"{}\"", word_of(owner)));
-  }
-  if (bond != RebarBond::concrete) return;
-  for (const char* key : {"perimeter", "hooks", "bends", "prestrain", "across_gaps"}) {
-    if (!table.has(key)) continue;
-    table.refuse(key, "is given, but the bond is \"concrete\"",
-                 "delete it, or choose another bond: \"perfect\" does not slip");
-  }
-}
-
-void read_bond(const CaseTable& table, RebarSection& bar) {
-  assign(bar.bond, table.choice<RebarBond>("bond"));
-  refuse_keys_of_others(table, bar.bond);
-  assign(bar.slip_springs_break, table.boolean("ties_break"));
-  bar.perimeter = table.positive("perimeter");
-  assign(bar.hooks, table.choice<Hooks>("hooks"));
-  assign(bar.bends, table.boolean("bends"));
-  if (bar.bond == RebarBond::linear) {
-    bar.bond_stiffness = table.need("bond_stiffness", table.positive("bond_stiffness"),
-                                    "the bond stress over the slip");
-    bar.bond_strength = table.positive("bond_strength");
-  }
-  if (bar.bond == RebarBond::curve) {
-    if (!table.has("bond_curve")) {
-      table.refuse_missing("bond_curve", "slips and bond stresses: [[0.1, 4], [1, 10]]");
-    }
-    bar.bond_curve = read_curve(table, "bond_curve");
-  }
-  if (bar.bond != RebarBond::model_code) return;
-  ModelCodeBond& code = bar.model_code;
-  code.mean_strength = table.need("concrete_strength", table.positive("concrete_strength"),
-                                  "the mean compressive strength of the concrete");
-  assign(code.failure, table.choice<BondFailure>("bond_failure"));
-  assign(code.conditions, table.choice<BondConditions>("bond_conditions"));
-  assign(code.megapascal, table.positive("megapascal"));
-  assign(code.millimetre, table.positive("millimetre"));
-  const auto ribs = table.positive("rib_spacing");
-  if (code.failure != BondFailure::splitting) {
-    code.rib_spacing = table.need("rib_spacing", ribs, "the clear distance between ribs");
-  }
-}
-
 /// Plastic strains of earlier stages move an end of each bar element with its node, which needs the
 /// direct solver.
 void refuse_flow_without_factor(const CaseFile& input, std::size_t k) {
@@ -250,19 +141,21 @@ void refuse_flow_without_factor(const CaseFile& input, std::size_t k) {
 
 }  // namespace
 
-RebarSection read_rebar(const CaseTable& table, int dim) {
-  RebarSection bar;
-  read_place(table, dim, bar);
-  read_steel(table, bar);
-  read_bond(table, bar);
+RebarSection read_rebar(const CaseTable& table, Kinds kind) {
+  auto bar = read_section<RebarSection>("rebar", table, kind);
+  read_place(table, dimension_of(kind), bar);
+  check_steel(table, bar);
+  if (bar.model_code.failure == BondFailure::splitting) {
+    bar.model_code.rib_spacing = 0.0;
+  } else if (bar.bond == RebarBond::model_code && !table.has("rib_spacing")) {
+    table.refuse_missing("rib_spacing", "the clear distance between ribs");
+  }
   if (bar.bends && (bar.rupture_strain || (!bar.curve.empty() && bar.curve.back()[1] == 0.0))) {
     table.refuse("bends",
                  "is true, but the steel can rupture: a ruptured bar would leave rotations without "
                  "stiffness",
                  "delete it, or the end of the steel");
   }
-  assign(bar.prestrain, table.number("prestrain"));
-  assign(bar.stage, table.text("stage"));
   if (!bar.stage.empty() && bar.prestrain == 0.0) {
     table.refuse("stage", "is given, but the bar has no `prestrain` for the stage", "delete it");
   }
@@ -295,8 +188,8 @@ void check_rebar(const CaseFile& input) {
   }
 }
 
-void write_rebar(TomlWriter& out, const RebarSection& bar, int dim) {
-  out.header("[[rebar]]");
+void write_bar_place(TomlWriter& out, const RebarSection& bar, Kinds kind) {
+  const int dim = dimension_of(kind);
   if (bar.layout) {
     const BarLayout& layout = *bar.layout;
     out.write("inside", layout.region);
@@ -314,41 +207,8 @@ void write_rebar(TomlWriter& out, const RebarSection& bar, int dim) {
     out.write("from", bar.points[0], dim);
     out.write("to", bar.points[1], dim);
   } else {
-    out.write("points", rows(bar.points, dim));
+    out.write("points", bar.points, dim);
   }
-  if (!bar.copies.empty()) {
-    out.write("copies", bar.copies);
-    out.write("steps", rows(bar.steps, dim));
-  }
-  if (bar.across_gaps) out.write("across_gaps", true);
-  out.write("youngs_modulus", bar.youngs_modulus);
-  out.write("area", bar.area);
-  out.write("yield_strength", bar.yield_strength);
-  write_curve(out, "stress_strain", bar.curve);
-  // `yields = true` without a yield strength is refused when read, so it is not written.
-  if (bar.yield_strength || !bar.curve.empty() || !bar.yields) out.write("yields", bar.yields);
-  if (bar.hardening_modulus != 0.0) out.write("hardening_modulus", bar.hardening_modulus);
-  out.write("rupture_strain", bar.rupture_strain);
-  out.write("bond", word_of(bar.bond));
-  if (bar.bond == RebarBond::concrete) return out.write("ties_break", bar.slip_springs_break);
-  out.write("bond_stiffness", bar.bond_stiffness);
-  out.write("bond_strength", bar.bond_strength);
-  write_curve(out, "bond_curve", bar.bond_curve);
-  if (bar.bond == RebarBond::model_code) {
-    const ModelCodeBond& code = bar.model_code;
-    out.write("concrete_strength", code.mean_strength);
-    if (code.rib_spacing > 0.0) out.write("rib_spacing", code.rib_spacing);
-    out.write("bond_failure", word_of(code.failure));
-    out.write("bond_conditions", word_of(code.conditions));
-    out.write("megapascal", code.megapascal);
-    out.write("millimetre", code.millimetre);
-  }
-  out.write("perimeter", bar.perimeter);
-  out.write("hooks", word_of(bar.hooks));
-  out.write("bends", bar.bends);
-  if (bar.prestrain == 0.0) return;
-  out.write("prestrain", bar.prestrain);
-  write_stage_of(out, bar.stage);
 }
 
 }  // namespace perilink

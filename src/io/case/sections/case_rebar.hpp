@@ -8,11 +8,12 @@
 
 namespace perilink {
 
-RebarSection read_rebar(const CaseTable& table, int dim);
+RebarSection read_rebar(const CaseTable& table, Kinds kind);
 
 /// Refuses bars that contradict other tables.
 void check_rebar(const CaseFile& input);
 
-void write_rebar(TomlWriter& out, const RebarSection& bar, int dim);
+/// Writes the points, the layout or the group of bars.
+void write_bar_place(TomlWriter& out, const RebarSection& bar, Kinds kind);
 
 }  // namespace perilink

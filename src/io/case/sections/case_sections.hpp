@@ -13,26 +13,27 @@
 
 namespace perilink {
 
-/// \param kind  problem, method and model, which are read first
-BodySection read_body(const CaseTable& table, const BodySection& kind);
+/// \param body  problem, method and model, which are read first
+/// \param kind  of the case
+BodySection read_body(const CaseTable& table, BodySection body, Kinds kind);
 Region read_region(const CaseTable& table, int dim);
 void write_region(TomlWriter& out, const Region& region, int dim);
 /// \param input  with its kind and body, which are read first
 /// \param index  zero-based, for the name of a material without one
 MaterialSection read_material(const CaseTable& table, const CaseFile& input, std::size_t index);
-SupportSection read_support(const CaseTable& table, const BodySection& body);
-DisplacementSection read_displacement(const CaseTable& table, const BodySection& body);
-LoadSection read_load(const CaseTable& table, const BodySection& body);
-TractionSection read_traction(const CaseTable& table, const BodySection& body);
-PointLoadSection read_point_load(const CaseTable& table, const BodySection& body);
-SymmetrySection read_symmetry(const CaseTable& table, int dim);
-SpringSection read_springs(const CaseTable& table, int dim);
-CrackSection read_crack(const CaseTable& table, int dim);
-GaugeSection read_gauge(const CaseTable& table, const BodySection& body);
-/// Reads the load factors, which must be given.
-std::vector<double> read_load_factors(const CaseTable& table);
-AnalysisSection read_analysis(const CaseTable& table, AnalysisType type);
-StopSection read_stop(const CaseTable& table);
-OutputSection read_output(const CaseTable& table, AnalysisType type);
+SupportSection read_support(const CaseTable& table, const CaseFile& input);
+/// \param name  "displacements" or "velocities"
+DisplacementSection read_displacement(const CaseTable& table, const char* name, Kinds kind);
+LoadSection read_load(const CaseTable& table, Kinds kind);
+TractionSection read_traction(const CaseTable& table, Kinds kind);
+PointLoadSection read_point_load(const CaseTable& table, Kinds kind);
+SpringSection read_springs(const CaseTable& table, Kinds kind);
+CrackSection read_crack(const CaseTable& table, Kinds kind);
+GaugeSection read_gauge(const CaseTable& table, Kinds kind);
+AnalysisSection read_analysis(const CaseTable& table, Kinds kind);
+/// Refuses a rule of a gauge without its limit.
+void check_rules_of_gauge(const CaseTable& table);
+StopSection read_stop(const CaseTable& table, Kinds kind);
+OutputSection read_output(const CaseTable& table, Kinds kind);
 
 }  // namespace perilink

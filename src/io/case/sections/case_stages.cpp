@@ -7,20 +7,18 @@
 #include <string_view>
 #include <vector>
 
+#include "io/case/binding/key_binding.hpp"
 #include "io/case/case_schema.hpp"
 #include "io/case/sections/case_sections.hpp"
 #include "io/text/toml_tree.hpp"
 
 namespace perilink {
 
-StageSection read_stage(const CaseTable& table) {
-  StageSection stage;
-  stage.name = table.need("name", table.text("name"), "a name for loads to refer to");
+StageSection read_stage(const CaseTable& table, Kinds kind) {
+  auto stage = read_section<StageSection>("stages", table, kind);
   if (stage.name.empty()) table.refuse("name", "is empty", "give the stage a name");
-  stage.loads = table.text("loads").value_or(stage.name);
-  stage.to = table.number("to");
-  stage.stop = read_stop(table);
-  stage.to_load = table.number("to_load");
+  if (!table.has("loads")) stage.loads = stage.name;
+  check_rules_of_gauge(table);
   if (!stage.to && !stage.to_load) return stage;
   for (const char* rule : {"to_load", "broken_bonds", "load_fraction", "displacement", "gauge"}) {
     const std::string end = stage.to ? "to" : "to_load";
@@ -149,35 +147,6 @@ void resolve_stages(CaseFile& input) {
         fmt::format("has no loads: none has stage = {}", quoted(loads)),
         "give loads this `stage`, or name the loads of an earlier stage: loads = \"NAME\"");
   }
-}
-
-void write_stop(TomlWriter& out, const StopSection& stop) {
-  out.write("broken_bonds", stop.broken_bonds);
-  out.write("load_fraction", stop.load_fraction);
-  out.write("displacement", stop.displacement);
-  if (stop.gauge.empty()) return;
-  out.write("gauge", stop.gauge);
-  out.write("above", stop.above);
-  out.write("below", stop.below);
-}
-
-void write_gauge_rule(TomlWriter& out, const StopSection& stop) {
-  if (stop.gauge.empty()) return;
-  out.header("[stop]");
-  write_stop(out, stop);
-}
-
-void write_stage(TomlWriter& out, const StageSection& stage) {
-  out.header("[[stages]]");
-  out.write("name", stage.name);
-  if (stage.loads != stage.name) out.write("loads", stage.loads);
-  out.write("to", stage.to);
-  out.write("to_load", stage.to_load);
-  write_stop(out, stage.stop);
-}
-
-void write_stage_of(TomlWriter& out, const std::string& stage) {
-  if (!stage.empty()) out.write("stage", stage);
 }
 
 }  // namespace perilink

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "base/plain_text.hpp"
 #include "io/case/case_keys.hpp"
 #include "io/case/sections/case_kinds.hpp"
@@ -23,10 +21,8 @@ std::string filled_in(std::string_view text, const CaseFile& kind) {
 std::vector<std::string> find_unused(const TomlValue& document, const CaseFile& kind) {
   std::vector<std::string> unused;
   const auto look = [&](const std::vector<NotFor>& column, const std::string& key) {
-    const auto found = std::find_if(column.begin(), column.end(), [&](const NotFor& entry) {
-      return entry.holds(kinds_of(kind));
-    });
-    if (found == column.end()) return;
+    const NotFor* found = exception_of(column, kinds_of(kind));
+    if (found == nullptr) return;
     if (found->fault.empty()) return unused.push_back(key);
     throw InputError(kind.where(found->about.empty() ? key : std::string(found->about)),
                      filled_in(found->fault, kind), filled_in(found->suggestion, kind));

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "io/case/binding/key_binding.hpp"
 #include "io/case/case_words.hpp"
 #include "io/case/sections/laws/case_softening.hpp"
 
@@ -26,15 +27,11 @@ void read_face(const CaseTable& table, int dim, std::vector<Vector3>& points, st
 void write_face(TomlWriter& out, const std::vector<Vector3>& points, const std::string& group,
                 int dim) {
   if (!group.empty()) return out.write("group", std::string_view(group));
-  std::vector<std::vector<double>> places;
-  for (const Vector3& x : points) places.emplace_back(x.begin(), x.begin() + dim);
-  out.write(dim == 2 ? "points" : "corners", places);
+  out.write(dim == 2 ? "points" : "corners", points, dim);
 }
 
-InterfaceSection read_interface(const CaseTable& table, int dim) {
-  InterfaceSection section;
-  table.need_one_of({"between", dim == 2 ? "points" : "corners", "group"});
-  assign(section.between, table.texts("between"));
+InterfaceSection read_interface(const CaseTable& table, Kinds kind) {
+  auto section = read_section<InterfaceSection>("interfaces", table, kind);
   if (table.has("between") && section.between.size() != 2) {
     table.refuse("between", "names " + counted(section.between.size(), "region"),
                  "name the two on either side of the face: [\"plate\", \"patch\"]");
@@ -44,15 +41,14 @@ InterfaceSection read_interface(const CaseTable& table, int dim) {
                  "name the two on either side of the face; a face inside one region is given by "
                  "its points, corners or group");
   }
-  read_face(table, dim, section.points, section.group);
+  read_face(table, dimension_of(kind), section.points, section.group);
   if (table.choice<Softening>("softening") == Softening::concrete) {
     table.refuse("softening", "is \"concrete\", a law with crushing, which interfaces do not have",
                  "set \"brittle\", \"linear\", \"bilinear\" or \"exponential\"");
   }
   section.softening = read_softening(table);
-  if (!has_stretches(section.softening)) {
-    section.fracture_energy = table.need("fracture_energy", table.positive("fracture_energy"),
-                                         "the energy that the face takes per area");
+  if (!has_stretches(section.softening) && !table.has("fracture_energy")) {
+    table.refuse_missing("fracture_energy", "the energy that the face takes per area");
   }
   return section;
 }
@@ -72,17 +68,6 @@ void check_interfaces(const CaseFile& input) {
         "is \"concrete\", whose bonds crush near damaged bonds, but the case has [[interfaces]]",
         "set \"linear\", \"bilinear\", \"exponential\" or \"brittle\", or delete the interfaces");
   }
-}
-
-void write_interface(TomlWriter& out, const InterfaceSection& section, int dim) {
-  out.header("[[interfaces]]");
-  if (!section.between.empty()) {
-    out.write("between", section.between);
-  } else {
-    write_face(out, section.points, section.group, dim);
-  }
-  if (!has_stretches(section.softening)) out.write("fracture_energy", section.fracture_energy);
-  write_softening(out, section.softening);
 }
 
 }  // namespace perilink

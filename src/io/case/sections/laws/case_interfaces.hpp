@@ -15,7 +15,6 @@ void write_face(TomlWriter& out, const std::vector<Vector3>& points, const std::
 /// \throws InputError  where an interface contradicts the rest of the case
 void check_interfaces(const CaseFile& input);
 
-InterfaceSection read_interface(const CaseTable& table, int dim);
-void write_interface(TomlWriter& out, const InterfaceSection& section, int dim);
+InterfaceSection read_interface(const CaseTable& table, Kinds kind);
 
 }  // namespace perilink

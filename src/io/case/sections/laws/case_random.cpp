@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "io/case/binding/key_binding.hpp"
 #include "io/case/case_schema.hpp"
 #include "io/case/case_words.hpp"
 #include "io/case/sections/laws/case_softening.hpp"
@@ -59,32 +59,18 @@ void check_names(const CaseFile& input, const RandomSection& section, const std:
 
 }  // namespace
 
-RandomSection read_random(const CaseTable& table) {
-  RandomSection section;
-  RandomField& field = section.field;
-  section.property = table.need("property", table.choice<RandomProperty>("property"),
-                                "what scatters: \"tensile_strength\" or \"fracture_energy\"");
-  assign(section.materials, table.texts("materials"));
+RandomSection read_random(const CaseTable& table, Kinds kind) {
+  const auto section = read_section<RandomSection>("random", table, kind);
   if (table.has("materials") && section.materials.empty()) {
     table.refuse("materials", "is empty", "name materials, or delete the line for all of them");
   }
-  field.distribution = table.need("distribution", table.choice<Distribution>("distribution"),
-                                  "\"normal\", \"lognormal\" or \"weibull\"");
-  field.variation = table.need("variation", table.positive("variation"),
-                               "the standard deviation over the mean: variation = 0.1");
-  const bool normal = field.distribution == Distribution::normal;
-  const double most = normal ? most_normal_variation : 1.0;
-  if (field.variation > most || field.variation < 1e-3) {
-    table.refuse("variation", fmt::format("is {:g}", field.variation),
-                 fmt::format("give 0.001 to {:g}{}", most,
-                             normal ? "; \"lognormal\" and \"weibull\" values stay positive with "
-                                      "more"
-                                    : ""));
-  }
-  field.correlation_length = table.need("correlation_length", table.positive("correlation_length"),
-                                        "the distance l of the correlation exp(-(r/l)^2) [length]");
-  if (const auto seed = table.integer("seed", 0, std::numeric_limits<int>::max())) {
-    field.seed = static_cast<std::uint64_t>(*seed);
+  const double variation = section.field.variation;
+  if (section.field.distribution == Distribution::normal && variation > most_normal_variation) {
+    table.refuse(
+        "variation", fmt::format("is {:g}", variation),
+        fmt::format("give 0.001 to {:g}; \"lognormal\" and \"weibull\" values stay positive "
+                    "with more",
+                    most_normal_variation));
   }
   return section;
 }
@@ -118,16 +104,6 @@ void check_random(const CaseFile& input) {
       }
     }
   }
-}
-
-void write_random(TomlWriter& out, const RandomSection& section) {
-  out.header("[[random]]");
-  out.write("property", word_of(section.property));
-  if (!section.materials.empty()) out.write("materials", section.materials);
-  out.write("distribution", word_of(section.field.distribution));
-  out.write("variation", section.field.variation);
-  out.write("correlation_length", section.field.correlation_length);
-  out.write("seed", static_cast<int>(section.field.seed));
 }
 
 }  // namespace perilink

@@ -125,7 +125,7 @@ std::array<double, 2> read_plateau(const CaseTable& table, const std::string& se
 }
 
 void read_error(const CaseTable& table, SofteningMaterial& material) {
-  assign(material.error, table.fraction("softening_error"));
+  assign(material.error, table.number("softening_error", allowed::fraction));
   if (material.error >= least_error) return;
   table.refuse("softening_error", fmt::format("is {}", material.error),
                fmt::format("give {} or more: a smaller error needs too many saw-tooth segments",
@@ -177,8 +177,8 @@ SofteningMaterial read_softening(const CaseTable& table) {
     table.refuse(knee, "is given, but only bilinear softening has a knee",
                  "delete it, or set softening = \"bilinear\"");
   }
-  assign(material.shape.knee_force, table.fraction("knee_stress_ratio"));
-  assign(material.shape.knee_stretch, table.fraction("knee_opening_ratio"));
+  assign(material.shape.knee_force, table.number("knee_stress_ratio", allowed::fraction));
+  assign(material.shape.knee_stretch, table.number("knee_opening_ratio", allowed::fraction));
   read_error(table, material);
   return material;
 }

@@ -27,7 +27,7 @@ TEST(CaseSections, AllowTheEdgesOfStopRules) {
 TEST(CaseSections, RefuseNegativeLoadFactors) {
   const std::string steps = "[analysis]\ncontrol = \"steps\"\nload_factors = ";
   EXPECT_EQ(message_with(steps + "[0, 1, 0.5]"), "accepted");
-  EXPECT_THAT(message_with(steps + "[0, -1, 0.5]"), HasSubstr("negative load factor"));
+  EXPECT_THAT(message_with(steps + "[0, -1, 0.5]"), HasSubstr("is -1, but must not be negative"));
   EXPECT_THAT(message_with(steps + "[-0.0]"), HasSubstr("only zeros"));
 }
 

@@ -45,16 +45,15 @@ TEST(CaseUnused, OneCaseServesAllAnalyses) {
   EXPECT_EQ(damage.output.fields_every, 5);
 
   const CaseFile elastic = parse_case(serving_all("elastic"), "a.toml");
-  EXPECT_THAT(
-      elastic.unused,
-      ElementsAre("analysis.control", "analysis.factor", "analysis.duration", "analysis.rows",
-                  "analysis.damping_rate", "stop", "output.fields_every", "output.fields_times"));
+  EXPECT_THAT(elastic.unused, ElementsAre("analysis.control", "analysis.duration", "analysis.rows",
+                                          "analysis.damping_rate", "analysis.factor", "stop",
+                                          "output.fields_every", "output.fields_times"));
   EXPECT_FALSE(elastic.stop.broken_bonds);
   EXPECT_FALSE(elastic.output.fields_every);
 
   const CaseFile moving = parse_case(serving_all("explicit"), "a.toml");
   EXPECT_THAT(moving.unused,
-              ElementsAre("analysis.control", "analysis.factor", "analysis.tolerance",
+              ElementsAre("analysis.control", "analysis.tolerance", "analysis.factor",
                           "stop.broken_bonds", "output.fields_every"));
   EXPECT_EQ(moving.analysis.duration, 2.0);
   EXPECT_EQ(moving.analysis.ramp_time, 2.0);
@@ -63,8 +62,8 @@ TEST(CaseUnused, OneCaseServesAllAnalyses) {
 
   const CaseFile resting = parse_case(serving_all("relaxation"), "a.toml");
   EXPECT_THAT(resting.unused,
-              ElementsAre("analysis.control", "analysis.factor", "analysis.duration",
-                          "analysis.rows", "analysis.damping_rate", "stop.broken_bonds",
+              ElementsAre("analysis.control", "analysis.duration", "analysis.rows",
+                          "analysis.damping_rate", "analysis.factor", "stop.broken_bonds",
                           "output.fields_every", "output.fields_times"));
   EXPECT_EQ(resting.analysis.tolerance, 1e-3);
   EXPECT_THAT(resting.analysis.load_factors, ElementsAre(1));
