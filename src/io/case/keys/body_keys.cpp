@@ -4,6 +4,7 @@
 
 #include "io/case/binding/key_binding.hpp"
 #include "io/case/keys/key_tables.hpp"
+#include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_lattice.hpp"
 #include "io/case/sections/laws/case_softening.hpp"
 

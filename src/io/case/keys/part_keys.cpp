@@ -5,6 +5,7 @@
 #include "io/case/binding/key_binding.hpp"
 #include "io/case/keys/key_tables.hpp"
 #include "io/case/sections/case_gauges.hpp"
+#include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_rebar.hpp"
 #include "io/case/sections/laws/case_interfaces.hpp"
 #include "io/case/sections/laws/case_softening.hpp"
