@@ -25,6 +25,7 @@ LONG = {
     "meshes/l_panel",
     "meshes/l_panel_fine",
     "meshes/notched_prism",
+    "meshes/sheared_plate",
     "meshes/splm_compression",
 }
 

@@ -126,17 +126,17 @@ struct KeySchema {
   template <class Section>
   KeySchema written_if(bool (*condition)(const Section&)) const {
     return with(&KeySchema::write, [inner = write, condition](const KeySchema& key, TomlWriter& out,
-                                                              const void* section, Kinds kind) {
-      if (condition(*static_cast<const Section*>(section))) {
-        inner(key, out, section, kind);
+                                                              const void* of_case, Kinds kind) {
+      if (condition(*static_cast<const Section*>(of_case))) {
+        inner(key, out, of_case, kind);
       }
     });
   }
   template <class Section>
   KeySchema written_by(void (*writer)(TomlWriter&, const Section&, Kinds)) const {
     return with(&KeySchema::write,
-                [writer](const KeySchema&, TomlWriter& out, const void* section, Kinds kind) {
-                  writer(out, *static_cast<const Section*>(section), kind);
+                [writer](const KeySchema&, TomlWriter& out, const void* of_case, Kinds kind) {
+                  writer(out, *static_cast<const Section*>(of_case), kind);
                 })
         .with(&KeySchema::section, &typeid(Section));
   }
