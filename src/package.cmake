@@ -1,9 +1,9 @@
 # "cpack" makes a package of Debian and a relocatable archive, of the programs, their texts, the
 # Python package, the documentation and the examples. Links between pages hold where they are installed.
 install(DIRECTORY docs meshes verification DESTINATION ${CMAKE_INSTALL_DOCDIR}
-        FILES_MATCHING REGEX "/(docs|meshes)/.*[.][a-z]+$" REGEX "[.](md|svg)$"
-        REGEX "/verification/(benchmarks|problems)" EXCLUDE)
-install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+        FILES_MATCHING REGEX "/(docs|meshes|benchmarks)/.*[.][a-z]+$" REGEX "[.](md|svg)$"
+        REGEX "/verification/problems" EXCLUDE)
+install(FILES README.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 
 set(CPACK_GENERATOR DEB TGZ)
