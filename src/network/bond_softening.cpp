@@ -10,7 +10,6 @@
 #include "material/strength/bond_cell.hpp"
 #include "material/strength/face_chain.hpp"
 #include "network/bond_strength.hpp"
-#include "network/expected_events.hpp"
 #include "network/lattice_neighbourhoods.hpp"
 
 namespace perilink {
@@ -261,6 +260,12 @@ MaterialBonds bonds_by(const StrengthFactor& factor_of, double modulus,
 }
 
 }  // namespace
+
+Index count_segments(const BondLaw& law) {
+  Index count = 0;
+  while (law.segment(count).secant > 0.0) ++count;
+  return count;
+}
 
 TooStrong::TooStrong(Index number, double energy, double random)
     : std::invalid_argument("the strength of a bond does not fit its fracture energy"),

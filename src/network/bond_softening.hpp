@@ -18,6 +18,9 @@ namespace perilink {
 /// round-off determines where the secants leave the curve.
 constexpr double most_softening = 1e10;
 
+/// Returns the number of events until a bond with this law has broken; the law must have an end.
+Index count_segments(const BondLaw& law);
+
 /// Error for a tensile strength that does not fit the fracture energy. At that strength a bond
 /// holds more energy than it may dissipate, or less than 1 / most_softening of it.
 class TooStrong : public std::invalid_argument {

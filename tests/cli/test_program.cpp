@@ -220,8 +220,7 @@ TEST_F(Program, CheckTellsSizesAndMakesNothing) {
   for (const char* part :
        {"[body]", "particles          336", "bonds              2345", "unknowns           669",
         "memory", "time               about ", "per broken bond", " for 30 of them\n",
-         "spacing            ", " spacings\n",
-        "load               upper cap: (0, 100)",
+        "spacing            ", " spacings\n", "load               upper cap: (0, 100)",
         "region             upper cap: 40 particles, x 6.25 to 93.75, y 200 to 250\n"}) {
     EXPECT_THAT(end.out, HasSubstr(part));
   }

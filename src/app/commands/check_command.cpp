@@ -19,11 +19,11 @@
 #include "base/timer.hpp"
 #include "io/case/case_settings.hpp"
 #include "io/case/sections/case_kinds.hpp"
+#include "model/expected_events.hpp"
 #include "model/from_case/configure.hpp"
 #include "model/from_case/lattice_case.hpp"
 #include "model/from_case/separated_body.hpp"
 #include "network/builder/free_bodies.hpp"
-#include "network/expected_events.hpp"
 #include "solver/factor_routes.hpp"
 
 namespace perilink {
@@ -62,8 +62,8 @@ double memory_without_factor(const Network& network, bool events) {
 }
 
 /// Prints the time per event, which reads the factor twice, and of one crack across the body. A
-/// batch takes `batch_share` times as long and `batch_seconds` for its elements. Both were fitted to
-/// verification/studies/event_tolerance.
+/// batch takes `batch_share` times as long, and `batch_seconds` for its elements. Both were fitted
+/// to verification/studies/event_tolerance.
 void print_time_of_events(const CaseFile& input, const Network& network, double factor_bytes) {
   constexpr double batch_share = 1.7, batch_seconds = 8e-5;
   const bool many = softens(network), batches = many && event_tolerance_of(input) > 0.0;
@@ -72,14 +72,15 @@ void print_time_of_events(const CaseFile& input, const Network& network, double 
   const char* event = batches ? "batch of events" : many ? "event" : "broken bond";
   fmt::print("#   time               about {:.2g} ms per {}{}", 1e3 * each, event,
              input.elements ? " at first" : "");
-  std::optional<double> events = expected_events(network);
-  if (input.stop.broken_bonds && !many) events = *input.stop.broken_bonds;
-  if (events) {
+  if (input.stop.broken_bonds && !many) {
+    fmt::print(", {} for {} of them", time_text(*input.stop.broken_bonds * each),
+               *input.stop.broken_bonds);
+  } else if (const auto events = expected_events(network)) {
     const double count =
-        batches ? *events / expected_batch(*events, event_tolerance_of(input)) : *events;
-    fmt::print(", {} for {}{:.2g} of them{}", time_text(count * each),
-               input.stop.broken_bonds && !many ? "" : "about ", count,
-               input.stop.broken_bonds && !many ? "" : ", one crack across the body");
+        *events / expected_batch(*events, batches ? event_tolerance_of(input) : 0.0);
+    const double unit = std::pow(10.0, std::max(0.0, std::floor(std::log10(count)) - 1.0));
+    fmt::print("; {} for a crack across the body, about {:.0f} of them", time_text(count * each),
+               unit * std::round(count / unit));
   }
   fmt::print("\n");
 }

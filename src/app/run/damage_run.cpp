@@ -14,9 +14,9 @@
 #include "base/plain_text.hpp"
 #include "io/checkpoint/pack.hpp"
 #include "model/body/strength_notes.hpp"
+#include "model/expected_events.hpp"
 #include "model/from_case/separated_body.hpp"
 #include "model/gauges.hpp"
-#include "network/expected_events.hpp"
 #include "solver/ranks/process_ranks.hpp"
 
 namespace perilink {

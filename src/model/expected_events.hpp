@@ -6,9 +6,6 @@
 
 namespace perilink {
 
-/// Returns the number of events until a bond with this law has broken; the law must have an end.
-Index count_segments(const BondLaw& law);
-
 /// Estimates the number of events until one crack has crossed the body or its weak interfaces: the
 /// segments of the bonds across a plane normal to the body's longest side, on average over such
 /// planes. Damage beside the crack is not counted.

@@ -1,8 +1,10 @@
-#include "network/expected_events.hpp"
+#include "model/expected_events.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "network/bond_softening.hpp"
 
 namespace perilink {
 namespace {
@@ -28,12 +30,6 @@ std::size_t longest_side(const Particles& particles) {
 }
 
 }  // namespace
-
-Index count_segments(const BondLaw& law) {
-  Index count = 0;
-  while (law.segment(count).secant > 0.0) ++count;
-  return count;
-}
 
 std::optional<double> expected_events(const Network& network) {
   if (network.has_sections() || network.first_slip_spring < network.num_elements()) return {};
@@ -61,7 +57,7 @@ std::optional<double> expected_events(const Network& network) {
 }
 
 double expected_batch(double events, double tolerance) {
-  return std::max(1.0, 20.0 * tolerance * std::cbrt(events));
+  return std::max(1.0, 27.0 * tolerance * std::cbrt(events));
 }
 
 }  // namespace perilink
