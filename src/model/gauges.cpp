@@ -35,6 +35,10 @@ std::string point_text(const Vector3& point, int dim) {
   return fmt::format("({})", joined(components));
 }
 
+/// Particles around a point are at most this far from it [spacings]: distant ones around it measure
+/// elsewhere.
+constexpr double reach = 2.0;
+
 /// Returns particles with an intact bond to a particle, nearest to `point` first; without known
 /// bonds those around it. Broken bonds do not count, since displacements jump across cracks.
 /// Stresses jump between materials.
@@ -42,31 +46,31 @@ std::vector<Index> neighbors_of(const Model& model, Index particle, const Vector
                                 bool same_material) {
   const Network& network = model.network;
   const Particles& particles = network.places();
-  std::vector<Index> neighbors;
-  const auto add = [&](Index i) {
-    const bool fits = !same_material || particles.material[i] == particles.material[particle];
-    if (particles.kind[i] == ParticleKind::solid && fits) neighbors.push_back(i);
-  };
-  for (Index e = 0; e < network.first_contact(); ++e) {
-    const Index i = network.bonds.first[e], j = network.bonds.second[e];
-    if (i != particle && j != particle) continue;
-    add(i == particle ? j : i);
-  }
-  const auto away = [&](Index i) {
+  const auto away = [&](Index i, const auto& from) {
     double square = 0.0;
     for (int a = 0; a < particles.dim; ++a) {
-      square += std::pow(particles.position(i)[a] - point[a], 2);
+      square += std::pow(particles.position(i)[a] - from[a], 2);
     }
     return square;
   };
-  if (network.bonds.size() == 0) {
-    const double reach = 2.0 * model.lattice.spacing;
-    for (Index i = 0; i < particles.size(); ++i) {
-      if (i != particle && away(i) < reach * reach) add(i);
-    }
+  std::vector<Index> neighbors;
+  double shortest = infinity;  // square; cells around the particle may be coarser than the mean
+  const auto add = [&](Index i) {
+    if (particles.kind[i] != ParticleKind::solid || i == particle) return;
+    shortest = std::min(shortest, away(i, particles.position(particle)));
+    const bool fits = !same_material || particles.material[i] == particles.material[particle];
+    if (fits) neighbors.push_back(i);
+  };
+  for (Index e = 0; e < network.first_contact(); ++e) {
+    const Index i = network.bonds.first[e], j = network.bonds.second[e];
+    if (i == particle || j == particle) add(i == particle ? j : i);
   }
+  for (Index i = 0; network.bonds.size() == 0 && i < particles.size(); ++i) add(i);
+  const double spacing = model.lattice.spacing;
+  const double size = shortest < infinity ? std::max(spacing, std::sqrt(shortest)) : spacing;
+  std::erase_if(neighbors, [&](Index i) { return away(i, point) >= std::pow(reach * size, 2); });
   std::stable_sort(neighbors.begin(), neighbors.end(),
-                   [&](Index i, Index j) { return away(i) < away(j); });
+                   [&](Index i, Index j) { return away(i, point) < away(j, point); });
   return neighbors;
 }
 

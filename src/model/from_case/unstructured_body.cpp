@@ -77,7 +77,8 @@ class Drawing {
   }
 
  private:
-  /// Draws a region.
+  /// Draws a region. Numbers have twelve digits: the last ones depend on the unit of length, and
+  /// other digits make another mesh.
   /// \return gmsh's number of it
   int add_shape(const Region& region) {
     std::array<double, 3> start{}, side{0.0, 0.0, 1.0}, center{}, axis{};
@@ -86,7 +87,7 @@ class Drawing {
       side[a] = (region.box.upper[a] - region.box.lower[a]) / spacing_;
     }
     const auto three = [](const std::array<double, 3>& v) {
-      return fmt::format("{}, {}, {}", v[0], v[1], v[2]);
+      return fmt::format("{:.12g}, {:.12g}, {:.12g}", v[0], v[1], v[2]);
     };
     ++count_;
     if (!region.round) {
@@ -99,9 +100,9 @@ class Drawing {
       axis[a] = along == a ? side[a] : 0.0;
     }
     const double radius = region.round->radius / spacing_;
-    text_ += along ? fmt::format("Cylinder({}) = {{{}, {}, {}}};\n", count_, three(center),
+    text_ += along ? fmt::format("Cylinder({}) = {{{}, {}, {:.12g}}};\n", count_, three(center),
                                  three(axis), radius)
-                   : fmt::format("Sphere({}) = {{{}, {}}};\n", count_, three(center), radius);
+                   : fmt::format("Sphere({}) = {{{}, {:.12g}}};\n", count_, three(center), radius);
     return count_;
   }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "model/from_case/configure.hpp"
 #include "support/strip_case.hpp"
@@ -130,6 +131,28 @@ TEST(Gauges, StayOnTheirSideOfACrack) {
   }
   Csr neighbourhoods;
   EXPECT_NEAR(gauge_values(model, {{}, displacement}, neighbourhoods)[0], 1.0, 1e-14);
+}
+
+/// Beside a stiff patch the particles of the soft material around a point are far away.
+TEST(Gauges, MeasureStressesNearTheirPoints) {
+  const CaseFile input = parse_case(std::string(test::strip_text) + R"([[regions]]
+name = "patch"
+x = [10, 30]
+y = [50, 70]
+[[materials]]
+region = "patch"
+youngs_modulus = 9000
+fracture_energy = 0.001
+[[gauges]]
+name = "below"
+at = [24, 44]
+stress = "xx"
+[analysis]
+type = "elastic"
+)",
+                                    "strip.toml");
+  const Model model = build_model(input);
+  EXPECT_EQ(model.gauges[0].place, "at (24, 40)");
 }
 
 TEST(Gauges, LookPastTheRotationsOfMicropolarParticles) {

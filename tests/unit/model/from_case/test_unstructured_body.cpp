@@ -127,6 +127,40 @@ class UnstructuredBody : public testing::Test {
   }
 };
 
+/// A body in millimetres and in metres has the same particles.
+TEST_F(UnstructuredBody, DoesNotDependOnTheUnitOfLength) {
+  const auto plate = [](double unit) {
+    const Body body =
+        body_of(fmt::format(R"(regions = [
+  {{name = "plate", x = [0, {}], y = [0, {}]}},
+  {{name = "hole", center = [{}, {}], radius = {}}},
+]
+[body]
+pattern = "unstructured"
+spacing = {}
+horizon_ratio = 3
+[[materials]]
+region = "plate"
+holes = ["hole"]
+youngs_modulus = 100
+[[loads]]
+region = "plate"
+force = [1, 0]
+[analysis]
+type = "elastic"
+)",
+                            100 * unit, 140 * unit, 40 * unit, 70 * unit, 11 * unit, 2.9 * unit));
+    return body.particles.positions;
+  };
+  const std::vector<double> small = plate(0.001), large = plate(1.0);
+  ASSERT_EQ(small.size(), large.size());
+  double worst = 0.0;
+  for (std::size_t k = 0; k < small.size(); ++k) {
+    worst = std::max(worst, std::abs(1000.0 * small[k] - large[k]));
+  }
+  EXPECT_LT(worst, 1e-9);
+}
+
 TEST_F(UnstructuredBody, FillsThePlateUpToItsFaces) {
   const Body body = body_of(plate_text);
   const Particles& particles = body.particles;

@@ -195,7 +195,10 @@ class Relaxation {
                       "without resistance",
                       joined(body_.network.particles.position(moved_most()))));
     }
-    next_.examines = !next_.done && is_due && (ends || checks);
+    // Before the first iteration all contact springs are open.
+    const bool follows = separation_.follows_contact();
+    next_.examines = !next_.done && !(follows && iteration_ == 0) &&
+                     ((is_due && (ends || checks)) || (follows && checks));
     if (!checks || next_.done) return;
     observe([&] {
       observer_.on_iteration(static_cast<Index>(step_) + 1, iteration_, result_.residual);
@@ -289,7 +292,7 @@ class Relaxation {
     }
     observe([&] {
       note_row();
-      if (separation_.is_due(fractured_)) examine_pieces();
+      if (separation_.is_due(fractured_) || separation_.follows_contact()) examine_pieces();
       if (next_.done) return;
       if (separation_.is_unstrained()) {
         note_end();

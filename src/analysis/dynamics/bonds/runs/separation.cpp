@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 #include "base/plain_text.hpp"
 
@@ -46,6 +47,23 @@ double work_over_size(const LoadedNetwork& problem) {
   return work;
 }
 
+/// Returns whether a motion presses crack faces together.
+bool presses_faces(const Network& network, std::span<const double> motion) {
+  const auto width = static_cast<std::size_t>(network.width());
+  double largest = 0.0;
+  for (const double u : motion) largest = std::max(largest, std::abs(u));
+  return std::ranges::any_of(network.contacts(), [&](Index element) {
+    const auto normal = network.bonds.direction(element);
+    double extension = 0.0;
+    for_each_end(network, element, [&](Index i, bool second, double weight) {
+      const double* const u = motion.data() + static_cast<std::size_t>(i) * width;
+      const double along = std::inner_product(normal.begin(), normal.end(), u, 0.0);
+      extension += (second ? weight : -weight) * along;
+    });
+    return extension < -straining * largest;
+  });
+}
+
 }  // namespace
 
 Separation::Separation(const LoadedNetwork& problem)
@@ -56,10 +74,14 @@ Separation::Separation(const LoadedNetwork& problem)
     largest_ = std::max(largest_, std::abs(value));
   }
   far_ = far_away * work_over_size(problem);
+  closes_ = problem.network.has_closing();
 }
 
 bool Separation::is_mechanism(double work, double load_factor, double stiffness) const {
-  return work * work > std::abs(load_factor) * far_ * std::max(stiffness, 0.0) && work > 0.0;
+  // Bonds that close may stop a motion that begins freely.
+  const double least = closes_ ? closed_by * std::abs(load_factor) * far_ / far_away : 0.0;
+  if (!(work > least)) return false;
+  return work * work > std::abs(load_factor) * far_ * std::max(stiffness, 0.0);
 }
 
 bool Separation::is_strained(Secants secants, const std::vector<std::uint8_t>& held) const {
@@ -78,13 +100,17 @@ std::string Separation::examine(Secants secants, double fractured, bool is_loade
   for (const Fragment& piece : connected_parts(network, secants)) {
     const double least = std::max(unbalanced * size_of_loads(piece), round_off * on_body);
     if (!is_loaded || !(size_of_loads(piece) > least)) continue;
+    std::vector<double> along(forces.size(), 0.0);  // the motion of the piece that gives most work
+    bool is_pulled = false;
     for (const std::vector<double>& motion : free_motions(network, piece, resisted_)) {
       const double pull = std::inner_product(motion.begin(), motion.end(), forces.begin(), 0.0);
-      if (std::abs(pull) <= least) continue;
-      return fmt::format("the body is in pieces, and the loads pull away the piece of {} at ({})",
-                         counted(piece.particles.size(), "particle"),
-                         joined(network.particles.position(piece.particles.front())));
+      is_pulled = is_pulled || std::abs(pull) > least;
+      for (std::size_t slot = 0; slot < along.size(); ++slot) along[slot] += pull * motion[slot];
     }
+    if (!is_pulled || presses_faces(network, along)) continue;
+    return fmt::format("the body is in pieces, and the loads pull away the piece of {} at ({})",
+                       counted(piece.particles.size(), "particle"),
+                       joined(network.particles.position(piece.particles.front())));
   }
   if (!(largest_ > 0.0)) return "";
   // Elastic supports count only where rigid supports allow no strain.

@@ -18,7 +18,9 @@ class Separation {
   /// Returns whether bonds have broken since the last examination, or there was none.
   /// \param fractured  energy of broken bonds so far [force length]
   bool is_due(double fractured) const { return fractured > examined_; }
-  /// Examines the pieces.
+  /// Returns whether contact springs join and release pieces as the body moves.
+  bool follows_contact() const { return problem_.network.num_contacts > 0; }
+  /// Examines the pieces. Closed contact springs join them.
   /// \param is_loaded  the load factor is not zero
   /// \return description of the piece that the loads pull away; empty: none
   std::string examine(Secants secants, double fractured, bool is_loaded);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "support/analysis_bodies.hpp"
@@ -25,6 +26,22 @@ struct Chains {
       const double second = body.network.particles.position(bonds.second[e])[0];
       if ((first < x) != (second < x)) secants[e] = 0.0;
     }
+  }
+
+  /// Adds a contact spring in the place of the first bond that was cut.
+  /// \param secant  1: closed, 0: open
+  void touch(double secant) {
+    Network& network = body.network;
+    const auto across = std::ranges::find(secants, 0.0) - secants.begin();
+    const Bonds bonds = network.bonds;
+    const auto e = static_cast<Index>(across);
+    network.bonds.append(bonds.first[e], bonds.second[e], bonds.length(e), bonds.direction(e));
+    network.stiffness.push_back(1.0);
+    network.num_contacts = 1;
+    network.first_slip_spring = network.first_embedded_slip_spring = network.first_bar_element =
+        network.num_elements();
+    secants.resize(static_cast<std::size_t>(network.num_elements()));
+    secants.back() = secant;
   }
 
   AnalysisBody body;
@@ -70,6 +87,30 @@ TEST(Separation, DrivenPiecesResistNothing) {
   Separation sprung(chains.body);
   sprung.examine(chains.secants, 1.0, true);
   EXPECT_TRUE(sprung.is_unstrained());
+}
+
+TEST(Separation, PressedFacesHoldAPiece) {
+  Chains chains(false);
+  chains.cut(3.5);
+  chains.touch(0.0);
+  Separation pulled(chains.body);
+  EXPECT_TRUE(pulled.follows_contact());
+  EXPECT_THAT(pulled.examine(chains.secants, 1.0, true), testing::HasSubstr("pull away the piece"));
+  for (double& force : chains.body.loads.forces) force = -force;
+  Separation pressed(chains.body);
+  EXPECT_EQ(pressed.examine(chains.secants, 1.0, true), "") << "the gap has not closed yet";
+}
+
+TEST(Separation, ClosedFacesStrainPieces) {
+  Chains chains(true);
+  chains.cut(3.5);
+  chains.touch(1.0);
+  Separation separation(chains.body);
+  EXPECT_EQ(separation.examine(chains.secants, 1.0, true), "");
+  EXPECT_FALSE(separation.is_unstrained());
+  chains.secants.back() = 0.0;
+  separation.examine(chains.secants, 1.0, true);
+  EXPECT_TRUE(separation.is_unstrained());
 }
 
 TEST(Separation, GoesOnAfterTheLastExamination) {
