@@ -18,6 +18,8 @@ constexpr double unbalanced = 1e-6;
 constexpr double round_off = 1e-12;
 /// Displacement over the size of the body, or rotation, that no elastic body reaches.
 constexpr double far_away = 1e6;
+/// Displacement over the size of the body by which the faces of cracks have met.
+constexpr double closed_by = 0.01;
 /// Fraction of the prescribed displacements that strains a piece.
 constexpr double straining = 1e-9;
 
