@@ -48,6 +48,7 @@ class Separation {
   const LoadedNetwork& problem_;
   std::vector<std::uint8_t> held_, resisted_;  ///< resisted: also by elastic supports
   double largest_ = 0.0;                       ///< prescribed displacement [length]
+  bool closes_ = false;                        ///< Network::has_closing()
   double far_ = 0.0;        ///< work of the loads that no elastic body takes up [force length]
   double examined_ = -1.0;  ///< `fractured` of the last examination [force length]
   bool is_unstrained_ = false;
