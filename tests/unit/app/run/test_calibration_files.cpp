@@ -35,15 +35,14 @@ class KeptCalibrations : public testing::Test {
 constexpr const char* calibrated = "[body]\nsurface = \"calibrated\"\n";
 
 TEST_F(KeptCalibrations, ServeBodiesThatDifferInStrengthOnly) {
-  const std::string plane = test::replaced(test::strip_text, "[body]\n", calibrated);
+  const std::string plane = replaced(test::strip_text, "[body]\n", calibrated);
   const std::string micropolar =
-      test::replaced(test::replaced(plane, "[body]\n", "[body]\nmodel = \"micropolar\"\n"),
-                     "youngs_modulus", "poissons_ratio = 0.2\nyoungs_modulus");
-  const std::string space = test::replaced(test::prism_text, "[body]\n", calibrated);
+      replaced(replaced(plane, "[body]\n", "[body]\nmodel = \"micropolar\"\n"), "youngs_modulus",
+               "poissons_ratio = 0.2\nyoungs_modulus");
+  const std::string space = replaced(test::prism_text, "[body]\n", calibrated);
   int kept = 0;
   for (const std::string& text : {plane, micropolar, space}) {
-    const std::string tough =
-        test::replaced(text, "fracture_energy = 0.001", "fracture_energy = 0.004");
+    const std::string tough = replaced(text, "fracture_energy = 0.001", "fracture_energy = 0.004");
     const Model fresh = build_model(parse_case(tough, "case.toml"));
     Model first, second;
     EXPECT_GT(build(text, first), 0);
@@ -61,17 +60,16 @@ TEST_F(KeptCalibrations, ServeBodiesThatDifferInStrengthOnly) {
 }
 
 TEST_F(KeptCalibrations, DoNotServeOtherBodies) {
-  const std::string plane = test::replaced(test::strip_text, "[body]\n", calibrated);
+  const std::string plane = replaced(test::strip_text, "[body]\n", calibrated);
   Model model;
   build(plane, model);
-  EXPECT_GT(build(test::replaced(plane, "youngs_modulus = 3000", "youngs_modulus = 3001"), model),
-            0);
-  EXPECT_GT(build(test::replaced(plane, "thickness = 2.0", "thickness = 2.5"), model), 0);
+  EXPECT_GT(build(replaced(plane, "youngs_modulus = 3000", "youngs_modulus = 3001"), model), 0);
+  EXPECT_GT(build(replaced(plane, "thickness = 2.0", "thickness = 2.5"), model), 0);
   EXPECT_EQ(number_of_files(), 3);
 }
 
 TEST_F(KeptCalibrations, DamagedFilesAreReplaced) {
-  const std::string plane = test::replaced(test::strip_text, "[body]\n", calibrated);
+  const std::string plane = replaced(test::strip_text, "[body]\n", calibrated);
   Model model;
   build(plane, model);
   const std::string path = fs::directory_iterator(directory())->path().string();
