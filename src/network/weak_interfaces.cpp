@@ -18,8 +18,8 @@ namespace {
 /// A face is plane if its projection along the mean normal has at least this fraction of its area.
 constexpr double plane = 0.98;
 
-/// Rounds of averaging over neighbours across the face, for its normals.
-constexpr int rounds_for_normals = 3;
+/// Rounds of averaging over neighbours across the face, for normals and sums at particles.
+constexpr int rounds_of_spreading = 3;
 
 /// Bonds up to this length, in spacings, show the materials on either side of a face.
 constexpr double short_bonds = 1.5;
@@ -98,18 +98,17 @@ void add(const Sums& other, Sums& sums) {
 
 /// Returns sums at each particle with crossing bonds, including the sums of its neighbours along
 /// such bonds.
-/// \param own     returns the sums of a bond
-/// \param rounds  of adding the sums of neighbours
+/// \param own  returns the sums of a bond
 template <class Own>
 std::map<Index, Sums> sums_along_face(const Network& network, std::span<const Index> crossing,
-                                      Own own, int rounds) {
+                                      Own own) {
   std::map<Index, Sums> sums;
   for (const Index e : crossing) {
     const Sums added = own(e);
     add(added, sums[network.bonds.first[e]]);
     add(added, sums[network.bonds.second[e]]);
   }
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 0; round < rounds_of_spreading; ++round) {
     const std::map<Index, Sums> before = sums;
     for (const Index e : crossing) {
       const Index i = network.bonds.first[e], j = network.bonds.second[e];
@@ -120,7 +119,8 @@ std::map<Index, Sums> sums_along_face(const Network& network, std::span<const In
   return sums;
 }
 
-/// Stiffness of bonds of a face, over that with mean constants in all materials [-].
+/// Stiffness of the bonds at a location of a face, over that with mean constants in all materials
+/// [-].
 struct Place {
   double force = 1.0;   ///< from sums of k xi, for the force
   double energy = 1.0;  ///< from sums of k xi^2, for the energy
@@ -161,7 +161,6 @@ class Measure {
  private:
   BondStiffnesses stiffness_of(Index bond) const;
   BondStiffnesses even_stiffness(Index bond) const;
-  double material_ratio(Index bond) const;
   double held_at_the_end(Index bond, double cosine, double bending) const;
   void mix(Face& face);
   void measure_area(Face& face);
@@ -204,13 +203,6 @@ BondStiffnesses Measure::even_stiffness(Index bond) const {
           axial > 0.0 && network_.carries_moments() ? even_.bending[bond] / axial : 0.0};
 }
 
-/// Returns the modulus of a bond's materials over the mean modulus [-].
-double Measure::material_ratio(Index bond) const {
-  if (even_.stiffness.empty()) return 1.0;
-  const auto [first, second] = materials_at(network_, bond);
-  return 0.5 * (dilatation_[first] + dilatation_[second]) / stress_;
-}
-
 /// Returns the energy of a bond at breaking by an opening along the normal, over k xi^2 s_c^2 / 2
 /// [-]. Bonds with moments break by the ratio k_b / k before calibration.
 /// \param bending  present ratio of bending to axial stiffness [-]
@@ -225,12 +217,10 @@ double Measure::held_at_the_end(Index bond, double cosine, double bending) const
 /// normal is the main axis of the crossing bonds at a bond's ends.
 void Measure::measure_area(Face& face) {
   const int dim = network_.dim();
-  const auto products = [&](Index e) {
+  const std::map<Index, Sums> axes = sums_along_face(network_, crossing_, [&](Index e) {
     const auto [x, y, z] = direction_of(network_, e);
     return Sums{x * x, y * y, z * z, x * y, y * z, z * x};
-  };
-  const std::map<Index, Sums> axes =
-      sums_along_face(network_, crossing_, products, rounds_for_normals);
+  });
   Sums mean{};
   for (const auto& own : axes) add(own.second, mean);
   face.axis = principal_direction(mean, dim);
@@ -263,27 +253,24 @@ void Measure::measure_area(Face& face) {
   face.held = face.fracture_sum / squares;
 }
 
-/// Groups the bonds by stiffness in few steps: the modulus of their materials, which may change
-/// from bond to bond, times the mean effect of the calibration on bonds at the same particles. In
-/// the mean over the groups the face keeps the strength and energy for mean constants.
+/// Groups the bonds by local stiffness in few steps. In the mean over the groups the face keeps the
+/// strength and energy for mean constants.
 void Measure::find_places(Face& face) const {
   const auto own_sums = [&](Index e) {
     const double length = network_.bonds.length(e), along = std::pow(cosine_.at(e), 2);
     // Opening over length at an equivalent stretch of one.
     const double ratio = network_.carries_moments() ? network_.ratio_of_bending(e) : 0.0;
     const double opening = std::sqrt(along + ratio * (1.0 - along));
-    const double materials = material_ratio(e);
     Sums sums{};
     for (const bool even : {false, true}) {
       const auto [stiffness, bending] = even ? even_stiffness(e) : stiffness_of(e);
-      const double held = stiffness * length * held_at_the_end(e, cosine_.at(e), bending) *
-                          (even ? materials : 1.0);
+      const double held = stiffness * length * held_at_the_end(e, cosine_.at(e), bending);
       sums[even ? 1 : 0] = held * opening;
       sums[even ? 3 : 2] = held * length;
     }
     return sums;
   };
-  const std::map<Index, Sums> sums = sums_along_face(network_, crossing_, own_sums, 0);
+  const std::map<Index, Sums> sums = sums_along_face(network_, crossing_, own_sums);
   const auto in_steps = [](double ratio) {
     return std::exp(step_of_places * std::round(std::log(ratio) / step_of_places));
   };
@@ -292,14 +279,12 @@ void Measure::find_places(Face& face) const {
   for (const Index e : crossing_) {
     Sums both = sums.at(network_.bonds.first[e]);
     add(sums.at(network_.bonds.second[e]), both);
-    const double materials = material_ratio(e);
-    const Place place{in_steps(materials * both[0] / both[1]),
-                      in_steps(materials * both[2] / both[3])};
+    const Place place{in_steps(both[0] / both[1]), in_steps(both[2] / both[3])};
     const Sums own = own_sums(e);
     force += own[0] / place.force;
-    even_force += own[1] / materials;
+    even_force += own[1];
     energy += own[2] / place.energy;
-    even_energy += own[3] / materials;
+    even_energy += own[3];
     places[place].push_back(e);
   }
   for (auto& [place, bonds] : places) {

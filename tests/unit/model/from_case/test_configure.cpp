@@ -276,7 +276,7 @@ TEST(Configure, WhatCalibrationDoesNotChangeIsRefusedBeforeIt) {
   int searches = 0;
   const auto refuses = [&](const CaseFile& input, const char* key, const char* text) {
     expect_refused(input, key, text);
-    EXPECT_THROW(build_model(input, [&](int, double) { ++searches; }), InputError);
+    EXPECT_THROW(build_model(input, {[&](int, double) { ++searches; }}), InputError);
     EXPECT_EQ(searches, 0) << key;
   };
   CaseFile few = prism_case();
@@ -296,7 +296,7 @@ TEST(Configure, WhatCalibrationDoesNotChangeIsRefusedBeforeIt) {
   far.axis = 0;
   measured.gauges.push_back(far);
   refuses(measured, "gauges[1].at", "nearest particle");
-  build_model(prism_case(), [&](int, double) { ++searches; });
+  build_model(prism_case(), {[&](int, double) { ++searches; }});
   EXPECT_GT(searches, 0);
 }
 

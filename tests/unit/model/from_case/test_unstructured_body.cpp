@@ -128,7 +128,7 @@ class UnstructuredBody : public testing::Test {
 };
 
 /// A body in millimetres and in metres has the same particles.
-TEST_F(UnstructuredBody, DoesNotDependOnTheUnitOfLength) {
+TEST_F(UnstructuredBody, HasTheSameParticlesInEveryUnit) {
   const auto plate = [](double unit) {
     const Body body =
         body_of(fmt::format(R"(regions = [
