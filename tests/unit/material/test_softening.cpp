@@ -37,7 +37,7 @@ std::vector<CurveCase> curves() {
     result.push_back({"bilinear, knee above the line", {Softening::bilinear, 0.8, 0.5}, energy});
     result.push_back({"exponential", {Softening::exponential}, energy});
     result.push_back({"points", with_points({{0.05, 0.7}, {0.2, 0.3}, {0.6, 0.05}}), energy});
-    result.push_back({"points, hollow and round", with_points({{0.3, 0.95}, {0.4, 0.1}}), energy});
+    result.push_back({"points, hollow and round", with_points({{0.3, 0.95}, {0.7, 0.3}}), energy});
   }
   return result;
 }
