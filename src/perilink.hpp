@@ -7,6 +7,7 @@
 #include "app/process/threads.hpp"
 #include "app/run/quasistatic.hpp"
 #include "app/run/run_case.hpp"
+#include "app/scan/calibration_files.hpp"
 #include "assembly/fields.hpp"
 #include "base/build_info.hpp"
 #include "base/error.hpp"

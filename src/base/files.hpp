@@ -19,9 +19,9 @@ class DiskFull : public FileError {
   using FileError::FileError;
 };
 
-/// Writes a file in one step: writes a temporary file beside it (NAME.<random>.part) and renames it.
-/// Readers find the old file or the new one. A link at `path` is replaced, not followed. On failure
-/// the old file stays and the temporary file is removed.
+/// Writes a file in one step: writes a temporary file beside it (NAME.<random>.part) and renames
+/// it. Readers find the old file or the new one. A link at `path` is replaced, not followed. On
+/// failure the old file stays and the temporary file is removed.
 /// \param synced  the file is on the disk before it replaces an old one. Each such file costs some
 ///                milliseconds; sync_files() makes many safe against a power cut in that time.
 /// \throws FileError

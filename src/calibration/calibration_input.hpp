@@ -40,7 +40,7 @@ using CalibrationObserver = std::function<void(int search, double unbalanced)>;
 
 class CalibrationStore;
 
-/// What the calibration of a model calls.
+/// Observer and store of the calibration of a model.
 struct CalibrationCalls {
   CalibrationObserver on_search = {};  ///< may be empty
   CalibrationStore* store = nullptr;   ///< see calibrate_once()

@@ -90,8 +90,8 @@ std::vector<Index> place_embedded(Particles& particles, const std::vector<Vector
   return placed;
 }
 
-/// Returns the parts of a bar element that the nodes at its two ends tie to the body [-]: half of it
-/// each, or what an end in the body has as far as the face.
+/// Returns the parts of a bar element that the nodes at its two ends tie to the body [-]: half of
+/// it each, or what an end in the body has as far as the face.
 std::array<double, 2> tied_parts(const RebarLine& bar, const Vector3& begin, const Vector3& end) {
   if (!bar.inside) return {0.5, 0.5};
   const bool first = bar.inside(begin), second = bar.inside(end);

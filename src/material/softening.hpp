@@ -51,8 +51,8 @@ struct SofteningMaterial {
 /// \param end  s_1 / s_0 [-]
 double softening_energy(const SofteningShape& shape, double end);
 
-/// Force over stretch of one bond: x up to x = 1, then falling, exponentially or along straight lines.
-/// Concrete has a plateau with an immediate fall.
+/// Force over stretch of one bond: x up to x = 1, then falling, exponentially or along straight
+/// lines. Concrete has a plateau with an immediate fall.
 class SofteningCurve {
  public:
   /// \param energy  area under the curve over the area of its elastic part, 2 G_s / s_0^2 [-]; must

@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 
-#include "app/run/calibration_files.hpp"
 #include "perilink.hpp"
 #include "python/bindings.hpp"
 #include "python/python_caller.hpp"

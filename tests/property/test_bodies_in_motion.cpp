@@ -366,12 +366,10 @@ TEST(BodiesInMotion, TornByLoadsComeToRestOrCollapse) {
         << text << run.result.reason;
     collapsed += end == Termination::collapsed ? 1 : 0;
   }
-  RecordProperty("collapsed", collapsed);
   EXPECT_GT(collapsed, bodies_of_each_kind / 4);
 }
 
-/// Two halves that hang on bonds along one line turn about it under a force across. A force along
-/// the line is carried.
+/// Halves joined by bonds along one line turn about it under a force across it, not along it.
 TEST(BodiesInMotion, HingedOnesCarryOnlyForcesAlongTheirHinge) {
   RandomBodies random;
   for (int k = 0; k < bodies_of_each_kind;) {

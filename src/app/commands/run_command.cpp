@@ -7,8 +7,8 @@
 #include "app/process/console.hpp"
 #include "app/process/signals.hpp"
 #include "app/process/threads.hpp"
-#include "app/run/calibration_files.hpp"
 #include "app/run/run_case.hpp"
+#include "app/scan/calibration_files.hpp"
 #include "io/case/case_settings.hpp"
 #include "results/result_directory.hpp"
 

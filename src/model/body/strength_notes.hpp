@@ -14,7 +14,8 @@ namespace perilink {
 inline constexpr const char* horizon_advice =
     "take a horizon of a twentieth to a thirtieth of E G_F / f_t^2";
 
-/// Returns whether the horizon of softening bonds is so short that stressed bodies soften everywhere.
+/// Returns whether the horizon of softening bonds is so short that stressed bodies soften
+/// everywhere.
 bool is_short_horizon(double horizon, const MaterialStrength& strength);
 
 /// Returns a sentence for each implausible strength: relative to the modulus, and with a process

@@ -7,7 +7,7 @@
 
 #include "base/timer.hpp"
 #include "calibration/expected_calibration.hpp"
-#include "calibration/kept_calibration.hpp"
+#include "calibration/kept/kept_calibration.hpp"
 #include "network/bond_strength.hpp"
 #include "network/correction/layered_body.hpp"
 #include "network/correction/tied_strength.hpp"

@@ -187,13 +187,10 @@ class Relaxation {
                       result_.error, options_.tolerance));
     }
     const bool checks = iteration_ % iterations_between_checks == 0;
-    const bool is_linear = options_.strain == Strain::small && !is_due;
-    if ((checks || ends) && is_linear &&
+    if ((checks || ends) && !is_due && options_.strain == Strain::small &&
         separation_.is_mechanism(all.work, factor_, all.stiffness)) {
-      collapse(
-          fmt::format("the body has become a mechanism; the loads move the part at ({}) "
-                      "without resistance",
-                      joined(body_.network.particles.position(moved_most()))));
+      collapse(fmt::format("a mechanism: the loads move the part at ({}) without resistance",
+                           joined(body_.network.particles.position(moved_most()))));
     }
     // Before the first iteration all contact springs are open.
     const bool follows = separation_.follows_contact();

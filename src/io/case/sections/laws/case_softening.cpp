@@ -57,7 +57,8 @@ std::array<double, 2> read_stretches(const CaseTable& table, Softening kind) {
   return {(*given)[0], (*given)[1]};
 }
 
-/// Reads openings and stresses of a curve, in any units. \return its points as SofteningShape::points
+/// Reads openings and stresses of a curve, in any units.
+/// \return points as in SofteningShape
 std::vector<std::array<double, 2>> read_points(const CaseTable& table, Softening kind) {
   const std::string key = "softening_points";
   const std::string example =

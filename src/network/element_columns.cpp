@@ -1,5 +1,3 @@
-#include "network/network.hpp"
-
 #include "network/element_columns.hpp"
 
 namespace perilink {

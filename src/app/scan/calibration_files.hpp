@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "calibration/kept_calibration.hpp"
+#include "calibration/kept/kept_calibration.hpp"
 
 namespace perilink {
 

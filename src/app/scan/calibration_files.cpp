@@ -1,4 +1,4 @@
-#include "app/run/calibration_files.hpp"
+#include "app/scan/calibration_files.hpp"
 
 #include <optional>
 #include <system_error>

@@ -1,4 +1,4 @@
-#include "calibration/kept_calibration.hpp"
+#include "calibration/kept/kept_calibration.hpp"
 
 #include <cstring>
 #include <type_traits>
