@@ -187,8 +187,8 @@ TEST(Weakening, CutHoldsAParticleAndItsRotationsWithoutDisturbingTheRest) {
 }
 
 /// Particle 1 is pulled to the left and takes particle 2 along by a bond with shear retention,
-/// which has lost half of its stiffness. Particle 2 has a force to the right and presses on a broken bond
-/// that closes. Without the first bond only this one would hold it: nothing changes.
+/// which has lost half of its stiffness. Particle 2 has a force to the right and presses on a
+/// broken bond that closes. Without the first bond only this one would hold it: nothing changes.
 TEST(Weakening, AMechanismLeavesASoftenedBondWithShearRetentionAsItWas) {
   Network network;
   network.particles.dim = network.bonds.dim = 2;
