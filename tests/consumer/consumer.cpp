@@ -99,7 +99,7 @@ int main(int argc, char** argv) {
     return 1;
   }
   try {
-    parse_case("[body]\nspacing = -1\n", "faulty");
+    parse_case("[body]\nspacing = -1\nhorizon = 3\n", "faulty");
     return 1;
   } catch (const InputError& error) {
     good &= expect(error.where().key == "body.spacing", "line of the fault", error.where().line);
