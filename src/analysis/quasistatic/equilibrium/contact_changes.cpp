@@ -15,36 +15,16 @@ namespace {
 /// does not resist it.
 constexpr double no_resistance = 1e12;
 
-/// Fraction of the load above which the force of an element counts as load [-]. Factors that many
-/// events have changed leave 1e-9.
-constexpr double least_loaded_force = 1e-6;
-
 }  // namespace
 
 void ContactChanges::settle(EventOutcome& outcome, double direction) {
   begin();
   ContactRounds rounds(contact_, direction);
-  for (std::vector<Index> wrong = rounds.next(); !wrong.empty(); wrong = rounds.next()) {
-    if (follow(wrong, outcome)) continue;
-    outcome.mechanism = carry_load(wrong, direction);
-    return;
+  while (!outcome.mechanism) {
+    const std::vector<Index> wrong = rounds.next();
+    if (wrong.empty()) return;
+    outcome.mechanism = !follow(wrong, outcome);
   }
-}
-
-/// Returns whether violated elements carry load. An element that alone holds an unloaded part is
-/// violated by round-off and stays as it is.
-bool ContactChanges::carry_load(const std::vector<Index>& wrong, double direction) const {
-  const PermanentLoad* const permanent = solution_.permanent();
-  const double growing = solution_.growing().field().load_norm;
-  return std::ranges::any_of(wrong, [&](Index element) {
-    const Extension extension = contact_.extension_of(element, {direction, 0.0});
-    double load = growing;
-    if (permanent != nullptr && extension.now != 0.0) {
-      load = std::abs(permanent->load_factor()) * growing + permanent->field().load_norm;
-    }
-    const double stiffness = body_.network().stiffness[element] * body_.one_sided(element);
-    return stiffness * std::abs(extension.side) > least_loaded_force * load;
-  });
 }
 
 void ContactChanges::turn(const std::vector<Index>& elements) {

@@ -42,7 +42,6 @@ class ContactChanges {
   std::vector<Index> change(std::vector<Index> wrong);
   bool change_together(const std::vector<Index>& wrong);
   bool holds_apart(const std::vector<Index>& opened);
-  bool carry_load(const std::vector<Index>& wrong, double direction) const;
   void close(Index element);
   void turn(const std::vector<Index>& elements);
   void add_growth(Index element, const Extension& before, EventOutcome& outcome) const;
