@@ -113,19 +113,8 @@ class BarEnds {
         secants_(secants),
         motion_(motion),
         solid_(solid),
-        ties_(slip_springs_along_bars(network)) {
-    for (std::size_t s = 0; s < network.bars.bar.size(); ++s) {
-      const auto bar = static_cast<std::size_t>(network.bars.bar[s]);
-      if (bar >= embedded_.size()) embedded_.resize(bar + 1, 0);
-      if (tied_ends(s) > 0) embedded_[bar] = 1;
-    }
-  }
+        ties_(slip_springs_along_bars(network)) {}
 
-  /// Returns whether a bar element lies in the solid: both ends are tied to it, or its bar has no
-  /// embedded points.
-  bool in_solid(std::size_t segment) const {
-    return embedded_[network_.bars.bar[segment]] == 0 || tied_ends(segment) == 2;
-  }
   /// \param otherwise  result for an end without an embedded point [force]
   double given(std::size_t segment, bool begin, double otherwise) const {
     const auto dim = static_cast<std::size_t>(network_.dim());
@@ -147,20 +136,10 @@ class BarEnds {
   }
 
  private:
-  int tied_ends(std::size_t segment) const {
-    const Index e = network_.first_bar_element + static_cast<Index>(segment);
-    int count = 0;
-    for (const Index end : {network_.bonds.first[e], network_.bonds.second[e]}) {
-      count += ties_[node_of(network_, end)] != no_index;
-    }
-    return count;
-  }
-
   const Network& network_;
   Secants secants_;
   std::span<const double> motion_, solid_;
   std::vector<Index> ties_;
-  std::vector<std::uint8_t> embedded_;  ///< per bar
 };
 
 /// Returns the bond stress of each bar element [force/length^2].
@@ -173,24 +152,27 @@ std::vector<double> bond_stresses(const Network& network, const std::vector<doub
     const double perimeter = bars.perimeter.empty()
                                  ? std::sqrt(4.0 * std::numbers::pi * bars.area[s])
                                  : bars.perimeter[s];
-    // At an inner node the solid takes the difference of the two forces, over half of each element
-    // in it. At an end it takes the force of the slip spring, or the whole force without one.
-    const auto length_of = [&](std::size_t k) {
-      if (!ends.in_solid(k)) return 0.0;
-      return network.bonds.length(network.first_bar_element + static_cast<Index>(k));
+    // At an inner node the solid takes the difference of the two forces, over the lengths that the
+    // node ties. At an end it takes the force of the slip spring, or the whole force without one.
+    const auto parts_of = [&](std::size_t k) {
+      return bars.tied_parts.empty() ? std::array{0.5, 0.5} : bars.tied_parts[k];
     };
-    if (!ends.in_solid(s)) {
-      stresses.push_back(0.0);
-      continue;
-    }
+    const auto tied = [&](std::size_t k, int end) {
+      return parts_of(k)[end] *
+             network.bonds.length(network.first_bar_element + static_cast<Index>(k));
+    };
     const std::size_t before = neighbours[s][0], after = neighbours[s][1];
-    const double at_begin =
-        before != s ? (force[s] - force[before]) / (0.5 * (length_of(s) + length_of(before)))
-                    : ends.given(s, true, force[s]) / (0.5 * length_of(s));
-    const double at_end =
-        after != s ? (force[after] - force[s]) / (0.5 * (length_of(s) + length_of(after)))
-                   : ends.given(s, false, -force[s]) / (0.5 * length_of(s));
-    stresses.push_back(0.5 * (at_begin + at_end) / perimeter);
+    const auto [begin, end] = parts_of(s);
+    double sum = 0.0;
+    if (begin > 0.0) {
+      sum += begin * (before != s ? (force[s] - force[before]) / (tied(s, 0) + tied(before, 1))
+                                  : ends.given(s, true, force[s]) / tied(s, 0));
+    }
+    if (end > 0.0) {
+      sum += end * (after != s ? (force[after] - force[s]) / (tied(s, 1) + tied(after, 0))
+                               : ends.given(s, false, -force[s]) / tied(s, 1));
+    }
+    stresses.push_back(sum == 0.0 ? 0.0 : sum / (begin + end) / perimeter);
   }
   return stresses;
 }

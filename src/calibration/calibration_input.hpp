@@ -72,6 +72,13 @@ struct CalibrationReport {
   int iterations = 0;         ///< total of conjugate-gradient iterations
   double seconds = 0.0;       ///< wall time, with the interior neighbourhoods of a lattice
   double bytes = 0.0;         ///< memory with the network; only in estimates
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(free_bonds, alike, residual_before, residual_after, moment_after, sum_after,
+            worst_particle, unmet, smallest_weight, largest_weight, at_least_weight, dropped,
+            iterations, seconds, bytes);
+  }
 };
 
 }  // namespace perilink

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -107,8 +108,9 @@ std::array<double, 2> tied_parts(const RebarLine& bar, const Vector3& begin, con
 }
 
 /// Appends the nodes of an embedded bar with their directions and lengths to the mesh.
-void note_embedded(const RebarLine& line, const std::vector<Vector3>& nodes,
-                   const std::vector<Index>& placed, Index bar, RebarMesh& mesh) {
+/// \param parts  tied_parts() of its elements
+void note_embedded(const std::vector<Vector3>& nodes, const std::vector<Index>& placed, Index bar,
+                   std::span<const std::array<double, 2>> parts, RebarMesh& mesh) {
   const std::size_t count = nodes.size(), own = mesh.embedded.size();
   const bool closed = placed.back() == placed.front();
   for (std::size_t k = 0; k < (closed ? count - 1 : count); ++k) {
@@ -118,11 +120,10 @@ void note_embedded(const RebarLine& line, const std::vector<Vector3>& nodes,
   for (std::size_t k = 0; k + 1 < count; ++k) {
     const Vector3 way = minus(nodes[k + 1], nodes[k]);
     const double length = norm(way);
-    const std::array<double, 2> parts = tied_parts(line, nodes[k], nodes[k + 1]);
     const std::size_t ends[] = {own + k, own + (closed && k + 2 == count ? 0 : k + 1)};
     for (std::size_t end : {0, 1}) {
       BarNode& node = mesh.embedded[ends[end]];
-      node.length += parts[end] * length;
+      node.length += parts[k][end] * length;
       for (int a = 0; a < 3; ++a) node.along[a] += way[a] / length;
     }
   }
@@ -181,10 +182,15 @@ RebarMesh add_rebar(Particles& particles, const std::vector<RebarLine>& bars, do
   std::size_t next = 0;
   for (std::size_t bar = 0; bar < bars.size(); ++bar) {
     const std::size_t count = nodes[bar].size();
+    const std::size_t first_element = mesh.tied_parts.size();
+    for (std::size_t k = 0; k + 1 < count; ++k) {
+      mesh.tied_parts.push_back(tied_parts(bars[bar], nodes[bar][k], nodes[bar][k + 1]));
+    }
     std::vector<Index> placed;
     if (bars[bar].embedded) {
       placed = place_embedded(particles, nodes[bar], spacing, cell_volume);
-      note_embedded(bars[bar], nodes[bar], placed, static_cast<Index>(bar), mesh);
+      note_embedded(nodes[bar], placed, static_cast<Index>(bar),
+                    std::span(mesh.tied_parts).subspan(first_element), mesh);
     } else {
       const auto first = bonded.begin() + static_cast<std::ptrdiff_t>(next);
       placed.assign(first, first + static_cast<std::ptrdiff_t>(count));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -38,6 +39,8 @@ struct RebarMesh {
   Bonds segments;
   std::vector<Index> bar_of_element;
   std::vector<std::uint8_t> turned;  ///< nonzero: the second end comes first along the bar
+  /// Parts of each bar element that the nodes at its two ends, along the bar, tie to the body [-].
+  std::vector<std::array<double, 2>> tied_parts;
   /// Bonds between bar nodes and solid particles within the horizon, sorted as Bonds; the second
   /// end is the node. A node that is a solid particle has that particle's bonds and no ties.
   Bonds ties;

@@ -52,6 +52,9 @@ struct Bars {
   std::vector<std::uint8_t> turned;  ///< nonzero: its second end comes first along the bar
   /// Perimeter of the contact with the solid [length], per bar element; empty: round bars.
   std::vector<double> perimeter = {};
+  /// Parts of each bar element that the nodes at its two ends, along the bar, tie to the solid [-];
+  /// empty: half of it each.
+  std::vector<std::array<double, 2>> tied_parts = {};
   /// Stress over strain, relative to yielding, per bar; without points: a plateau. Empty: all
   /// plateaus.
   std::vector<ForceCurve> curves = {};

@@ -83,7 +83,7 @@ TEST_F(Scan, RunsEveryMemberAsRunWouldWithItsValues) {
   for (const char* name : {"/history.csv", "/case.toml"}) {
     EXPECT_EQ(file(std::string("results/scan/0003") + name), file(std::string("single") + name));
   }
-  EXPECT_FALSE(fs::exists(work() / "results/scan/calibrations")) << "needed by members only";
+  EXPECT_FALSE(fs::exists(work() / "results/scan/.calibrations")) << "needed by members only";
 }
 
 TEST_F(Scan, SetIsForEveryMember) {

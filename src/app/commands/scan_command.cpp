@@ -38,7 +38,7 @@ struct ScanRun {
 
   fs::path place(std::size_t member) const { return directory / member_name(member); }
   /// Returns the directory of calibrations that members share, which goes when all have ended.
-  fs::path calibrations() const { return directory / "calibrations"; }
+  fs::path calibrations() const { return directory / ".calibrations"; }
 };
 
 /// Refuses common values of keys that the scan varies. \throws InputError

@@ -276,7 +276,8 @@ void DamageRun::show_progress(const StepRecord& record) {
   if (stop.displacement && *stop.displacement > 0.0) {
     done = std::max(done.value_or(0.0), std::abs(record.displacement) / *stop.displacement);
   }
-  if (const auto expected = expected_events(model_.network)) {
+  if (!expected_) expected_ = expected_events(model_.network);
+  if (const std::optional<double> expected = *expected_) {
     const double events = record.broken_bonds + record.yield_events;
     const double left = std::max(*expected - events, least_left * events);
     if (events > 0.0) done = std::max(done.value_or(0.0), events / (events + left));

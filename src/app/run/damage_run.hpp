@@ -89,6 +89,7 @@ class DamageRun final : public NetworkRun {
   void show_progress(const StepRecord& record);
 
   DamageOptions options_;
+  std::optional<std::optional<double>> expected_;  ///< expected_events(), once it was wanted
   std::unique_ptr<EventRun> run_;
   DamageResult result_;
   Records records_;

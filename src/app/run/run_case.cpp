@@ -159,8 +159,9 @@ RunEnd run_case(const CaseFile& input, const fs::path& directory, const RunSetti
   const RunOutcome run_outcome = run->run_outcome();
   attempt(run_outcome, end, [&] { run->analyse(); });
   attempt(run_outcome, end, [&] { run->files().finish(); });
+  const Timer syncing;
   attempt(run_outcome, end, [&] { sync_files(directory.string()); });
-  run->seconds.output = run->files().seconds_writing();
+  run->seconds.output = run->files().seconds_writing() + syncing.seconds();
   run->seconds.analysis += timer.seconds() - run->seconds.output;
   const bool failed = run_outcome.termination == Termination::failed;
   if (failed && calls.on_fault) calls.on_fault(run_outcome.reason);

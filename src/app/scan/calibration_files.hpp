@@ -11,16 +11,16 @@ namespace perilink {
 /// only. Several processes may share the directory.
 class CalibrationFiles final : public CalibrationStore {
  public:
-  /// \param directory  made when the first calibration is kept
-  explicit CalibrationFiles(std::filesystem::path directory) : directory_(std::move(directory)) {}
+  /// Makes the directory. \throws FileError
+  explicit CalibrationFiles(std::filesystem::path directory);
 
   /// A damaged file, or one of another version of the program, counts as none.
-  std::string find(const std::string& input) override;
-  /// \throws FileError
-  void keep(const std::string& input, const std::string& result) override;
+  std::optional<KeptCalibration> find(const std::string& key) override;
+  /// Without room for the file the result is not kept.
+  void keep(const std::string& key, const KeptCalibration& result) override;
 
  private:
-  std::string path_for(const std::string& input) const;
+  std::string path_for(const std::string& key) const;
 
   std::filesystem::path directory_;
 };

@@ -1,70 +1,87 @@
 #include "calibration/kept/kept_calibration.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <cstring>
+#include <span>
 #include <type_traits>
-#include <vector>
+#include <utility>
+
+#include "base/build_info.hpp"
 
 namespace perilink {
 namespace {
 
-template <class Value>
-void add(std::string& bytes, const Value& value) {
-  static_assert(std::is_trivially_copyable_v<Value>);
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-/// Adds the number of values, then the values. They must have no padding.
-template <class Value>
-void add(std::string& bytes, const std::vector<Value>& values) {
-  add(bytes, values.size());
-  bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value));
-}
-
-/// Returns everything that a calibration depends on.
-std::string bytes_of(const CalibrationInput& input, const CalibrationOptions& options,
-                     const Facets& facets, const BondStiffness& stiffness) {
-  std::string bytes;
-  const auto add_all = [&](const auto&... values) { (add(bytes, values), ...); };
-  const Particles& particles = input.particles;
-  add_all(particles.dim, particles.positions, particles.volumes, particles.material,
-          particles.kind);
-  const Bonds& bonds = input.bonds;
-  add_all(bonds.first, bonds.second, bonds.lengths, bonds.directions, bonds.kind);
-  add_all(input.materials, input.free, input.only_alike, input.give_up);
-  add_all(input.box.has_value(), input.step.has_value());
-  if (input.box) add_all(input.box->lower, input.box->step, input.box->count);
-  if (input.step) add_all(*input.step);
-  add_all(options.least_weight, options.tolerance);
-  add_all(facets.corners.offsets, facets.corners.values, facets.shares, facets.area_vectors,
-          facets.inside, facets.outside, facets.tied);
-  add_all(stiffness.axial, stiffness.bending, stiffness.inflection);
-  return bytes;
-}
-
-/// Takes values of add() from the front of some bytes.
-class Reader {
+/// Digest of 128 bits by FNV-1a over words of eight bytes, with the upper half folded into the
+/// lower one.
+class Digest {
  public:
-  explicit Reader(const std::string& bytes) : next_(bytes.data()) {}
-
   template <class Value>
-  void take(Value& value) {
-    copy(&value, sizeof value);
+  void add(const Value& value) {
+    add(std::span(&value, 1));
   }
   template <class Value>
-  void take(std::vector<Value>& values) {
-    std::size_t size = 0;
-    take(size);
-    values.resize(size);
-    copy(values.data(), size * sizeof(Value));
+  void add(const std::vector<Value>& values) {
+    add(values.size());
+    add(std::span(values));
+  }
+  template <class Value, std::size_t N>
+  void add(const std::array<Value, N>& values) {
+    add(std::span(values));
+  }
+  std::string text() const {
+    return fmt::format("{:016x}{:016x}", static_cast<std::uint64_t>(state_ >> 64),
+                       static_cast<std::uint64_t>(state_));
   }
 
  private:
-  void copy(void* to, std::size_t size) {
-    if (size > 0) std::memcpy(to, next_, size);
-    next_ += size;
+  __extension__ using Wide = unsigned __int128;
+
+  template <class Value, std::size_t N>
+  void add(std::span<Value, N> values) {
+    static_assert(std::is_arithmetic_v<std::remove_const_t<Value>> || std::is_enum_v<Value>,
+                  "no padding");
+    constexpr Wide prime = (Wide{1} << 88) + 0x13b;
+    const char* next = reinterpret_cast<const char*>(values.data());
+    for (std::size_t left = values.size_bytes(); left > 0;) {
+      std::uint64_t word = 0;
+      const std::size_t taken = std::min(left, sizeof word);
+      std::memcpy(&word, next, taken);
+      next += taken;
+      left -= taken;
+      state_ = (state_ ^ word) * prime;
+      state_ ^= state_ >> 64;
+    }
   }
-  const char* next_;
+
+  Wide state_ = (Wide{0x6c62272e07bb0142} << 64) + 0x62b821756295c58d;
 };
+
+/// Returns a digest of everything that a calibration depends on. Builds differ in round-off.
+std::string key_of(const CalibrationInput& input, const CalibrationOptions& options,
+                   const Facets& facets, const BondStiffness& stiffness) {
+  Digest digest;
+  const auto add = [&](const auto&... values) { (digest.add(values), ...); };
+  const std::string build = build_summary();
+  add(std::vector<char>(build.begin(), build.end()));
+  const Particles& particles = input.particles;
+  add(particles.dim, particles.positions, particles.volumes, particles.material, particles.kind);
+  const Bonds& bonds = input.bonds;
+  add(bonds.first, bonds.second, bonds.lengths, bonds.directions, bonds.kind);
+  for (const LameConstants& material : input.materials) add(material.lambda, material.mu);
+  add(input.materials.size(), input.free, input.only_alike, input.give_up);
+  add(input.box.has_value(), input.step.has_value());
+  if (input.box) add(input.box->lower, input.box->step, input.box->count);
+  if (input.step) add(*input.step);
+  add(options.least_weight, options.tolerance);
+  add(facets.corners.offsets, facets.corners.values, facets.shares, facets.area_vectors,
+      facets.inside, facets.outside, facets.tied);
+  add(stiffness.axial, stiffness.bending, stiffness.inflection);
+  return digest.text();
+}
 
 }  // namespace
 
@@ -72,25 +89,14 @@ CalibrationReport calibrate_once(CalibrationStore* store, const CalibrationInput
                                  const CalibrationOptions& options, Facets& facets,
                                  BondStiffness& stiffness) {
   if (store == nullptr) return calibrate_bonds(input, options, facets, stiffness);
-  const std::string key = bytes_of(input, options, facets, stiffness);
-  CalibrationReport report;
-  std::string result = store->find(key);
-  if (!result.empty()) {
-    Reader reader(result);
-    reader.take(report);
-    reader.take(facets.shares);
-    reader.take(stiffness.axial);
-    reader.take(stiffness.bending);
-    reader.take(stiffness.inflection);
-    return report;
+  const std::string key = key_of(input, options, facets, stiffness);
+  if (std::optional<KeptCalibration> kept = store->find(key)) {
+    facets.shares = std::move(kept->shares);
+    stiffness = std::move(kept->stiffness);
+    return kept->report;
   }
-  report = calibrate_bonds(input, options, facets, stiffness);
-  add(result, report);
-  add(result, facets.shares);
-  add(result, stiffness.axial);
-  add(result, stiffness.bending);
-  add(result, stiffness.inflection);
-  store->keep(key, result);
+  const CalibrationReport report = calibrate_bonds(input, options, facets, stiffness);
+  store->keep(key, {report, facets.shares, stiffness});
   return report;
 }
 

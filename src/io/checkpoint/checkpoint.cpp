@@ -4,6 +4,7 @@
 #include <zlib.h>
 
 #include <filesystem>
+#include <system_error>
 
 #include "base/build_info.hpp"
 #include "base/files.hpp"
@@ -47,7 +48,8 @@ void write_checkpoint(const std::string& path, const Checkpoint& checkpoint) {
 }
 
 std::optional<Checkpoint> read_checkpoint(const std::string& path) {
-  if (!std::filesystem::exists(path)) return std::nullopt;
+  std::error_code fault;
+  if (!std::filesystem::exists(path, fault)) return std::nullopt;
   const std::string bytes = read_regular_file(path, std::string::npos, 3.0);
   std::uint32_t sum = 0;
   const std::size_t begin = file_mark.size() + sizeof sum;

@@ -269,10 +269,12 @@ LaidBars lay_bars(const CaseFile& input, const Body& body) {
     copy_bars(section, bars);
     const BarMaterial material =
         material_of(section, input.analysis.type != AnalysisType::elastic, !input.stages.empty());
+    std::function<bool(const Vector3&)> inside;
+    if (section.across_gaps) inside = inside_of(input, body);
     for (const Points& points : bars) {
       RebarLine line{points.front(), points.back(), {points.begin() + 1, points.end() - 1}};
       line.embedded = section.bond != RebarBond::concrete;
-      if (section.across_gaps) line.inside = inside_of(input, body);
+      line.inside = inside;
       laid.lines.push_back(std::move(line));
       laid.materials.push_back(material);
       laid.sections.push_back(k);

@@ -141,6 +141,9 @@ std::optional<std::string> unnotched_note(const CaseFile& input, const Model& mo
       !input.cracks.empty() || !input.interfaces.empty() || !input.rebar.empty()) {
     return std::nullopt;
   }
+  // Such a plane of symmetry holds a ligament; the rest of the face is a notch.
+  const auto holds_part = [](const SymmetrySection& plane) { return !plane.region.empty(); };
+  if (std::ranges::any_of(input.symmetry, holds_part)) return std::nullopt;
   const Particles& particles = network.particles;
   const Vector3 sides = reach_of(particles, model.horizon, model.lattice.spacing).extents;
   const double box = sides[0] * sides[1] * (particles.dim == 2 ? input.body.thickness : sides[2]);
@@ -177,8 +180,8 @@ std::vector<std::string> random_notes(const NetworkInput& input, const Network& 
         word_of(random.property), random.field.seed, count, 1.0 + mean,
         std::sqrt(std::max(0.0, squares / count - mean * mean)), least, most,
         random.field.correlation_length < input.horizon
-            ? "; correlation_length is below the horizon, over which bonds average: take several "
-              "horizons"
+            ? "; correlation_length is below the horizon, over which bonds average: take at "
+              "least one horizon"
             : ""));
   }
   return notes;

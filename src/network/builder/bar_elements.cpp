@@ -284,6 +284,7 @@ void add_bars(const Body& body, const NetworkInput& input, RebarMesh mesh,
   }
   network.bars.bar = std::move(mesh.bar_of_element);
   network.bars.turned = std::move(mesh.turned);
+  network.bars.tied_parts = std::move(mesh.tied_parts);
 }
 
 }  // namespace perilink

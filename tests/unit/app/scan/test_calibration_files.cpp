@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "base/error.hpp"
 #include "base/files.hpp"
+#include "io/checkpoint/pack.hpp"
 #include "model/from_case/configure.hpp"
 #include "support/process.hpp"
 #include "support/replaced.hpp"
@@ -80,18 +82,47 @@ TEST_F(KeptCalibrations, DamagedFilesAreReplaced) {
   EXPECT_EQ(build(plane, model), 0);
 }
 
-TEST_F(KeptCalibrations, AreComparedByAllBytes) {
+TEST_F(KeptCalibrations, AreComparedByTheWholeKey) {
   CalibrationFiles files(directory());
-  files.keep("one body", "its calibration");
-  fs::create_directories(directory());
-  EXPECT_EQ(files.find("one body"), "its calibration");
-  const fs::path kept = fs::directory_iterator(directory())->path();
-  files.keep("another", "another calibration");
-  for (const auto& entry : fs::directory_iterator(directory())) {
-    if (entry.path() != kept)
-      fs::copy_file(kept, entry.path(), fs::copy_options::overwrite_existing);
+  const KeptCalibration one{{}, {1.0}, {}}, another{{}, {2.0}, {}};
+  files.keep("one body", one);
+  EXPECT_EQ(files.find("one body")->shares, one.shares);
+  files.keep("another", another);
+  fs::copy_file(directory() / "one body.calibration", directory() / "another.calibration",
+                fs::copy_options::overwrite_existing);
+  EXPECT_FALSE(files.find("another")) << "a file with the right name and another body";
+}
+
+TEST_F(KeptCalibrations, HaveTheSameBytesInEveryRun) {
+  const std::string plane = replaced(test::strip_text, "[body]\n", calibrated);
+  std::vector<std::string> contents;
+  for (int run = 0; run < 2; ++run) {
+    Model model;
+    build(plane, model);
+    const fs::path path = fs::directory_iterator(directory())->path();
+    KeptCalibration kept = *CalibrationFiles(directory()).find(path.stem().string());
+    kept.report.seconds = 0.0;
+    contents.push_back(path.stem().string() + pack(kept));
+    fs::remove(path);
   }
-  EXPECT_EQ(files.find("another"), "") << "a file with the right name and another body";
+  EXPECT_EQ(contents[0], contents[1]);
+}
+
+TEST_F(KeptCalibrations, NeedADirectory) {
+  write_whole_file((temporary_ / "file").string(), "");
+  fs::create_symlink("loop", temporary_ / "loop");
+  for (const fs::path& bad : {temporary_ / "file", temporary_ / "loop", fs::path()}) {
+    EXPECT_THROW(CalibrationFiles{bad}, FileError) << bad;
+  }
+}
+
+TEST_F(KeptCalibrations, ThatCannotBeReadOrWrittenAreMadeAgain) {
+  CalibrationFiles files(directory());
+  fs::create_symlink("key.calibration", directory() / "key.calibration");
+  EXPECT_FALSE(files.find("key"));
+  fs::remove_all(directory());
+  EXPECT_NO_THROW(files.keep("key", {}));
+  EXPECT_FALSE(files.find(std::string(300, 'k')));
 }
 
 }  // namespace

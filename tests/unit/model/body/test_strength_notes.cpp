@@ -187,7 +187,7 @@ TEST(StrengthNotes, TellTheScatterOverTheBonds) {
               testing::Contains(fmt::format(
                   "random fracture_energy with seed 4: over {} bonds the factor has mean {:.4g}, "
                   "standard deviation {:.4g}, least {:.4g}, largest {:.4g}; correlation_length is "
-                  "below the horizon, over which bonds average: take several horizons",
+                  "below the horizon, over which bonds average: take at least one horizon",
                   count, mean, std::sqrt(squares / count - mean * mean), least, most)));
 }
 

@@ -187,7 +187,7 @@ class Relaxation {
                       result_.error, options_.tolerance));
     }
     const bool checks = iteration_ % iterations_between_checks == 0;
-    if ((checks || ends) && !is_due && options_.strain == Strain::small &&
+    if ((checks || ends) && !next_.restart && !is_due && options_.strain == Strain::small &&
         separation_.is_mechanism(all.work, factor_, all.stiffness)) {
       collapse(fmt::format("a mechanism: the loads move the part at ({}) without resistance",
                            joined(body_.network.particles.position(moved_most()))));
