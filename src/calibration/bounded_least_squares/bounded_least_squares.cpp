@@ -37,12 +37,12 @@ constexpr double at_bound = 1e-3;
 /// of points.
 constexpr double near_the_end = 1e-4;
 
-template <class Normal>
 class DualNewton {
  public:
   using Vector = std::vector<double>;  // shape (points, rows)
 
-  DualNewton(const PointEquations& equations, const LeastSquaresOptions& options, Normal& normal)
+  DualNewton(const PointEquations& equations, const LeastSquaresOptions& options,
+             NormalSystem& normal)
       : equations_(equations),
         options_(options),
         normal_(normal),
@@ -67,7 +67,7 @@ class DualNewton {
 
   const PointEquations& equations_;
   const LeastSquaresOptions& options_;
-  Normal& normal_;
+  NormalSystem& normal_;
   std::vector<double> elongation_;  // A' y
   std::vector<double> weights_;
   Vector residual_;
@@ -76,8 +76,7 @@ class DualNewton {
 
 /// Computes the weights of a dual vector and their part of the dual function. Weights between the
 /// bounds are active.
-template <class Normal>
-double DualNewton<Normal>::choose_weights(const Vector& y) {
+double DualNewton::choose_weights(const Vector& y) {
   normal_.apply_transpose(y, elongation_);
   double charge = 0.0;
   for (std::size_t v = 0; v < weights_.size(); ++v) {
@@ -92,8 +91,7 @@ double DualNewton<Normal>::choose_weights(const Vector& y) {
   return charge;
 }
 
-template <class Normal>
-double DualNewton<Normal>::dual(const Vector& y) {
+double DualNewton::dual(const Vector& y) {
   double value = -choose_weights(y);
   for (std::size_t k = 0; k < y.size(); ++k) {
     const double ridge = equations_.ridge_of(k % rows());
@@ -108,8 +106,7 @@ double DualNewton<Normal>::dual(const Vector& y) {
 /// round-off: then until the residual, its gradient, shrinks. Multipliers of infeasible equations
 /// would go to infinity, so the penalty limits the step.
 /// \return length of the step over the first length tried
-template <class Normal>
-double DualNewton<Normal>::search_line(const Vector& residual, const Vector& direction, Vector& y) {
+double DualNewton::search_line(const Vector& residual, const Vector& direction, Vector& y) {
   const double before = dual(y);
   const double slope = dot(residual, direction);
   Vector trial(y.size()), rest;
@@ -132,8 +129,7 @@ double DualNewton<Normal>::search_line(const Vector& residual, const Vector& dir
 
 /// Newton's method on the dual function, from the multipliers y.
 /// \param most  norm of the residual, over its value at the start, at which the method has diverged
-template <class Normal>
-void DualNewton<Normal>::ascend(Vector y, double target, double most) {
+void DualNewton::ascend(Vector y, double target, double most) {
   Vector direction;
   choose_weights(y);
   normal_.measure(weights_, y, residual_);
@@ -177,8 +173,7 @@ void DualNewton<Normal>::ascend(Vector y, double target, double most) {
 }
 
 /// Returns the norm of the residuals of the exact equations.
-template <class Normal>
-double DualNewton<Normal>::left() {
+double DualNewton::left() {
   normal_.measure(weights_, Vector(residual_.size(), 0.0), residual_);
   double sum = 0.0;
   for (std::size_t k = 0; k < residual_.size(); ++k) {
@@ -189,16 +184,14 @@ double DualNewton<Normal>::left() {
 
 /// Continues by Newton's method after the interior-point method. Keeps the weights of the latter
 /// where the residual grows, as with infeasible equations.
-template <class Normal>
-void DualNewton<Normal>::finish(const Vector& y, double target) {
+void DualNewton::finish(const Vector& y, double target) {
   const std::vector<double> interior = weights_;
   const double reached = left();
   ascend(y, target, diverged);
   if (!result_.converged && left() > reached) weights_ = interior;
 }
 
-template <class Normal>
-LeastSquaresResult DualNewton<Normal>::solve() {
+LeastSquaresResult DualNewton::solve() {
   const double target = options_.tolerance * root_of_points();
   if (options_.method == Method::newton) {
     ascend(options_.start.empty() ? Vector(residual_.size(), 0.0) : options_.start, target);
@@ -206,7 +199,7 @@ LeastSquaresResult DualNewton<Normal>::solve() {
     // Newton's method refines the result, but not with penalties, where it diverges between their
     // kinks.
     const bool finished = std::isfinite(options_.penalty) || options_.tolerance >= rough;
-    InteriorPoint<Normal> interior(equations_, normal_, options_);
+    InteriorPoint interior(equations_, normal_, options_);
     result_.converged = interior.solve(finished ? target : rough * root_of_points(),
                                        options_.iterations, result_.iterations);
     normal_.regularisation = 0.0;
@@ -217,8 +210,7 @@ LeastSquaresResult DualNewton<Normal>::solve() {
   return result_;
 }
 
-template <class Normal>
-void DualNewton<Normal>::report() {
+void DualNewton::report() {
   for (std::size_t v = 0; v < weights_.size(); ++v) {
     result_.at_lower += weights_[v] <= equations_.lower[v] + at_bound;
   }
@@ -235,9 +227,8 @@ void DualNewton<Normal>::report() {
 template <int Rows, int Odd, bool Grouped>
 LeastSquaresResult solve(const PointEquations& equations, const LeastSquaresOptions& options,
                          KeptPreconditioner& kept) {
-  using Normal = NormalEquations<Rows, Odd, Grouped>;
-  Normal normal(equations, options, kept);
-  return DualNewton<Normal>(equations, options, normal).solve();
+  NormalEquations<Rows, Odd, Grouped> normal(equations, options, kept);
+  return DualNewton(equations, options, normal).solve();
 }
 
 LeastSquaresResult solve_reduced(PointEquations equations, const LeastSquaresOptions& options,
@@ -245,8 +236,7 @@ LeastSquaresResult solve_reduced(PointEquations equations, const LeastSquaresOpt
   const ReducedEquations reduced = reduce(equations, kept.independent_rows);
   equations = {};
   ReducedNormalEquations normal(reduced, kept.reduced);
-  LeastSquaresResult change =
-      DualNewton<ReducedNormalEquations>(reduced.equations, options, normal).solve();
+  LeastSquaresResult change = DualNewton(reduced.equations, options, normal).solve();
   change.weights = reduced.weights(change.weights);
   return change;
 }

@@ -14,22 +14,22 @@
 #include "calibration/bounded_least_squares/equations/point_equations.hpp"
 #include "calibration/bounded_least_squares/equations/variable_parts.hpp"
 #include "calibration/bounded_least_squares/kept_preconditioner.hpp"
+#include "calibration/bounded_least_squares/normal_system.hpp"
 #include "calibration/bounded_least_squares/packed_product.hpp"
 #include "calibration/bounded_least_squares/system_product.hpp"
 
 namespace perilink {
 
-/// The matrices A, A' and S = A D A' + ridge of bounded_least_squares() and conjugate gradients for
-/// S. A holds scaled equations by weights; the active-set weights D of the variables are between 0
-/// (at a bound) and 1.
+/// NormalSystem of equations at points, by conjugate gradients.
+/// \tparam Rows  equations per point
+/// \tparam Odd  the first of them, of opposite sign at the two ends of a variable
+/// \tparam Grouped  whether the last equation of a point is shared by its group
 template <int Rows, int Odd, bool Grouped>
-class NormalEquations {
+class NormalEquations final : public NormalSystem {
  public:
-  using Vector = std::vector<double>;  // shape (points, Rows)
-
   NormalEquations(const PointEquations& equations, const LeastSquaresOptions& options,
                   KeptPreconditioner& kept)
-      : active_weight(static_cast<std::size_t>(equations.num_variables()), 1.0),
+      : NormalSystem(static_cast<std::size_t>(equations.num_variables())),
         equations_(equations),
         options_(options),
         size_(equations.right.size()),
@@ -50,36 +50,16 @@ class NormalEquations {
     }
   }
 
-  void apply_transpose(const Vector& y, std::vector<double>& result);
-  void apply(const std::vector<double>& w, Vector& result) const;
-  double penalty() const { return options_.penalty; }
-  bool has_penalty(std::size_t k) const {
-    return std::isfinite(penalty()) && equations_.ridge_of(k % Rows) == 0.0;
+  void apply_transpose(const Vector& y, std::vector<double>& result) override;
+  void measure(const std::vector<double>& weights, const Vector& y,
+               Vector& residual) const override;
+  void prepare() override;
+  void prepare_if_stale(bool settled, bool last) override;
+  int solve(const Vector& residual, double reduction, Vector& direction) override;
+  double penalty() const override { return options_.penalty; }
+  bool has_penalty(std::size_t k) const override {
+    return std::isfinite(options_.penalty) && equations_.ridge_of(k % Rows) == 0.0;
   }
-  /// Returns the relaxation of equation k: the excess of its multiplier y over the penalty.
-  double relaxation(std::size_t k, double y) const {
-    if (!has_penalty(k) || std::abs(y) <= penalty()) return 0.0;
-    return y > 0.0 ? y - penalty() : y + penalty();
-  }
-  /// Computes the residual of the weights minus ridge times y and the relaxations.
-  void measure(const std::vector<double>& weights, const Vector& y, Vector& residual) const;
-  /// Makes the preconditioner for the present active-set weights. Keeps an earlier factor while
-  /// this takes less time than a new one.
-  void prepare();
-  /// Makes the preconditioner, but keeps an earlier factor until it needs too many iterations.
-  /// \param settled  the active weights are unchanged since the last step
-  /// \param last  the step must satisfy the equations
-  void prepare_if_stale(bool settled, bool last);
-  /// Solves S direction = residual until the residual is reduced by the factor. \return iterations
-  int solve(const Vector& residual, double reduction, Vector& direction);
-
-  std::vector<double> active_weight;
-  /// Compliance of exact equations, relaxation per unit of the multiplier, shape (points, Rows);
-  /// empty where no equation has a penalty.
-  Vector compliance;
-  /// Proximal regularisation, relative to equations of order one: infeasible residuals decay in
-  /// each step by this over the smallest squared singular value. 0: the least value.
-  double regularisation = 0.0;
 
  private:
   using Block = Eigen::Matrix<double, Rows, Rows>;
@@ -108,6 +88,7 @@ class NormalEquations {
   auto& last_row(Values& values, Index point) const {
     return values[static_cast<std::size_t>(equations_.group[point]) * Rows + own];
   }
+  void apply(const std::vector<double>& w, Vector& result) const;
   bool threads_share() const { return packed_ && size_ / Rows > points_for_threads; }
   void add_forces(const std::vector<double>& w, std::size_t begin, std::size_t end,
                   Vector& result) const;

@@ -41,7 +41,7 @@ constexpr double least_of_stale = 10.0;
 
 ReducedNormalEquations::ReducedNormalEquations(const ReducedEquations& reduced,
                                                std::unique_ptr<ReducedFactor>& kept)
-    : active_weight(reduced.root.size(), 1.0),
+    : NormalSystem(reduced.root.size()),
       reduced_(reduced),
       transposed_(reduced.matrix.transpose()),
       regularisation_(reduced.independent ? independent_regularisation : least_regularisation),
@@ -55,7 +55,7 @@ ReducedNormalEquations::ReducedNormalEquations(const ReducedEquations& reduced,
   if (factor_) factor_->sort(transposed_);
 }
 
-void ReducedNormalEquations::apply_transpose(const Vector& y, std::vector<double>& result) const {
+void ReducedNormalEquations::apply_transpose(const Vector& y, std::vector<double>& result) {
   Column product;
   multiply(transposed_, map(y), product);
   result.assign(product.begin(), product.end());

@@ -6,41 +6,29 @@
 
 #include <Eigen/Dense>
 
+#include "calibration/bounded_least_squares/normal_system.hpp"
 #include "calibration/bounded_least_squares/symmetry_reduced/reduced_equations.hpp"
 #include "calibration/bounded_least_squares/symmetry_reduced/reduced_factor.hpp"
 
 namespace perilink {
 
-/// The counterpart of NormalEquations for symmetry-reduced variables. The matrices are small but
-/// full, and symmetry makes some rows linearly dependent. A factor preconditions the conjugate
-/// gradients and is renewed when it needs too many iterations.
-class ReducedNormalEquations {
+/// NormalSystem of symmetry-reduced variables. The matrices are small but full, and symmetry makes
+/// some rows linearly dependent. A factor preconditions the conjugate gradients and is renewed when
+/// it needs too many iterations. Only lattices are symmetry-reduced: no equation has a penalty, and
+/// the regularisation stays zero.
+class ReducedNormalEquations final : public NormalSystem {
  public:
-  using Vector = std::vector<double>;  // shape (points, rows)
-
   /// \param kept  holds the factor for the next problem
   ReducedNormalEquations(const ReducedEquations& reduced, std::unique_ptr<ReducedFactor>& kept);
 
-  void apply_transpose(const Vector& y, std::vector<double>& result) const;
-  /// Computes the residual of the unknowns minus ridge times y.
-  void measure(const std::vector<double>& unknowns, const Vector& y, Vector& residual) const;
-  /// Makes the factor for the present active-set weights.
-  void prepare();
-  void prepare_if_stale(bool settled, bool last);
-  /// Solves S direction = residual until the residual is reduced by the factor. Renews a stale
-  /// preconditioner where continuing would take longer, estimated from the last or the present
-  /// solution.
-  /// \return iterations
-  int solve(const Vector& residual, double reduction, Vector& direction);
-
-  /// Symmetry-reduced equations have no penalty.
-  static constexpr double penalty() { return std::numeric_limits<double>::infinity(); }
-  static constexpr bool has_penalty(std::size_t) { return false; }
-  static constexpr double relaxation(std::size_t, double) { return 0.0; }
-
-  std::vector<double> active_weight;
-  Vector compliance;            // stays empty
-  double regularisation = 0.0;  // stays zero: only lattices are symmetry-reduced
+  void apply_transpose(const Vector& y, std::vector<double>& result) override;
+  void measure(const std::vector<double>& unknowns, const Vector& y,
+               Vector& residual) const override;
+  void prepare() override;
+  void prepare_if_stale(bool settled, bool last) override;
+  int solve(const Vector& residual, double reduction, Vector& direction) override;
+  double penalty() const override { return std::numeric_limits<double>::infinity(); }
+  bool has_penalty(std::size_t) const override { return false; }
 
  private:
   const ReducedEquations& reduced_;
