@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
 #include "support/small_networks.hpp"
 
 namespace perilink {
@@ -37,6 +39,14 @@ TEST(KeepElements, TakesBondsOutOfEveryList) {
     EXPECT_EQ(network.bending[e], whole.stiffness[kept[e]]);
     EXPECT_EQ(network.bending_ratio[e], whole.stiffness[kept[e]]);
   }
+}
+
+/// A list that is too long belongs to other elements: its values would go to the wrong ones.
+TEST(KeepElements, RefusesListsLongerThanTheBonds) {
+  Network network;
+  network.stiffness = {1.0, 2.0, 3.0};
+  const std::vector<std::uint8_t> keep;
+  EXPECT_THROW(keep_elements(network, keep), std::logic_error);
 }
 
 }  // namespace

@@ -61,6 +61,7 @@ TEST_P(RepeatedBoxes, AreThoseThatAreMadeInOnePiece) {
   const Body body = make_body(input_of(GetParam()));
   NetworkInput input = network_of(GetParam());
   input.cracks.push_back({{{0.0, 0.0, 1.03}, {1.0, 0.0, 1.03}, {1.0, 0.35, 1.03}}});
+  input.cracks.back().closes = true;
   ASSERT_TRUE(repeats_smaller_box(body, input));
   const Network whole = build_network(body, in_one_piece(input));
   const Network repeated = build_network(body, input);
@@ -76,6 +77,7 @@ TEST_P(RepeatedBoxes, AreThoseThatAreMadeInOnePiece) {
   EXPECT_EQ(repeated.cut_by_crack, whole.cut_by_crack);
   EXPECT_GT(repeated.cut_by_crack.front(), 0);
   expect_same(repeated.stiffness, whole.stiffness);
+  EXPECT_GT(repeated.num_contacts, 0);
   expect_same(repeated.critical_stretch, whole.critical_stretch);
   expect_same(repeated.bending, whole.bending);
   expect_same(repeated.bending_ratio, whole.bending_ratio);
