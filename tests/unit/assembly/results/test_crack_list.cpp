@@ -63,7 +63,8 @@ TEST_F(CrackListTest, CracksAreListedWithPlaceLengthDirectionAndOpeningTheWidest
     EXPECT_NEAR(crack.mean_opening, opening, 1e-2 * opening);
     EXPECT_NEAR(crack.widest_at[0], at, 0.25);
     ASSERT_TRUE(crack.face_opening);
-    EXPECT_NEAR(*crack.face_opening, opening, 1e-2 * opening);
+    // At a face the bonds of a particle lie on one side, and their axes turn by a few degrees.
+    EXPECT_NEAR(*crack.face_opening, opening, 2e-2 * opening);
     EXPECT_FALSE(crack.bar);
   }
   EXPECT_EQ(cracks[0].bonds, cracks[1].bonds);
