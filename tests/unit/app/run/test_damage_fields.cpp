@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/files.hpp"
 #include "support/replaced.hpp"
 #include "support/softening_strips.hpp"
 #include "support/strip_case.hpp"
@@ -160,11 +161,11 @@ TEST(CrackTable, WidthsAreTheImposedDisplacementWithoutTheElasticPart) {
     EXPECT_NEAR(std::abs(cracks[0]["normal"][0].get<double>()), 1.0, 1e-3);
 
     const std::string last = run.series().back().file;
-    const CsvTable table =
-        read_csv((run.work / ("cracks_" + last.substr(7, last.size() - 11) + ".csv")).string());
-    ASSERT_EQ(table.rows.size(), 1u);
-    EXPECT_EQ(table.rows[0][static_cast<std::size_t>(table.column("largest_opening"))],
-              cracks[0]["largest_opening"].get<double>());
+    const std::string table = read_regular_file(
+        (run.work / ("cracks_" + last.substr(7, last.size() - 11) + ".csv")).string());
+    EXPECT_EQ(std::ranges::count(table, '\n'), 2);
+    EXPECT_THAT(
+        table, testing::HasSubstr(fmt::format(",{},", cracks[0]["largest_opening"].get<double>())));
     EXPECT_FALSE(std::filesystem::exists(run.work / "cracks_000001.csv")) << "no crack yet";
     const auto cells = [&](std::size_t file) {
       const VtuGrid grid = run.fields(file);
