@@ -206,6 +206,14 @@ void add_hosts(VtuGrid& grid, const Particles& particles, const Hosts& hosts,
   }
 }
 
+void add_body_cells(VtuGrid& grid, const Csr& corners, int dim) {
+  for (Index k = 0; k < corners.rows(); ++k) {
+    const auto cell = corners.row(k);
+    append_cell(grid, cell_of(static_cast<std::size_t>(dim), cell.size()), cell, FieldElement::body,
+                0.0);
+  }
+}
+
 void number_cracks(VtuGrid& grid, std::span<const Index> cracked) {
   for (VtuArray& field : grid.cell_data) {
     if (field.name != "broken_at") continue;

@@ -21,6 +21,7 @@ enum class FieldElement {
   rebar_segment = 2,
   cell = 3,
   host = 4,  ///< finite element that constrains particles
+  body = 5,  ///< between neighbouring particles
 };
 
 /// State of a run in a field file.
@@ -75,6 +76,10 @@ void add_openings(VtuGrid& grid, const Network& network, const CrackOpenings& op
 /// \param whole  per element, whether it is an active host
 void add_hosts(VtuGrid& grid, const Particles& particles, const Hosts& hosts,
                std::span<const std::uint8_t> whole);
+
+/// Adds the cells between neighbouring particles, for views of surfaces and contours.
+/// \param corners  body_cells()
+void add_body_cells(VtuGrid& grid, const Csr& corners, int dim);
 
 /// Sets `broken_at` of the vertices of cracked particles, in runs without bond breaking.
 /// \param cracked  particles, in order of cracking

@@ -30,7 +30,9 @@ bool is_result_file(const std::string& name) {
     if (name == known) return true;
   }
   if (name.starts_with("error_")) return name.ends_with(".svg");
-  if (name.starts_with("bars_") || name.starts_with("reactions_")) return name.ends_with(".csv");
+  if (name.starts_with("bars_") || name.starts_with("cracks_") || name.starts_with("reactions_")) {
+    return name.ends_with(".csv");
+  }
   if (!name.starts_with("fields_")) return false;
   return name.ends_with(".vtu") || name.ends_with(".svg");
 }

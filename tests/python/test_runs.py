@@ -55,6 +55,11 @@ class Runs(unittest.TestCase):
         self.assertTrue(np.all(broken[:, 0] < broken[:, 1]))
         self.assertEqual(len(result.broken_bonds(result.steps[0])), 0)
         self.assertEqual(result.reactions()[-1]["place"], "sum")
+        crack, = result.cracks()[:1]
+        self.assertEqual(crack["largest_opening"], result.summary["cracks"][0]["largest_opening"])
+        self.assertEqual(result.cracks(result.steps[0]), [])
+        self.assertLessEqual(set(result.summary["cracks"][0]),
+                             set(perilink.summary.Crack.__annotations__))
         with self.assertRaisesRegex(ValueError, "has no fields"):
             result.fields(-5)
 

@@ -139,7 +139,7 @@ ElasticResult solve_elastic(const Network* network, const Unknowns& unknowns, co
 
 /// Makes a solver from the factor of the matrix that assemble() returns.
 template <class Assemble>
-auto by_factor(const Unknowns& unknowns, const Particles* particles, int threads, Assemble assemble,
+auto by_factor(const Unknowns& unknowns, const Network* network, int threads, Assemble assemble,
                const InternalForceOf& internal_of) {
   return [=, &unknowns, &internal_of](ElasticResult& result) {
     Timer timer;
@@ -147,7 +147,7 @@ auto by_factor(const Unknowns& unknowns, const Particles* particles, int threads
     result.seconds.assembly += timer.seconds();
     timer.restart();
     const std::shared_ptr<Factor> factor = make_factor(FactorRoute::in_place, threads);
-    factorize_stiffness(*factor, stiffness, unknowns, particles, internal_of);
+    factorize_stiffness(*factor, stiffness, unknowns, network, internal_of);
     result.seconds.factorization = timer.seconds();
     result.factor = factor->statistics();
     return [factor](std::span<const double> right, std::span<double> solution) {
@@ -221,7 +221,7 @@ ElasticResult run_elastic_analysis(const LoadedNetwork& problem, const ElasticOp
                                                        options.subdomains);
             }))
           : solve(by_factor(
-                unknowns, &network.particles, options.threads,
+                unknowns, &network, options.threads,
                 [&] { return assemble_stiffness(network, secants, unknowns); }, internal_of));
   std::tie(result.secants, result.axial) = std::move(closed);
   return result;

@@ -53,6 +53,8 @@ constexpr auto endings = std::to_array<Ending>({
     {"from", "L"},
     {"to", "L"},
     {"widest_at", "L"},
+    {"middle", "L"},
+    {"length", "L"},
     {"buffer_zone", "L"},
     {"area", "L²"},
     {"volume", "L³"},

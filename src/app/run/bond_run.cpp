@@ -17,6 +17,8 @@
 #include "model/reactions.hpp"
 #include "network/builder/free_bodies.hpp"
 #include "results/bar_file.hpp"
+#include "results/body_cells.hpp"
+#include "results/crack_file.hpp"
 
 namespace perilink {
 namespace {
@@ -85,6 +87,12 @@ void MovingBondsRun::write_state(const ExplicitRecord& record, const BondRunStat
                         bonds_break ? state.broken : std::vector<Index>{}, neighbourhoods_);
     if (bonds_break) {
       add_forces_and_cracks(grid, record, state, motion);
+      if (input.output.body_cells) {
+        add_body_cells(grid,
+                       body_cells(model_.network, model_.lattice, model_.cells, neighbourhoods_,
+                                  state.bonds.secants()),
+                       model_.network.dim());
+      }
       return grid;
     }
     number_cracks(grid, state.broken);
@@ -102,7 +110,10 @@ void MovingBondsRun::add_forces_and_cracks(VtuGrid& grid, const ExplicitRecord& 
   const std::vector<double> secants = state.bonds.secants();
   const CrackOpenings openings = crack_openings(model_.network, neighbourhoods_, secants, motion);
   add_openings(grid, model_.network, openings, state.broken);
-  cracks_ = widest_cracks(model_.network, openings);
+  cracks_ = list_cracks(model_.network, neighbourhoods_, openings, model_.lattice.spacing);
+  if (!cracks_.empty()) {
+    files_->write_table("cracks", record.step, crack_table(cracks_, model_.network.dim()));
+  }
   if (input.analysis.strain == Strain::green) return;
   add_stresses(grid, particle_stresses(stress_input(model_, neighbourhoods_, secants), motion),
                model_.network.dim());

@@ -7,6 +7,8 @@
 #include "discretization/bonds.hpp"
 #include "model/gauges.hpp"
 #include "results/bar_file.hpp"
+#include "results/body_cells.hpp"
+#include "results/crack_file.hpp"
 
 /// \file
 /// Field files of a damage run: those of the last row, and of the peak.
@@ -70,9 +72,14 @@ VtuGrid DamageRun::fields_of(const StepRecord& record, const StepState& state, b
                  network.dim());
     const CrackOpenings openings = crack_openings(network, neighbourhoods_, state.secants, motion);
     add_openings(grid, network, openings, broken);
+    const std::vector<GrownCrack> cracks =
+        list_cracks(network, neighbourhoods_, openings, model_.lattice.spacing);
+    if (!cracks.empty()) {
+      files_->write_table("cracks", record.step, crack_table(cracks, network.dim()));
+    }
     if (is_last) {
       note_compression(record, grid);
-      records_.cracks = widest_cracks(network, openings);
+      records_.cracks = cracks;
     }
   }
   write_reactions(record, places_held_, model_state(record, state), records_.balance);
@@ -82,6 +89,12 @@ VtuGrid DamageRun::fields_of(const StepRecord& record, const StepState& state, b
     files_->write_table("bars", record.step, bar_table(network, bars));
   }
   if (model_.embedded) add_hosts(grid, network.particles, model_.embedded->hosts, state.whole);
+  if (input.output.body_cells) {
+    add_body_cells(
+        grid,
+        body_cells(model_.network, model_.lattice, model_.cells, neighbourhoods_, state.secants),
+        network.dim());
+  }
   return grid;
 }
 

@@ -51,7 +51,7 @@ class DamageRun final : public NetworkRun {
     double highest = 0.0;             ///< |load| so far
     std::vector<double> gauges;       ///< of the last row
     std::vector<double> set_factors;  ///< per set of Model::sets, in the last row
-    std::vector<ToldCrack> cracks;    ///< in the last field file
+    std::vector<GrownCrack> cracks;   ///< in the last field file
     std::vector<HighRow> high_rows;
     PeakStates peaks;
     Index written_peak = 0;   ///< row of the fields written as those of the peak so far; 0: none

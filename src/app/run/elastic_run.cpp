@@ -9,6 +9,7 @@
 #include "model/from_case/separated_body.hpp"
 #include "model/gauges.hpp"
 #include "results/bar_file.hpp"
+#include "results/body_cells.hpp"
 
 namespace perilink {
 namespace {
@@ -95,6 +96,11 @@ class ElasticRun final : public NetworkRun {
         neighbourhoods = bonds_of_particles(model_.network.bonds, model_.network.particles.size());
       }
       VtuGrid grid = make_grid(model_, neighbourhoods, secants, displacement, bars, moment);
+      if (input.output.body_cells) {
+        add_body_cells(
+            grid, body_cells(model_.network, model_.lattice, model_.cells, neighbourhoods, secants),
+            model_.network.dim());
+      }
       neighbourhoods = {};  // frees memory before the file is written
       return grid;
     });

@@ -62,8 +62,9 @@ void RunFiles::remove_later_files() const {
       constexpr std::size_t before = std::string_view("fields_").size();
       const std::string step =
           entry.file.substr(before, entry.file.size() - before - std::string_view(".vtu").size());
-      return name == entry.file || name == "bars_" + step + ".csv" ||
-             name == "reactions_" + step + ".csv";
+      return name == entry.file || std::ranges::any_of(tables, [&](const char* kind) {
+               return name == fmt::format("{}_{}.csv", kind, step);
+             });
     });
   };
   for (const auto& entry : std::filesystem::directory_iterator(directory_)) {
@@ -71,8 +72,10 @@ void RunFiles::remove_later_files() const {
     const std::size_t begin = name.find('_') + 1, end = name.find_first_not_of("0123456789", begin);
     const bool is_numbered = begin > 0 && end != std::string::npos && end >= begin + 6;
     const std::string kind = name.substr(0, begin), suffix = is_numbered ? name.substr(end) : "";
-    const bool is_field_file = (kind == "fields_" && suffix == ".vtu") ||
-                               ((kind == "bars_" || kind == "reactions_") && suffix == ".csv");
+    const bool is_table = suffix == ".csv" && std::ranges::any_of(tables, [&](const char* table) {
+                            return kind == std::string(table) + "_";
+                          });
+    const bool is_field_file = (kind == "fields_" && suffix == ".vtu") || is_table;
     if (is_field_file && !is_known(name)) std::filesystem::remove(entry.path());
   }
 }

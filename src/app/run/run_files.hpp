@@ -68,7 +68,7 @@ class RunFiles {
   void remove_fields(Index step);
   /// Writes KIND_STEP.csv next to the field file; KIND is one of `tables`.
   void write_table(const char* kind, Index step, const std::string& text);
-  static constexpr std::array<const char*, 2> tables = {"bars", "reactions"};
+  static constexpr std::array<const char*, 3> tables = {"bars", "cracks", "reactions"};
   /// Updates the progress bar, unless it was drawn a moment ago.
   /// \param steps  number of steps of the whole run
   void show_steps(const ExplicitRecord& record, Index steps);

@@ -110,33 +110,27 @@ std::string cells_text(const Network& network) {
 
 }  // namespace
 
-std::vector<ToldCrack> widest_cracks(const Network& network, const CrackOpenings& openings) {
-  std::vector<ToldCrack> told;
-  for (std::size_t k = 0; k < std::min(most_cracks, openings.cracks.size()); ++k) {
-    ToldCrack& crack = told.emplace_back(ToldCrack{openings.cracks[k], {}});
-    const Index widest = crack.state.widest;
-    const auto first = network.particles.position(network.bonds.first[widest]);
-    const auto second = network.particles.position(network.bonds.second[widest]);
-    for (std::size_t a = 0; a < first.size(); ++a) {
-      crack.at.push_back(0.5 * (first[a] + second[a]));
-    }
-  }
-  return told;
-}
-
-void tell_cracks(Summary& summary, const std::vector<ToldCrack>& cracks) {
-  for (const ToldCrack& crack : cracks) {
-    summary.json["cracks"].push_back({{"bonds", crack.state.bonds},
-                                      {"mean_opening", crack.state.mean},
-                                      {"largest_opening", crack.state.largest},
-                                      {"widest_at", crack.at}});
+void tell_cracks(Summary& summary, std::span<const GrownCrack> cracks) {
+  for (const GrownCrack& crack : cracks.first(std::min(most_cracks, cracks.size()))) {
+    nlohmann::ordered_json& told = summary.json["cracks"].emplace_back();
+    told = {{"bonds", crack.bonds},
+            {"middle", crack.middle},
+            {"length", crack.length},
+            {"normal", crack.normal},
+            {"mean_opening", crack.mean_opening},
+            {"largest_opening", crack.largest_opening},
+            {"widest_at", crack.widest_at}};
+    if (crack.face_opening) told["face_opening"] = *crack.face_opening;
+    if (crack.bar) told["bar"] = *crack.bar + 1;
+    if (crack.bar) told["bar_opening"] = crack.bar_opening;
   }
   if (cracks.empty()) return;
-  const ToldCrack& first = cracks.front();
-  summary.line("cracks",
-               "the largest has {} and a largest opening of {:.4g}, at "
-               "({})",
-               counted(first.state.bonds, "damaged bond"), first.state.largest, joined(first.at));
+  const GrownCrack& widest = cracks.front();
+  summary.line(
+      "cracks", "{}; the widest opens by {:.4g} at ({}), is {:.4g} long{}{}", cracks.size(),
+      widest.largest_opening, joined(widest.widest_at), widest.length,
+      widest.face_opening ? fmt::format(", {:.4g} wide at the face", *widest.face_opening) : "",
+      widest.bar ? fmt::format(", {:.4g} at bar {}", widest.bar_opening, *widest.bar + 1) : "");
 }
 
 void tell_body(Summary& summary, const Model& model, const std::string& more) {

@@ -4,13 +4,14 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "analysis/dynamics/explicit_run.hpp"
 #include "analysis/quasistatic/load_curve.hpp"
 #include "app/run/run_files.hpp"
-#include "assembly/results/crack_state.hpp"
+#include "assembly/results/crack_list.hpp"
 #include "model/model.hpp"
 
 namespace perilink {
@@ -61,22 +62,8 @@ struct MotionExtras {
 void tell_motion(Summary& summary, const CaseFile& input, const RunFiles& files,
                  const ExplicitResult& result, const MotionExtras& extras);
 
-/// A crack in the summary.
-struct ToldCrack {
-  CrackState state;
-  std::vector<double> at;  ///< middle of its widest bond, size dim [length]
-
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive(state, at);
-  }
-};
-
-/// Returns the cracks with the most bonds, ten at most.
-std::vector<ToldCrack> widest_cracks(const Network& network, const CrackOpenings& openings);
-
-/// Reports cracks; does nothing without cracks.
-void tell_cracks(Summary& summary, const std::vector<ToldCrack>& cracks);
+/// Reports the widest of the grown cracks, ten at most; does nothing without cracks.
+void tell_cracks(Summary& summary, std::span<const GrownCrack> cracks);
 
 /// Reports the numbers of particles and bonds of a model, and its calibration.
 /// \param more  end of the line, ", 60 unknowns"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "base/joined_parts.hpp"
 #include "material/principal_values.hpp"
 
 namespace perilink {
@@ -48,35 +47,7 @@ double opening_of(const Network& network, const Csr& neighbourhoods, Secants sec
   return std::max(0.0, opening);
 }
 
-/// Returns the number of the connected set of each bond; sets are numbered in the order of their
-/// first bonds.
-std::vector<Index> connected_sets(const Network& network, std::span<const Index> bonds) {
-  JoinedParts parts(network.particles.size());
-  for (const Index e : bonds) parts.join(network.bonds.first[e], network.bonds.second[e]);
-  std::vector<Index> number(static_cast<std::size_t>(network.particles.size()), no_index), sets;
-  Index count = 0;
-  for (const Index e : bonds) {
-    Index& own = number[parts.find(network.bonds.first[e])];
-    if (own == no_index) own = count++;
-    sets.push_back(own);
-  }
-  return sets;
-}
-
 }  // namespace
-
-CrackState summed_up(const CrackOpenings& openings, std::span<const std::size_t> places) {
-  CrackState state;
-  for (const std::size_t k : places) {
-    ++state.bonds;
-    state.mean += openings.opening[k];
-    if (state.widest != no_index && !(openings.opening[k] > state.largest)) continue;
-    state.largest = openings.opening[k];
-    state.widest = openings.bonds[k];
-  }
-  if (state.bonds > 0) state.mean /= state.bonds;
-  return state;
-}
 
 CrackOpenings crack_openings(const Network& network, const Csr& neighbourhoods, Secants secants,
                              std::span<const double> motion) {
@@ -85,19 +56,6 @@ CrackOpenings crack_openings(const Network& network, const Csr& neighbourhoods, 
     if (secants.axial(e) > half_of_stiffness) continue;
     openings.bonds.push_back(e);
     openings.opening.push_back(opening_of(network, neighbourhoods, secants, motion, e));
-  }
-  const std::vector<Index> sets = connected_sets(network, openings.bonds);
-  std::vector<std::vector<std::size_t>> members;
-  for (std::size_t k = 0; k < sets.size(); ++k) {
-    members.resize(std::max(members.size(), static_cast<std::size_t>(sets[k]) + 1));
-    members[sets[k]].push_back(k);
-  }
-  std::stable_sort(members.begin(), members.end(),
-                   [](const auto& a, const auto& b) { return a.size() > b.size(); });
-  openings.crack.resize(sets.size());
-  for (std::size_t number = 0; number < members.size(); ++number) {
-    openings.cracks.push_back(summed_up(openings, members[number]));
-    for (const std::size_t k : members[number]) openings.crack[k] = static_cast<Index>(number);
   }
   return openings;
 }

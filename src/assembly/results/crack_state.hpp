@@ -8,24 +8,10 @@
 
 namespace perilink {
 
-/// A connected set of damaged bonds.
-struct CrackState {
-  Index bonds = 0;
-  double mean = 0.0, largest = 0.0;  ///< opening [length]
-  Index widest = no_index;           ///< bond with the largest opening
-
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive(bonds, mean, largest, widest);
-  }
-};
-
 /// Openings of the bonds that have lost more than half of their axial stiffness.
 struct CrackOpenings {
-  std::vector<Index> bonds;        ///< ascending
-  std::vector<double> opening;     ///< per such bond [length]
-  std::vector<Index> crack;        ///< number of its crack, per such bond
-  std::vector<CrackState> cracks;  ///< sorted by number of bonds, largest first
+  std::vector<Index> bonds;     ///< ascending
+  std::vector<double> opening;  ///< per such bond [length]
 };
 
 /// Returns the openings of damaged bonds. An opening is the part of the distance between the ends,
@@ -39,9 +25,5 @@ CrackOpenings crack_openings(const Network& network, const Csr& neighbourhoods, 
 
 /// Returns the largest opening among the bonds of each particle, shape (particles) [length].
 std::vector<double> openings_at_particles(const Network& network, const CrackOpenings& openings);
-
-/// Returns the mean and the largest opening of some of the bonds.
-/// \param places  positions in CrackOpenings::bonds
-CrackState summed_up(const CrackOpenings& openings, std::span<const std::size_t> places);
 
 }  // namespace perilink

@@ -19,6 +19,7 @@ from .events import DamageState, EventRow, EventRun
 from .mesh import Mesh
 from .problem import ElasticSolution, build, solve
 from .result import Result, read_result, run
+from .summary import Summary
 
 __all__ = [
     "Case",
@@ -34,6 +35,7 @@ __all__ = [
     "Result",
     "Row",
     "SolverError",
+    "Summary",
     "__version__",
     "build",
     "build_summary",

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from . import _core
 from .case import Case, MeshFolder
+from .summary import Summary
 
 if TYPE_CHECKING:
     import pandas
@@ -38,10 +39,10 @@ class Result:
         self._history: Arrays | None = None
 
     @property
-    def summary(self) -> dict[str, Any]:
+    def summary(self) -> Summary:
         """Contents of summary.json: peaks, energies, sizes, notes, times."""
         text = (self.directory / "summary.json").read_text(encoding="utf-8")
-        summary: dict[str, Any] = json.loads(text)
+        summary: Summary = json.loads(text)
         return summary
 
     @property
@@ -96,6 +97,13 @@ class Result:
     def bars(self, step: int | None = None) -> list[dict[str, Any]]:
         """Returns the rows of bars_STEP.csv: strain, force and slip along the bars."""
         return self._table("bars", step)
+
+    def cracks(self, step: int | None = None) -> list[dict[str, Any]]:
+        """Returns the rows of cracks_STEP.csv, the widest crack first; none without cracks."""
+        step = self._step(step)
+        if not (self.directory / f"cracks_{step:06d}.csv").exists():
+            return []
+        return self._table("cracks", step)
 
     def _series(self) -> list[str]:
         return [name for _, name in _core.read_series(str(self.directory / "fields.pvd"))]

@@ -23,6 +23,9 @@ const Without types = {
      "set type = \"elastic\" or \"damage\""}};
 const NotFor no_lattice_key{lattice | explicit_, "is given, but lattice particles do not have it",
                             "delete it; [[materials]] set the damping of lattices"};
+constexpr std::string_view no_cells = "is given, but only plane and solid bodies of bonds have it";
+const Without of_bonds = {{elements | lattice | particles, no_cells, delete_it},
+                          {beam, no_cells, delete_it}};
 const Without of_bonds_in_time = {{still, {}, {}}, no_lattice_key};
 const Without strains = {
     {damage | elastic, {}, {}},
@@ -115,6 +118,9 @@ TableSchema output_table() {
        key("fields_every_rows", &Output::fields_every_rows, from(1, largest), of_damage),
        key("fields_at_peak", &Output::fields_at_peak, {}, of_damage),
        key("fields_times", &Output::fields_times, {}, of_time).written_empty(),
+       key("body_cells", &Output::body_cells, {}, of_bonds).written_if(+[](const Output& output) {
+         return output.body_cells;
+       }),
        key("checkpoint_every", &Output::checkpoint_every, from(0, largest), set_aside(elastic))}};
 }
 

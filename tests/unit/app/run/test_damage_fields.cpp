@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/files.hpp"
 #include "support/replaced.hpp"
 #include "support/softening_strips.hpp"
 #include "support/strip_case.hpp"
@@ -139,6 +140,42 @@ broken_bonds = 30
 TEST(PeakFieldsOfARun, AreLeftOutOnDemand) {
   const test::WholeRun run(notched_plate(moved_top) + "[output]\nfields_at_peak = false\n");
   EXPECT_EQ(run.series().size(), 2u);
+}
+
+/// A strip that a crack crosses: its width is the prescribed displacement without the elastic
+/// elongation U - F L / (E A).
+TEST(CrackTable, WidthsAreTheImposedDisplacementWithoutTheElasticPart) {
+  test::SofteningStrip strip;
+  for (const auto& [end, tolerance] : {std::pair{0.05, 0.02}, std::pair{0.1, 0.002}}) {
+    strip.more = fmt::format("[stop]\ndisplacement = {}\n[output]\nbody_cells = true\n", end);
+    const test::WholeRun run(test::softening_case(strip));
+    const double load = run.history("load").back(), moved = run.history("displacement").back();
+    const double width = moved - load * strip.length / (strip.youngs_modulus * strip.width);
+    const auto& cracks = run.summary.json["cracks"];
+    ASSERT_EQ(cracks.size(), 1u);
+    for (const char* key : {"largest_opening", "face_opening"}) {
+      EXPECT_NEAR(cracks[0][key].get<double>(), width, tolerance * width) << key;
+    }
+    EXPECT_NEAR(cracks[0]["length"].get<double>(), strip.width, 1.0);
+    EXPECT_NEAR(cracks[0]["middle"][0].get<double>(), 0.5 * strip.length, strip.spacing);
+    EXPECT_NEAR(std::abs(cracks[0]["normal"][0].get<double>()), 1.0, 1e-3);
+
+    const std::string last = run.series().back().file;
+    const std::string table = read_regular_file(
+        (run.work / ("cracks_" + last.substr(7, last.size() - 11) + ".csv")).string());
+    EXPECT_EQ(std::ranges::count(table, '\n'), 2);
+    EXPECT_THAT(
+        table, testing::HasSubstr(fmt::format(",{},", cracks[0]["largest_opening"].get<double>())));
+    EXPECT_FALSE(std::filesystem::exists(run.work / "cracks_000001.csv")) << "no crack yet";
+    const auto cells = [&](std::size_t file) {
+      const VtuGrid grid = run.fields(file);
+      return std::ranges::count(grid.types, VtuCell::quadrilateral);
+    };
+    EXPECT_EQ(cells(0), 20 * 10);
+    if (end == 0.1) {
+      EXPECT_EQ(cells(run.series().size() - 1), 19 * 10) << "a gap along the crack";
+    }
+  }
 }
 
 }  // namespace

@@ -70,27 +70,24 @@ TEST(Summary, TellsTheSizesOfABody) {
   EXPECT_THAT(summary.text, HasSubstr(size_text(model) + ", and more"));
 }
 
-/// Two bonds in a row and one apart.
-TEST(Summary, TellsTheLargestCracks) {
-  const Model model = build_model(test::strip_case());
-  CrackOpenings openings;
-  openings.bonds = {3, 5, 9};
-  openings.opening = {0.1, 0.3, 0.7};
-  openings.cracks = {summed_up(openings, std::array<std::size_t, 2>{0, 1}),
-                     summed_up(openings, std::array<std::size_t, 1>{2})};
-  const std::vector<ToldCrack> told = widest_cracks(model.network, openings);
-  ASSERT_EQ(told.size(), 2u);
+TEST(Summary, TellsTheTenWidestCracks) {
+  std::vector<GrownCrack> cracks(12,
+                                 {3, {4.0, 5.0}, {1.0, 0.0}, 0.5, 0.1, 0.2, {4.0, 5.0}, {}, {}});
+  cracks[0] = {12, {1.0, 2.0}, {0.0, 1.0}, 3.5, 0.25, 0.5, {1.5, 2.5}, 0.375, 1, 0.125};
   Summary summary;
-  tell_cracks(summary, told);
-  EXPECT_EQ(summary.json["cracks"][0]["bonds"], 2);
-  EXPECT_DOUBLE_EQ(summary.json["cracks"][0]["mean_opening"], 0.2);
-  EXPECT_EQ(summary.json["cracks"][0]["largest_opening"], 0.3);
-  const Bonds& bonds = model.network.bonds;
-  const double x = 0.5 * (model.network.particles.position(bonds.first[5])[0] +
-                          model.network.particles.position(bonds.second[5])[0]);
-  EXPECT_DOUBLE_EQ(summary.json["cracks"][0]["widest_at"][0], x);
-  EXPECT_THAT(summary.text,
-              HasSubstr("the largest has 2 damaged bonds and a largest opening of 0.3"));
+  tell_cracks(summary, cracks);
+  EXPECT_EQ(summary.json["cracks"].size(), 10u);
+  const auto& widest = summary.json["cracks"][0];
+  EXPECT_EQ(widest["bonds"], 12);
+  EXPECT_EQ(widest["length"], 3.5);
+  EXPECT_EQ(widest["largest_opening"], 0.5);
+  EXPECT_EQ(widest["widest_at"], (std::vector<double>{1.5, 2.5}));
+  EXPECT_EQ(widest["face_opening"], 0.375);
+  EXPECT_EQ(widest["bar"], 2);
+  EXPECT_EQ(widest["bar_opening"], 0.125);
+  EXPECT_FALSE(summary.json["cracks"][1].contains("bar"));
+  EXPECT_THAT(summary.text, HasSubstr("12; the widest opens by 0.5 at (1.5, 2.5), is 3.5 long, "
+                                      "0.375 wide at the face, 0.125 at bar 2"));
   Summary none;
   tell_cracks(none, {});
   EXPECT_TRUE(none.text.empty());

@@ -40,6 +40,10 @@ class CrackOpeningsTest : public testing::Test {
     return crack_openings(network, neighbourhoods, secants, motion);
   }
 
+  static double largest(const CrackOpenings& found) {
+    return *std::max_element(found.opening.begin(), found.opening.end());
+  }
+
   /// Whether the families of both ends are whole.
   bool is_inside(Index bond) const {
     const double i = network.particles.position(network.bonds.first[bond])[0];
@@ -57,11 +61,8 @@ TEST_F(CrackOpeningsTest, EveryBondOfACrackThatOpensEvenlyShowsItsOpening) {
   damage(0.0);
   const CrackOpenings found = openings(moved_apart(0.0, 0.02));
   EXPECT_EQ(found.bonds, crossing);
-  ASSERT_EQ(found.cracks.size(), 1u);
-  EXPECT_EQ(found.cracks[0].bonds, static_cast<Index>(crossing.size()));
   // At the ends of the crack families lie on one side; their axes turn by a few degrees.
-  EXPECT_NEAR(found.cracks[0].mean, 0.02, 2e-4);
-  EXPECT_NEAR(found.cracks[0].largest, 0.02, 2e-4);
+  EXPECT_NEAR(largest(found), 0.02, 2e-4);
   for (std::size_t k = 0; k < found.bonds.size(); ++k) {
     if (is_inside(found.bonds[k])) {
       EXPECT_NEAR(found.opening[k], 0.02, 1e-12);
@@ -82,7 +83,7 @@ TEST_F(CrackOpeningsTest, SlidingOpensNothing) {
 /// What a bond would open by without damage is its stretch at the same force.
 TEST_F(CrackOpeningsTest, SoftenedBondsOpenByWhatTheyHaveLost) {
   damage(0.25);
-  EXPECT_NEAR(openings(moved_apart(0.0, 0.02)).cracks[0].largest, 0.75 * 0.02, 2e-4);
+  EXPECT_NEAR(largest(openings(moved_apart(0.0, 0.02))), 0.75 * 0.02, 2e-4);
   damage(0.75);
   EXPECT_TRUE(openings(moved_apart(0.0, 0.02)).bonds.empty()) << "most of them is left";
 }
@@ -90,19 +91,8 @@ TEST_F(CrackOpeningsTest, SoftenedBondsOpenByWhatTheyHaveLost) {
 TEST_F(CrackOpeningsTest, PressedFacesAreClosed) {
   damage(0.0);
   const CrackOpenings found = openings(moved_apart(0.0, -0.02));
-  ASSERT_EQ(found.cracks.size(), 1u);
-  EXPECT_EQ(found.cracks[0].largest, 0.0);
-}
-
-TEST_F(CrackOpeningsTest, SetsThatShareNoParticleAreCracksOfTheirOwn) {
-  damage(0.0);
-  const Index corner = neighbourhoods.row(0)[0];
-  secants[corner] = 0.0;
-  const CrackOpenings found = openings(moved_apart(0.0, 0.02));
-  ASSERT_EQ(found.cracks.size(), 2u);
-  EXPECT_EQ(found.cracks[1].bonds, 1);
-  const auto place = std::lower_bound(found.bonds.begin(), found.bonds.end(), corner);
-  EXPECT_EQ(found.crack[static_cast<std::size_t>(place - found.bonds.begin())], 1);
+  EXPECT_EQ(found.bonds, crossing);
+  EXPECT_EQ(largest(found), 0.0);
 }
 
 TEST_F(CrackOpeningsTest, AParticleHasTheLargestOfItsBonds) {

@@ -46,7 +46,7 @@ void FactorUpdate::begin(bool resists) {
   const auto forces_of = [&](std::span<const double> u) {
     return internal_force(body_.network(), body_.secants(), u);
   };
-  factorize_stiffness(*factor_, body_.stiffness(), unknowns, &body_.network().particles, forces_of);
+  factorize_stiffness(*factor_, body_.stiffness(), unknowns, &body_.network(), forces_of);
 }
 
 void FactorUpdate::renew() {

@@ -19,11 +19,11 @@ namespace {
 constexpr double none = 1e-4;
 
 /// Returns the position of an unknown as text; empty for nodes of finite elements.
-std::string place_of(Index unknown, const Unknowns& unknowns, const Particles* particles) {
-  for (std::size_t slot = 0; particles && slot < unknowns.number.size(); ++slot) {
+std::string place_of(Index unknown, const Unknowns& unknowns, const Network* network) {
+  for (std::size_t slot = 0; network && slot < unknowns.number.size(); ++slot) {
     if (unknowns.number[slot] != unknown) continue;
     const Index particle = static_cast<Index>(slot) / unknowns.width;
-    return fmt::format(", at ({})", joined(particles->position(particle)));
+    return fmt::format(", at ({})", joined(network->particles.position(particle)));
   }
   return {};
 }
@@ -51,7 +51,7 @@ Index find_mechanism(Factor& factor, const Unknowns& unknowns, const InternalFor
 }  // namespace
 
 void factorize_stiffness(Factor& factor, const SparseMatrix& stiffness, const Unknowns& unknowns,
-                         const Particles* particles, const InternalForceOf& internal_of) {
+                         const Network* network, const InternalForceOf& internal_of) {
   Index moves = no_index;
   try {
     factor.factorize(stiffness, unknowns.owners());
@@ -60,11 +60,13 @@ void factorize_stiffness(Factor& factor, const SparseMatrix& stiffness, const Un
   } catch (const NotPositiveDefinite& error) {
     moves = error.unknown();
   }
+  // Contact springs of closed pre-cracks need a factor.
+  const bool has_contacts = network != nullptr && network->num_contacts > 0;
   throw NotPositiveDefinite(
-      "part of the body can move freely" + place_of(moves, unknowns, particles) +
+      "part of the body can move freely" + place_of(moves, unknowns, network) +
           ", or it is so slender, or held so softly, that round-off hides its stiffness: the "
-          "stiffness matrix is singular to working precision; conjugate gradients (solver = "
-          "\"iterative\") lose fewer digits",
+          "stiffness matrix is singular to working precision" +
+          (has_contacts ? "" : "; conjugate gradients (solver = \"iterative\") lose fewer digits"),
       moves);
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "assembly/stiffness.hpp"
-#include "discretization/particles.hpp"
+#include "network/network.hpp"
 #include "network/unknowns.hpp"
 #include "solver/factor.hpp"
 
@@ -10,9 +10,9 @@ namespace perilink {
 /// Factorises the stiffness of a body and rejects it if a part can move without resistance.
 /// Round-off may act as a stiffness there, so that the factor exists. Random forces move every free
 /// part, and the bonds then do not store their work.
-/// \param particles  null: the message names no position
+/// \param network  null: the message names no position
 /// \throws NotPositiveDefinite with the position that moves most
 void factorize_stiffness(Factor& factor, const SparseMatrix& stiffness, const Unknowns& unknowns,
-                         const Particles* particles, const InternalForceOf& internal_of);
+                         const Network* network, const InternalForceOf& internal_of);
 
 }  // namespace perilink
