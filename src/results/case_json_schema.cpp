@@ -93,7 +93,7 @@ Json schema_of(const TableSchema& table, const KeySchema& key) {
 
 /// Whether a table of any kind of case has the key.
 bool is_needed(const KeySchema& key) {
-  return !key.missing.empty() && key.not_for.empty() && key.choice.empty();
+  return !key.missing.empty() && key.not_for.empty() && key.choice.empty() && key.companion.empty();
 }
 
 void add_keys(const TableSchema& table, Json& object) {

@@ -1,10 +1,5 @@
 # Packs the program, unpacks it elsewhere and runs an example of the package there.
-function(do)
-  execute_process(COMMAND ${ARGN} RESULT_VARIABLE failed OUTPUT_VARIABLE text ERROR_VARIABLE text)
-  if(failed)
-    message(FATAL_ERROR "${ARGN}\n${text}")
-  endif()
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/do.cmake)
 
 function(run_example prefix)
   set(example ${prefix}/share/doc/perilink/meshes/block_tension.toml)

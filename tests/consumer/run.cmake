@@ -1,11 +1,6 @@
 # Installs the library, builds the project beside this file with it and runs it. The program must
 # give the same history for the case that the library ran.
-function(do)
-  execute_process(COMMAND ${ARGN} RESULT_VARIABLE failed OUTPUT_VARIABLE text ERROR_VARIABLE text)
-  if(failed)
-    message(FATAL_ERROR "${ARGN}\n${text}")
-  endif()
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/do.cmake)
 
 file(REMOVE_RECURSE ${WORK})
 do(${CMAKE_COMMAND} --install ${BUILD} --component library --prefix ${WORK}/prefix)

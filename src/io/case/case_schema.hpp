@@ -106,9 +106,10 @@ struct KeySchema {
   KeySchema(const char* key, Values allowed, std::vector<NotFor> without = {})
       : name(key), values(std::move(allowed)), not_for(std::move(without)) {}
 
-  /// \param what  description for the message where the key is missing
+  /// Refuses tables without the key, unless another key that it depends on excludes it.
+  /// \param what  description for the message
   KeySchema needed(std::string_view what) const { return with(&KeySchema::missing, what); }
-  /// \param advice  suggestion for values out of range
+  /// \param advice  suggestion for numbers out of range or out of order
   KeySchema hinted(std::string_view advice) const { return with(&KeySchema::hint, advice); }
   /// \param key  another key of the table without which this one is refused
   KeySchema beside(std::string_view key) const { return with(&KeySchema::companion, key); }
@@ -119,6 +120,10 @@ struct KeySchema {
   KeySchema only_with(std::string_view key, std::vector<std::string_view> words) const {
     return with(&KeySchema::choice, key).with(&KeySchema::chosen, std::move(words));
   }
+  /// Refuses lists of numbers that do not ascend.
+  KeySchema ascending() const { return with(&KeySchema::sorted, true); }
+  /// States no default in the JSON schema: it depends on other keys.
+  KeySchema derived() const { return with(&KeySchema::fallback, nullptr); }
   /// Writes lists and texts that are empty.
   KeySchema written_empty() const { return with(&KeySchema::empty_too, true); }
   /// Reads and writes the key also where the analysis does not use it.
@@ -146,7 +151,7 @@ struct KeySchema {
   std::vector<NotFor> not_for;  ///< the first that holds applies
   std::string_view missing, hint, companion, rival, choice;
   std::vector<std::string_view> chosen;
-  bool always = false, empty_too = false;
+  bool always = false, empty_too = false, sorted = false;
   const std::type_info* section = nullptr;  ///< struct of the member; null: read by hand
   std::function<void(const KeySchema&, const CaseTable&, void* section, Kinds)> read;
   std::function<void(const KeySchema&, TomlWriter&, const void* section, Kinds)> write;

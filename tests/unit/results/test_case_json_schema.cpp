@@ -46,6 +46,12 @@ TEST(CaseJsonSchema, HasTypesRangesWordsAndDefaults) {
   EXPECT_EQ(analysis["control"]["default"], "events");
   EXPECT_FALSE(analysis["ramp_time"].contains("default")) << "it is the duration";
   EXPECT_EQ(analysis["load_factors"]["items"]["minimum"], 0.0);
+  const SchemaJson& materials = json_schema()["properties"]["materials"]["items"]["properties"];
+  EXPECT_EQ(materials["compression_ratio"]["default"], 6);
+  EXPECT_FALSE(materials["compression_threshold"].contains("default")) << "it follows `variant`";
+  EXPECT_EQ(materials["softening_error"]["minimum"], 1e-5);
+  const SchemaJson& loads = json_schema()["properties"]["point_loads"]["items"]["properties"];
+  EXPECT_FALSE(loads["force"].contains("default"));
 }
 
 TEST(CaseJsonSchema, HasKeysThatATableNeeds) {

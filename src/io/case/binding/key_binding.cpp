@@ -24,11 +24,6 @@ const KeySchema& key_of(const TableSchema& schema, std::string_view name) {
   return *found;
 }
 
-/// Members of another struct must not be written through.
-void check_section(const KeySchema& key, const std::type_info& type) {
-  if (*key.section != type) throw std::logic_error(name_of(key) + " belongs to another section");
-}
-
 bool is_chosen(const KeySchema& key, std::string_view word) {
   return key.choice.empty() || std::ranges::find(key.chosen, word) != key.chosen.end();
 }
@@ -36,9 +31,33 @@ bool is_chosen(const KeySchema& key, std::string_view word) {
 /// Returns the word of the key that decides whether a key is allowed.
 std::string word_of(const TableSchema& schema, const KeySchema& key, const CaseTable& table) {
   const std::string choice(key.choice);
-  if (table.has(choice)) return *table.text(choice);
   const KeySchema& decides = key_of(schema, choice);
+  if (table.has(choice)) return *table.choice(choice, decides.values.words);
   return word_in(decides.fallback(decides));
+}
+
+/// Whether the keys that a key depends on allow it.
+bool is_allowed(const TableSchema& schema, const KeySchema& key, const CaseTable& table) {
+  return (key.companion.empty() || table.has(std::string(key.companion))) &&
+         (key.choice.empty() || is_chosen(key, word_of(schema, key, table)));
+}
+
+/// Checks the value of a key that is read by hand, if its row describes the value.
+void check_value(const KeySchema& key, const CaseTable& table, Kinds kind) {
+  using Type = Values::Kind;
+  const Type type = key.values.kind;
+  double number{};
+  int integer{};
+  bool boolean{};
+  if (!key.values.words.empty()) {
+    table.choice(name_of(key), key.values.words);
+  } else if (type == Type::number && !key.values.list) {
+    binding::read_value(key, table, kind, number);
+  } else if (type == Type::integer || type == Type::normal) {
+    binding::read_value(key, table, kind, integer);
+  } else if (type == Type::boolean) {
+    binding::read_value(key, table, kind, boolean);
+  }
 }
 
 /// Refuses a key that another key of the table excludes, or that needs another one.
@@ -80,12 +99,26 @@ void check_numbers(const KeySchema& key, const CaseTable& table, std::span<const
   for (const double number : numbers) {
     table.check_range(name_of(key), number, key.values.range, key.hint);
   }
+  const auto fault = std::ranges::adjacent_find(numbers, std::greater_equal());
+  if (!key.sorted || fault == numbers.end()) return;
+  table.refuse(name_of(key),
+               fmt::format("has {} after {}, but the numbers must ascend", fault[1], fault[0]),
+               std::string(key.hint));
 }
 
 }  // namespace binding
 
 void read_keys(const TableSchema& schema, const CaseTable& table, Kinds kind, void* section,
-               void* others, const std::type_info& type) {
+               void* others) {
+  for (const KeySchema& key : schema.keys) {
+    if (!table.has(name_of(key))) continue;
+    if (!key.read) {
+      check_value(key, table, kind);
+      continue;
+    }
+    const bool used = key.always || exception_of(key.not_for, kind) == nullptr;
+    key.read(key, table, used ? section : others, kind);
+  }
   for (const auto& group : schema.one_of) {
     std::vector<std::string> names;
     for (const std::string_view name : group) {
@@ -94,27 +127,20 @@ void read_keys(const TableSchema& schema, const CaseTable& table, Kinds kind, vo
     if (!names.empty()) table.need_one_of(names);
   }
   for (const KeySchema& key : schema.keys) {
-    const bool used = exception_of(key.not_for, kind) == nullptr;
-    if (!table.has(name_of(key))) {
-      const bool apart = !key.choice.empty() && !is_chosen(key, word_of(schema, key, table));
-      if (used && !key.missing.empty() && !apart) {
-        table.refuse_missing(name_of(key), std::string(key.missing));
-      }
-      continue;
+    if (table.has(name_of(key))) {
+      check_companions(schema, key, table);
+    } else if (!key.missing.empty() && exception_of(key.not_for, kind) == nullptr &&
+               is_allowed(schema, key, table)) {
+      table.refuse_missing(name_of(key), std::string(key.missing));
     }
-    if (used) check_companions(schema, key, table);
-    if (!key.read) continue;
-    check_section(key, type);
-    key.read(key, table, used || key.always ? section : others, kind);
   }
 }
 
 void write_keys(const TableSchema& schema, TomlWriter& out, Kinds kind, const void* section,
-                const std::type_info& type, std::string_view without) {
+                std::string_view without) {
   for (const KeySchema& key : schema.keys) {
     if (!key.write || key.name == without) continue;
     if (!key.always && exception_of(key.not_for, kind) != nullptr) continue;
-    check_section(key, type);
     if (!key.choice.empty()) {
       const KeySchema& choice = key_of(schema, key.choice);
       TomlWriter word;

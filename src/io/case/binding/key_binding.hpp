@@ -70,7 +70,7 @@ Values values_of(Values given) {
 }
 
 std::vector<std::array<double, 2>> read_curve(const CaseTable& table, const std::string& key);
-/// Refuses numbers outside of the range of a key.
+/// Refuses numbers outside of the range of a key, or out of order.
 void check_numbers(const KeySchema& key, const CaseTable& table, std::span<const double> numbers);
 
 /// Reads a value of a table that has the key.
@@ -110,6 +110,7 @@ void read_value(const KeySchema& key, const CaseTable& table, Kinds kind, T& val
     check_numbers(key, table, value);
   } else if constexpr (std::same_as<T, std::vector<int>>) {
     value = *table.integers(name, lowest, highest);
+    check_numbers(key, table, std::vector<double>(value.begin(), value.end()));
   } else if constexpr (std::same_as<T, std::vector<std::string>>) {
     value = *table.texts(name);
   } else if constexpr (std::same_as<T, std::vector<Vector3>>) {
@@ -191,28 +192,29 @@ KeySchema key(const char* name, T Section::*member, Values values = {},
   return key<Section, T Section::*>(name, member, std::move(values), std::move(not_for));
 }
 
-/// Reads the bound keys of a table and checks the rules of all its keys.
+/// Reads the bound keys of a table and checks the rules of all its keys: first the values, then
+/// which keys are missing or exclude each other.
 /// \param section  receives the values that the kind of case uses
 /// \param others   receives the values that are checked only
 void read_keys(const TableSchema& schema, const CaseTable& table, Kinds kind, void* section,
-               void* others, const std::type_info& type);
+               void* others);
 /// Writes the bound keys of a table that the kind of case uses.
 /// \param without  key that is left out
 void write_keys(const TableSchema& schema, TomlWriter& out, Kinds kind, const void* section,
-                const std::type_info& type, std::string_view without);
+                std::string_view without);
 
 /// Reads the bound keys of a table of case_schema().
 template <class Section>
 Section read_section(std::string_view name, const CaseTable& table, Kinds kind,
                      Section section = {}) {
   auto others = fresh_section<Section>();
-  read_keys(table_schema(name), table, kind, &section, &others, typeid(Section));
+  read_keys(table_schema(name), table, kind, &section, &others);
   return section;
 }
 template <class Section>
 void write_section(std::string_view name, TomlWriter& out, Kinds kind, const Section& section,
                    std::string_view without = "") {
-  write_keys(table_schema(name), out, kind, &section, typeid(Section), without);
+  write_keys(table_schema(name), out, kind, &section, without);
 }
 
 }  // namespace perilink

@@ -1,8 +1,5 @@
 // Keys of [body], [[regions]] and [[materials]].
 
-#include <limits>
-
-#include "io/case/binding/key_binding.hpp"
 #include "io/case/keys/key_tables.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "io/case/sections/case_lattice.hpp"
@@ -11,11 +8,8 @@
 namespace perilink {
 namespace {
 
-using namespace kinds;
-using namespace reasons;
-using namespace allowed;
+using namespace shared;
 using Material = MaterialSection;
-using Kind = Values::Kind;
 
 constexpr std::string_view lattice_instead = "delete it, or set model = \"lattice\" in [body]";
 constexpr std::string_view only_lattices =
@@ -135,38 +129,33 @@ TableSchema top_table() {
 
 TableSchema body_table() {
   using Body = BodySection;
-  constexpr int largest = std::numeric_limits<int>::max();
   return {"body",
           false,
-          {key("problem", &Body::problem),
-           key("method", &Body::method, {}, methods),
-           key("model", &Body::model, {}, models),
-           key("torsion", &Body::torsion, positive, torsion),
-           key("thickness", &Body::thickness, positive, thick),
-           key("radius", &Body::radius, positive, shells),
-           KeySchema("mesh", Kind::text, in_beams)
-               .written_by(
-                   +[](TomlWriter& out, const Body& body, Kinds) { write_mesh_file(out, body); }),
-           {"mesh_size", {Kind::number, positive}, in_beams},
-           {"mesh_scale", Kind::number, in_beams},
-           key("pattern", &Body::pattern, {}, in_beams).written_if(+[](const Body& body) {
-             return !body.mesh || is_lattice(body);
-           }),
-           key("seed", &Body::seed, from(0, largest), {of_beams, on_lattice})
-               .instead_of("mesh")
-               .written_if(+[](const Body& body) { return !body.mesh && has_cells(body); }),
-           key("surface", &Body::surface, {}, neighbourhoods),
-           key("columns", &Body::columns, from(2, 100000), {on_lattice}),
-           key("spacing", &Body::spacing, positive),
-           key("horizon", &Body::horizon, positive, horizons),
-           key("horizon_level", &Body::horizon_level, from(0, 8), neighbourhoods),
-           key("horizon_ratio", &Body::horizon_ratio, Range{1.0}, horizons)
-               .hinted("2 to 4 is usual: below 1 no particle would have a neighbour"),
-           key("micromodulus", &Body::micromodulus, {}, neighbourhoods),
-           key("critical_stretch", &Body::critical_stretch, {}, neighbourhoods),
-           key("rotation", &Body::rotation, from(-360, 360), lattices),
-           key("offset", &Body::offset, Kind::position, lattices),
-           key("variant", &Body::variant, {}, lattices)},
+          joined_keys(
+              {{key("problem", &Body::problem), key("method", &Body::method, {}, methods),
+                key("model", &Body::model, {}, models),
+                key("torsion", &Body::torsion, positive, torsion),
+                key("thickness", &Body::thickness, positive, thick).derived(),
+                key("radius", &Body::radius, positive, shells)},
+               mesh_keys<Body>(),
+               {key("pattern", &Body::pattern, {}, in_beams)
+                    .derived()
+                    .written_if(+[](const Body& body) { return !body.mesh || is_lattice(body); }),
+                key("seed", &Body::seed, from(0, largest), {of_beams, on_lattice})
+                    .instead_of("mesh")
+                    .written_if(+[](const Body& body) { return !body.mesh && has_cells(body); }),
+                key("surface", &Body::surface, {}, neighbourhoods),
+                key("columns", &Body::columns, from(2, 100000), {on_lattice}),
+                key("spacing", &Body::spacing, positive),
+                key("horizon", &Body::horizon, positive, horizons),
+                key("horizon_level", &Body::horizon_level, from(0, 8), neighbourhoods),
+                key("horizon_ratio", &Body::horizon_ratio, Range{1.0}, horizons)
+                    .hinted("2 to 4 is usual: below 1 no particle would have a neighbour"),
+                key("micromodulus", &Body::micromodulus, {}, neighbourhoods).derived(),
+                key("critical_stretch", &Body::critical_stretch, {}, neighbourhoods),
+                key("rotation", &Body::rotation, from(-360, 360), lattices),
+                key("offset", &Body::offset, Kind::position, lattices).derived(),
+                key("variant", &Body::variant, {}, lattices)}}),
           {},
           {{"horizon", "horizon_level", "horizon_ratio"}}};
 }
@@ -186,43 +175,52 @@ TableSchema region_table() {
 
 TableSchema material_table() {
   using State = LatticeMaterialSection;
-  const Values number(Kind::number, positive);
+  const auto factor = [](const char* name) {
+    return KeySchema(name, {Kind::number, Range{1.0, 1e10, true}}, bond_softening)
+        .hinted(
+            "the force is constant up to there; 2 in tension and 3 in compression are the "
+            "values of the paper");
+  };
   return {
       "materials",
       true,
-      {key("name", &Material::name),
-       {"region", Kind::text},
-       key("regions", &Material::regions),
-       key("holes", &Material::holes, {}, in_beams),
-       key("youngs_modulus", &Material::youngs_modulus, positive).needed("Young's modulus"),
-       key("poissons_ratio", &Material::poissons_ratio, {}, in_beams),
-       key("fracture_energy", &Material::fracture_energy, {Kind::energy, positive})
-           .written_if(+[](const Material& material) { return material.fracture_energy > 0.0; }),
-       key("density", &Material::density, positive),
-       KeySchema("tensile_strength", number, softening).written_by(write_law),
-       {"softening", binding::values_of<Softening>({}), bond_softening},
-       {"softening_error", Kind::number, bond_softening},
-       {"softening_points", Kind::pairs, bond_softening},
-       {"softening_stretches", number.as_list(), bond_softening},
-       {"closing", Kind::boolean, bond_softening},
-       {"tension_limit", number, bond_softening},
-       {"tension_factor", Kind::number, bond_softening},
-       {"compression_limit", number, bond_softening},
-       {"compression_factor", Kind::number, bond_softening},
-       {"shear_softening", Kind::boolean, bond_softening},
-       {"critical_opening", number, crack_opening},
-       {"knee_stress_ratio", {Kind::number, fraction}, softening},
-       {"knee_opening_ratio", {Kind::number, fraction}, softening},
-       damage_key("compression_ratio", &State::compression_ratio, positive, crack_opening),
-       damage_key("compression_threshold", &State::compression_threshold, fraction, crack_opening),
-       damage_key("boundary_factor", &State::boundary_factor, positive, lattice_material),
-       state_key("yield_strength", &State::yield_strength, positive, lattice_material),
-       flow_key("ultimate_strength", &State::ultimate_strength),
-       flow_key("ultimate_plastic_strain", &State::ultimate_plastic_strain),
-       flow_key("crushing_energy", &State::crushing_energy, {Kind::energy, positive}),
-       state_key("internal_damping", &State::internal_damping, not_negative, material_damping),
-       state_key("external_damping", &State::external_damping, not_negative, material_damping),
-       state_key("fundamental_period", &State::fundamental_period, positive, lattice_material)},
+      joined_keys(
+          {{key("name", &Material::name),
+            {"region", Kind::text},
+            key("regions", &Material::regions),
+            key("holes", &Material::holes, {}, in_beams),
+            key("youngs_modulus", &Material::youngs_modulus, positive).needed("Young's modulus"),
+            key("poissons_ratio", &Material::poissons_ratio, {}, in_beams),
+            key("fracture_energy", &Material::fracture_energy, {Kind::energy, positive})
+                .written_if(
+                    +[](const Material& material) { return material.fracture_energy > 0.0; }),
+            key("density", &Material::density, positive),
+            KeySchema("tensile_strength", positive_number, softening).written_by(write_law),
+            {"softening", binding::values_of<Softening>({}), bond_softening}},
+           softening_keys(bond_softening, softening),
+           {{"tension_limit", positive_number, bond_softening},
+            factor("tension_factor"),
+            {"compression_limit", positive_number, bond_softening},
+            factor("compression_factor"),
+            {"shear_softening", Kind::boolean, bond_softening},
+            {"critical_opening", positive_number, crack_opening},
+            damage_key("compression_ratio", &State::compression_ratio, positive, crack_opening),
+            damage_key("compression_threshold", &State::compression_threshold, fraction,
+                       crack_opening)
+                .derived(),
+            damage_key("boundary_factor", &State::boundary_factor, positive, lattice_material)
+                .derived(),
+            state_key("yield_strength", &State::yield_strength, positive, lattice_material),
+            flow_key("ultimate_strength", &State::ultimate_strength)
+                .needed("the yield stress where hardening ends; equal to `yield_strength` without "
+                        "hardening"),
+            flow_key("ultimate_plastic_strain", &State::ultimate_plastic_strain)
+                .needed("the plastic strain at the ultimate strength"),
+            flow_key("crushing_energy", &State::crushing_energy, {Kind::energy, positive}),
+            state_key("internal_damping", &State::internal_damping, not_negative, material_damping),
+            state_key("external_damping", &State::external_damping, not_negative, material_damping),
+            state_key("fundamental_period", &State::fundamental_period, positive,
+                      lattice_material)}}),
       {},
       {{"region", "regions"}}};
 }

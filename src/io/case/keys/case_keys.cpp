@@ -24,10 +24,30 @@ const TableSchema& table_schema(std::string_view name) {
   return *found;
 }
 
+namespace shared {
+
+std::vector<KeySchema> joined_keys(std::initializer_list<std::vector<KeySchema>> lists) {
+  std::vector<KeySchema> keys;
+  for (const auto& list : lists) keys.insert(keys.end(), list.begin(), list.end());
+  return keys;
+}
+
+std::vector<KeySchema> softening_keys(const Without& without, const Without& knees) {
+  return {KeySchema("softening_error", {Kind::number, Range{1e-5, 1.0, false, true}}, without)
+              .hinted("give 1e-5 to below 1: a smaller error needs too many saw-tooth segments"),
+          {"softening_points", Kind::pairs, without},
+          {"softening_stretches", positive_number.as_list(), without},
+          {"closing", Kind::boolean, without},
+          {"knee_stress_ratio", {Kind::number, fraction}, knees},
+          {"knee_opening_ratio", {Kind::number, fraction}, knees}};
+}
+
+}  // namespace shared
+
 std::vector<std::string_view> keys_of_bonds() {
   std::vector<std::string_view> keys;
   for (const KeySchema& key : table_schema("body").keys) {
-    if (!key.not_for.empty() && key.not_for.front().fault == reasons::no_bonds) {
+    if (!key.not_for.empty() && key.not_for.front().fault == shared::no_bonds) {
       keys.push_back(key.name);
     }
   }

@@ -1,15 +1,11 @@
 // Keys of supports and loads.
 
-#include "io/case/binding/key_binding.hpp"
 #include "io/case/keys/key_tables.hpp"
 
 namespace perilink {
 namespace {
 
-using namespace kinds;
-using namespace reasons;
-using namespace allowed;
-using Kind = Values::Kind;
+using namespace shared;
 
 constexpr std::string_view whole_body = "model the whole body";
 constexpr Kinds unturned = bond_based | lattice | particles | elements;
@@ -116,7 +112,7 @@ TableSchema point_load_table() {
   return {"point_loads",
           true,
           {key("at", &PointLoadSection::at, Kind::position).needed("the point that is loaded"),
-           key("force", &PointLoadSection::force), key("stage", &PointLoadSection::stage),
+           key("force", &PointLoadSection::force).derived(), key("stage", &PointLoadSection::stage),
            KeySchema("moment", Kind::moment, moments)
                .written_by(+[](TomlWriter& out, const PointLoadSection& load, Kinds kind) {
                  if (load.moment == Vector3{}) return;

@@ -1,8 +1,5 @@
 // Keys of cracks, interfaces, scatter, bars, elements and gauges.
 
-#include <limits>
-
-#include "io/case/binding/key_binding.hpp"
 #include "io/case/keys/key_tables.hpp"
 #include "io/case/sections/case_gauges.hpp"
 #include "io/case/sections/case_kinds.hpp"
@@ -13,13 +10,8 @@
 namespace perilink {
 namespace {
 
-using namespace kinds;
-using namespace reasons;
-using namespace allowed;
-using Kind = Values::Kind;
+using namespace shared;
 using Bar = RebarSection;
-
-constexpr int largest = std::numeric_limits<int>::max();
 
 const Without no_cracks = {
     {beam, no_beam, flat_instead},
@@ -86,7 +78,6 @@ KeySchema code_key(const char* name, double ModelCodeBond::*member) {
 const std::vector<std::string_view> not_concrete = {"perfect", "linear", "model_code", "curve"};
 
 std::vector<KeySchema> place_keys() {
-  const Values number(Kind::number, positive);
   const auto of_layout = [](const char* name, const Values& values) {
     return KeySchema(name, values).beside("inside");
   };
@@ -95,11 +86,13 @@ std::vector<KeySchema> place_keys() {
           {"points", Kind::points},
           {"inside", Kind::text},
           {"group", Kind::text},
-          of_layout("along", Kind::normal),
-          of_layout("cover", number),
+          of_layout("along", Kind::normal)
+              .needed("the axis that the bars, or the beam in its stirrups, go along"),
+          of_layout("cover", positive_number)
+              .needed("the distance between the faces of the region and the bars"),
           of_layout("face", {{"-x", "-y", "-z", "+x", "+y", "+z"}}),
           of_layout("number", {Kind::integer, from(1, 100000)}),
-          of_layout("spacing", number),
+          of_layout("spacing", positive_number),
           key("copies", &Bar::copies, from(1, 100000)),
           key("steps", &Bar::steps),
           key("across_gaps", &Bar::across_gaps)
@@ -117,7 +110,7 @@ std::vector<KeySchema> steel_keys() {
       key("yields", &Bar::yields).written_if(+[](const Bar& bar) {
         return bar.yield_strength || !bar.curve.empty() || !bar.yields;
       }),
-      key("hardening_modulus", &Bar::hardening_modulus)
+      key("hardening_modulus", &Bar::hardening_modulus, not_negative)
           .instead_of("stress_strain")
           .written_if(+[](const Bar& bar) { return bar.hardening_modulus != 0.0; }),
       key("rupture_strain", &Bar::rupture_strain, positive)};
@@ -155,20 +148,14 @@ std::vector<KeySchema> bond_keys() {
           key("stage", &Bar::stage)};
 }
 
-std::vector<KeySchema> joined_keys(std::vector<KeySchema> keys,
-                                   const std::vector<std::vector<KeySchema>>& others) {
-  for (const auto& more : others) keys.insert(keys.end(), more.begin(), more.end());
-  return keys;
-}
-
 }  // namespace
 
 TableSchema crack_table() {
   return {
       "cracks",
       true,
-      joined_keys(face_keys(write_place<CrackSection>),
-                  {{key("closing", &CrackSection::closing, {},
+      joined_keys({face_keys(write_place<CrackSection>),
+                   {key("closing", &CrackSection::closing, {},
                         {{shell, "is given, but cracks of a shell do not close", delete_it}})}}),
       no_cracks,
       {{"points", "corners", "group"}}};
@@ -176,25 +163,19 @@ TableSchema crack_table() {
 
 TableSchema interface_table() {
   using Face = InterfaceSection;
-  const Values number(Kind::number, positive);
   return {"interfaces",
           true,
           joined_keys(
-              {key("between", &Face::between)},
-              {face_keys(write_interface_place),
+              {{key("between", &Face::between)},
+               face_keys(write_interface_place),
                {key("fracture_energy", &Face::fracture_energy, positive)
                     .written_if(+[](const Face& face) { return !has_stretches(face.softening); }),
-                KeySchema("tensile_strength", number)
+                KeySchema("tensile_strength", positive_number)
                     .written_by(+[](TomlWriter& out, const Face& face, Kinds) {
                       write_softening(out, face.softening);
                     }),
-                {"softening", {{"brittle", "linear", "bilinear", "exponential", "points"}}},
-                {"softening_error", Kind::number},
-                {"softening_points", Kind::pairs},
-                {"softening_stretches", number.as_list()},
-                {"closing", Kind::boolean},
-                {"knee_stress_ratio", {Kind::number, fraction}},
-                {"knee_opening_ratio", {Kind::number, fraction}}}}),
+                {"softening", {{"brittle", "linear", "bilinear", "exponential", "points"}}}},
+               softening_keys()}),
           no_interfaces,
           {{"between", "points", "corners", "group"}}};
 }
@@ -220,33 +201,26 @@ TableSchema random_table() {
 }
 
 TableSchema rebar_table() {
-  return {"rebar", true, joined_keys(place_keys(), {steel_keys(), bond_keys()}), no_rebar};
+  return {"rebar", true, joined_keys({place_keys(), steel_keys(), bond_keys()}), no_rebar};
 }
 
 TableSchema element_table() {
   using Hosts = ElementsSection;
-  return {"elements",
-          false,
-          {key("spacings", &Hosts::spacings, from(2, 1000)),
-           key("size", &Hosts::size, positive),
-           KeySchema("mesh", Kind::text, in_beams)
-               .written_by(+[](TomlWriter& out, const Hosts& hosts, Kinds) {
-                 write_mesh_file(out, hosts);
-               }),
-           {"mesh_size", {Kind::number, positive}, in_beams},
-           {"mesh_scale", Kind::number, in_beams},
-           key("order", &Hosts::order, from(1, 2)),
-           key("regions", &Hosts::regions),
-           key("particles", &Hosts::particles),
-           key("glued", &Hosts::tied, {}, in_beams),
-           key("alert", &Hosts::release_threshold, fraction, set_aside(elastic))
-               .kept()
-               .written_if(+[](const Hosts& hosts) { return !hosts.release_strain; }),
-           key("alert_strain", &Hosts::release_strain, positive, release_strains)
-               .kept()
-               .instead_of("alert"),
-           key("halo", &Hosts::buffer_zone, positive, set_aside(elastic)).kept()},
-          no_hosts};
+  return {
+      "elements", false,
+      joined_keys(
+          {{key("spacings", &Hosts::spacings, from(2, 1000)), key("size", &Hosts::size, positive)},
+           mesh_keys<Hosts>(),
+           {key("order", &Hosts::order, from(1, 2)), key("regions", &Hosts::regions),
+            key("particles", &Hosts::particles), key("glued", &Hosts::tied, {}, in_beams),
+            key("alert", &Hosts::release_threshold, fraction, set_aside(elastic))
+                .kept()
+                .written_if(+[](const Hosts& hosts) { return !hosts.release_strain; }),
+            key("alert_strain", &Hosts::release_strain, positive, release_strains)
+                .kept()
+                .instead_of("alert"),
+            key("halo", &Hosts::buffer_zone, positive, set_aside(elastic)).kept()}}),
+      no_hosts};
 }
 
 TableSchema gauge_table() {

@@ -1,19 +1,12 @@
 // Keys of [analysis], [stop], [[stages]] and [output].
 
-#include <limits>
-
-#include "io/case/binding/key_binding.hpp"
 #include "io/case/keys/key_tables.hpp"
 
 namespace perilink {
 namespace {
 
-using namespace kinds;
-using namespace reasons;
-using namespace allowed;
+using namespace shared;
 using Analysis = AnalysisSection;
-
-constexpr int largest = std::numeric_limits<int>::max();
 
 const Without types = {
     {elements | explicit_, "is \"explicit\", but linear elements have no masses",
@@ -113,11 +106,18 @@ TableSchema output_table() {
   return {
       "output",
       false,
-      {key("fields_at", &Output::fields_at, from(1, largest), of_damage).written_empty(),
+      {key("fields_at", &Output::fields_at, from(1, largest), of_damage)
+           .ascending()
+           .hinted("sort the numbers of broken bonds and delete repeated ones")
+           .written_empty(),
        key("fields_every", &Output::fields_every, from(1, largest), of_damage),
        key("fields_every_rows", &Output::fields_every_rows, from(1, largest), of_damage),
        key("fields_at_peak", &Output::fields_at_peak, {}, of_damage),
-       key("fields_times", &Output::fields_times, {}, of_time).written_empty(),
+       key("fields_times", &Output::fields_times, positive, of_time)
+           .ascending()
+           .hinted("sort the positive times and delete repeated ones; fields at time 0 are always "
+                   "written")
+           .written_empty(),
        key("body_cells", &Output::body_cells, {}, of_bonds).written_if(+[](const Output& output) {
          return output.body_cells;
        }),

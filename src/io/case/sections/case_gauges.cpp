@@ -55,6 +55,7 @@ std::string stress_name(const std::array<int, 2>& axes) {
 
 GaugeSection read_gauge(const CaseTable& table, Kinds kind) {
   const int dim = dimension_of(kind);
+  const auto stress = table.choice("stress", stress_names(dim));  // fewer words than the row has
   auto gauge = read_section<GaugeSection>("gauges", table, kind);
   if (!is_plain(gauge.name)) {
     table.refuse("name", fmt::format("is {}", quoted(gauge.name)),
@@ -74,9 +75,7 @@ GaugeSection read_gauge(const CaseTable& table, Kinds kind) {
   } else {
     table.need_one_of({"axis", "stress"});
   }
-  if (const auto stress = table.choice("stress", stress_names(dim))) {
-    gauge.stress = {(*stress)[0] - 'x', (*stress)[1] - 'x'};
-  }
+  if (stress) gauge.stress = {(*stress)[0] - 'x', (*stress)[1] - 'x'};
   return gauge;
 }
 

@@ -62,17 +62,10 @@ std::string what_rotates(const BodySection& body) {
 }
 
 void read_mesh_file(const CaseTable& table, MeshSource& source) {
-  constexpr double most_scale = 1e12;
-  if (!table.has("mesh")) {
-    for (const char* key : {"mesh_size", "mesh_scale"}) {
-      if (table.has(key)) table.refuse(key, "is given, but there is no `mesh`", "delete it");
-    }
-    return;
-  }
+  if (!table.has("mesh")) return;
   source.mesh = table.path("mesh");
   const std::string& mesh = *source.mesh;
   if (mesh.empty()) table.refuse("mesh", "is empty", "name the file of a mesh");
-  source.mesh_size = table.positive("mesh_size");
   if (source.mesh_size && !is_geometry(mesh)) {
     table.refuse("mesh_size", "is given, but `mesh` is meshed already",
                  "delete it, or name a geometry (.geo, .step, .stp, .brep) as `mesh`");
@@ -80,19 +73,6 @@ void read_mesh_file(const CaseTable& table, MeshSource& source) {
   if (!source.mesh_size && is_geometry(mesh) && !is_gmsh_script(mesh)) {
     table.refuse_missing("mesh_size", "the size of the cells of this geometry");
   }
-  source.mesh_scale = table.positive("mesh_scale");
-  const double scale = source.mesh_scale.value_or(1.0);
-  if (scale > most_scale || scale < 1.0 / most_scale) {
-    table.refuse("mesh_scale", fmt::format("is {}, not from 1e-12 to 1e12", scale),
-                 "give the factor from the unit of the mesh to that of the case: 0.001 from "
-                 "millimetres to metres");
-  }
-}
-
-void write_mesh_file(TomlWriter& out, const MeshSource& source) {
-  out.write("mesh", source.mesh);
-  out.write("mesh_size", source.mesh_size);
-  out.write("mesh_scale", source.mesh_scale);
 }
 
 std::vector<NamedGroup> named_groups(const CaseFile& input) {

@@ -50,9 +50,8 @@ std::string why_nothing_rotates(const BodySection& body);
 /// Returns a model whose particles have rotations, for the suggestion of a message.
 std::string what_rotates(const BodySection& body);
 
-/// Reads `mesh`, `mesh_size` and `mesh_scale`, where a table has them.
+/// Reads `mesh`, where a table has it, and checks `mesh_size`, which is read before.
 void read_mesh_file(const CaseTable& table, MeshSource& source);
-void write_mesh_file(TomlWriter& out, const MeshSource& source);
 
 /// Physical group of the mesh that a case names.
 struct NamedGroup {

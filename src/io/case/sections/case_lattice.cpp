@@ -26,13 +26,6 @@ void check_lattice_yielding(const CaseTable& table, const BodySection& body,
     table.refuse("yield_strength", "is given, but the rules of 2018 have no yielding in space",
                  "choose another variant in [body], or a body in the plane");
   }
-  const auto need = [&](const char* key, const auto& value, const char* meaning) {
-    if (!value) table.refuse_missing(key, meaning);
-  };
-  need("ultimate_strength", section.ultimate_strength,
-       "the yield stress where hardening ends; equal to `yield_strength` without hardening");
-  need("ultimate_plastic_strain", section.ultimate_plastic_strain,
-       "the plastic strain at the ultimate strength");
   if (*section.ultimate_strength < *section.yield_strength) {
     table.refuse("ultimate_strength",
                  fmt::format("is {}, less than the yield strength {}", *section.ultimate_strength,
@@ -40,9 +33,11 @@ void check_lattice_yielding(const CaseTable& table, const BodySection& body,
                  "give at least the yield strength");
   }
   if (body.variant == LatticeRules::consistent) {
-    need("crushing_energy", section.crushing_energy,
-         "the energy per area that crushing takes, or \"infinite\" for a material that keeps its "
-         "ultimate strength");
+    if (!section.crushing_energy) {
+      table.refuse_missing("crushing_energy",
+                           "the energy per area that crushing takes, or \"infinite\" for a "
+                           "material that keeps its ultimate strength");
+    }
   } else if (section.crushing_energy) {
     table.refuse("crushing_energy",
                  fmt::format("is given, but the rules of {} have their own softening",
@@ -115,7 +110,7 @@ void check_state_material(const CaseTable& table, const CaseFile& input,
   }
   if (!material.density) table.refuse_missing("density", "mass per volume");
   LatticeMaterialSection& section = *material.lattice;
-  section.critical_opening = table.positive("critical_opening");
+  section.critical_opening = table.number("critical_opening");
   const bool given = table.has("fracture_energy") || section.critical_opening;
   if (given || input.analysis.type != AnalysisType::elastic) {
     table.need_one_of({"fracture_energy", "critical_opening"});
@@ -128,10 +123,10 @@ void check_state_material(const CaseTable& table, const CaseFile& input,
                  "write fracture_energy = \"infinite\", or choose another variant in [body]");
   }
   if (breakable) {
-    section.tensile_strength = table.need("tensile_strength", table.positive("tensile_strength"),
+    section.tensile_strength = table.need("tensile_strength", table.number("tensile_strength"),
                                           "the tensile strength at which damage begins");
-    assign(section.knee_stress_ratio, table.number("knee_stress_ratio", allowed::fraction));
-    assign(section.knee_opening_ratio, table.number("knee_opening_ratio", allowed::fraction));
+    assign(section.knee_stress_ratio, table.number("knee_stress_ratio"));
+    assign(section.knee_opening_ratio, table.number("knee_opening_ratio"));
   }
   for (const char* key : softening_keys) {
     if (breakable || !given || !table.has(key)) continue;

@@ -103,12 +103,12 @@ SupportSection read_support(const CaseTable& table, const CaseFile& input) {
 }
 
 DisplacementSection read_displacement(const CaseTable& table, const char* name, Kinds kind) {
-  const auto driven = read_section<DisplacementSection>(name, table, kind);
-  if (std::ranges::none_of(driven.value, [](const auto& value) { return value.has_value(); })) {
+  const auto prescribed = read_section<DisplacementSection>(name, table, kind);
+  if (std::ranges::none_of(prescribed.value, [](const auto& value) { return value.has_value(); })) {
     table.refuse("", "moves no axis",
                  axes_of(kind) == 2 ? "give x or y or both" : "give one or more of x, y, z");
   }
-  return driven;
+  return prescribed;
 }
 
 }  // namespace perilink

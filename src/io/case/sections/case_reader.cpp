@@ -160,7 +160,7 @@ CaseFile parse_case(const std::string& text, const std::string& path,
     return document.list(name,
                          [&](const CaseTable& table, std::size_t) { return reader(table, known); });
   };
-  const auto driven = [&](const char* name) {
+  const auto prescribed = [&](const char* name) {
     return document.list(name, [&](const CaseTable& table, std::size_t) {
       return read_displacement(table, name, kind);
     });
@@ -172,8 +172,8 @@ CaseFile parse_case(const std::string& text, const std::string& path,
     return read_material(table, input, index);
   });
   input.supports = each("supports", read_support, input);
-  input.displacements = driven("displacements");
-  input.velocities = driven("velocities");
+  input.displacements = prescribed("displacements");
+  input.velocities = prescribed("velocities");
   input.loads = each("loads", read_load, kind);
   input.tractions = each("tractions", read_traction, kind);
   input.point_loads = each("point_loads", read_point_load, kind);
@@ -190,7 +190,7 @@ CaseFile parse_case(const std::string& text, const std::string& path,
   input.analysis = read_analysis(document.table("analysis"), kind);
   input.stop = read_stop(document.table("stop"), kind);
   input.stages = each("stages", read_stage, kind);
-  input.output = read_output(document.table("output"), kind);
+  input.output = read_section<OutputSection>("output", document.table("output"), kind);
   resolve_stages(input);
   check_rules(input);
   return input;

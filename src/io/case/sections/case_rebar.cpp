@@ -20,29 +20,24 @@ constexpr double same_modulus = 1e-3;
 
 BarLayout read_layout(const CaseTable& table, int dim) {
   BarLayout layout;
-  layout.region = table.need("inside", table.text("inside"), "the region that bars are laid in");
-  const auto axis = table.need("along", table.choice("along", {"x", "y", "z"}),
-                               "the axis that the bars, or the beam in its stirrups, go along");
-  layout.along = axis[0] - 'x';
-  if (layout.along >= dim) {
-    table.refuse("along", "is an axis that a two-dimensional body does not have", "Allowed: x, y");
-  }
-  layout.cover = table.need("cover", table.positive("cover"),
-                            "the distance between the faces of the region and the bars");
+  layout.region = *table.text("inside");
+  layout.along = table.text("along")->front() - 'x';
+  layout.cover = *table.number("cover");
   table.need_one_of({"face", "spacing"});
-  layout.spacing = table.positive("spacing");
+  layout.spacing = table.number("spacing");
   if (layout.spacing) {
     if (!table.has("number")) return layout;
     table.refuse("number", "is given together with `spacing`",
                  "stirrups have a spacing; bars beside a face have a number");
   }
-  const auto face = table.choice("face", {"-x", "-y", "-z", "+x", "+y", "+z"});
+  const auto face = table.text("face");
   layout.face = ((*face)[1] - 'x') + ((*face)[0] == '+' ? 3 : 0);
   if (*layout.face % 3 == layout.along || *layout.face % 3 >= dim) {
     table.refuse("face", "is not parallel to the bars",
                  "give a face with another normal than `along`");
   }
-  assign(layout.number, table.integer("number", 1, 100000));
+  if (const TomlValue* number = table.value("number"))
+    layout.number = static_cast<int>(number->integer);
   if (dim == 2 && layout.number > 1) {
     table.refuse("number", "is above one, but a layer in the plane is one bar",
                  "give the area of all bars, or lay `copies`");
@@ -94,7 +89,7 @@ void read_place(const CaseTable& table, int dim, RebarSection& bar) {
 }
 
 void check_steel(const CaseTable& table, const RebarSection& bar) {
-  if (!(bar.hardening_modulus >= 0.0 && bar.hardening_modulus < bar.youngs_modulus)) {
+  if (bar.hardening_modulus >= bar.youngs_modulus) {
     table.refuse("hardening_modulus", fmt::format("is {}", bar.hardening_modulus),
                  "it lies between zero and Young's modulus");
   }

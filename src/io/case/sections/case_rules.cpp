@@ -235,9 +235,9 @@ std::string shown(const Expression& value) {
 
 using Held = std::set<std::pair<std::string, int>>;
 
-void check_driven_once(const CaseFile& input, const Held& held, const std::string& table,
-                       const std::vector<DisplacementSection>& sections) {
-  std::map<std::pair<std::string, int>, Expression> driven;
+void check_prescribed_once(const CaseFile& input, const Held& held, const std::string& table,
+                           const std::vector<DisplacementSection>& sections) {
+  std::map<std::pair<std::string, int>, Expression> prescribed;
   for (std::size_t i = 0; i < sections.size(); ++i) {
     const DisplacementSection& section = sections[i];
     for (int axis = 0; axis < 6; ++axis) {
@@ -251,7 +251,7 @@ void check_driven_once(const CaseFile& input, const Held& held, const std::strin
                                      quoted(section.region), shown(value), name),
                          "delete one of the two");
       }
-      const auto [at, is_new] = driven.emplace(std::pair(section.region, axis), value);
+      const auto [at, is_new] = prescribed.emplace(std::pair(section.region, axis), value);
       if (!is_new && !(at->second == value)) {
         throw InputError(where,
                          fmt::format("moves region {} by {}, but another table moves it by {}",
@@ -270,19 +270,19 @@ void check_contradictions(const CaseFile& input) {
       if (support.fix[axis]) held.emplace(support.region, axis);
     }
   }
-  check_driven_once(input, held, "displacements", input.displacements);
-  check_driven_once(input, held, "velocities", input.velocities);
+  check_prescribed_once(input, held, "displacements", input.displacements);
+  check_prescribed_once(input, held, "velocities", input.velocities);
 }
 
-void check_driven(const CaseFile& input) {
-  bool driven = !input.loads.empty() || !input.tractions.empty() || !input.point_loads.empty();
+void check_loaded(const CaseFile& input) {
+  bool loaded = !input.loads.empty() || !input.tractions.empty() || !input.point_loads.empty();
   for (const auto* sections : {&input.displacements, &input.velocities}) {
     for (const DisplacementSection& section : *sections) {
-      for (const auto& value : section.value) driven = driven || (value && !value->is_zero());
+      for (const auto& value : section.value) loaded = loaded || (value && !value->is_zero());
     }
   }
-  for (const RebarSection& bar : input.rebar) driven = driven || bar.prestrain != 0.0;
-  if (driven) return;
+  for (const RebarSection& bar : input.rebar) loaded = loaded || bar.prestrain != 0.0;
+  if (loaded) return;
   throw InputError(
       input.where("loads"), "the case has no load",
       "add [[loads]], [[tractions]], [[point_loads]], or [[displacements]] that are not zero");
@@ -381,7 +381,7 @@ void check_rules(const CaseFile& input) {
   }
   check_contradictions(input);
   check_iterative_solver(input);
-  check_driven(input);
+  check_loaded(input);
 }
 
 }  // namespace perilink

@@ -9,24 +9,6 @@
 #include "io/case/sections/laws/case_interfaces.hpp"
 
 namespace perilink {
-namespace {
-
-/// Refuses numbers that do not ascend from a lower limit on.
-template <class T>
-void check_ascending(const CaseTable& table, const char* key, const std::vector<T>& numbers,
-                     const char* advice) {
-  T before = 0;
-  for (const T number : numbers) {
-    if (number <= before) {
-      table.refuse(key, fmt::format("has {} after {}, but the numbers must ascend", number, before),
-                   advice);
-    }
-    before = number;
-  }
-}
-
-}  // namespace
-
 CrackSection read_crack(const CaseTable& table, Kinds kind) {
   auto crack = read_section<CrackSection>("cracks", table, kind);
   read_face(table, dimension_of(kind), crack.points, crack.group);
@@ -57,7 +39,7 @@ AnalysisSection read_analysis(const CaseTable& table, Kinds kind) {
                  "set control = \"steps\", or delete `load_factors`");
   }
   if (relaxes && !given) analysis.load_factors = {1.0};
-  if (relaxes || steps) check_load_factors(table, analysis.load_factors);
+  if (given) check_load_factors(table, *table.numbers("load_factors"));
   return analysis;
 }
 
@@ -69,16 +51,6 @@ StopSection read_stop(const CaseTable& table, Kinds kind) {
   const auto stop = read_section<StopSection>("stop", table, kind);
   check_rules_of_gauge(table);
   return (kind & kinds::elastic) != 0 ? StopSection{} : stop;
-}
-
-OutputSection read_output(const CaseTable& table, Kinds kind) {
-  const auto output = read_section<OutputSection>("output", table, kind);
-  check_ascending(table, "fields_at", output.fields_at,
-                  "sort the numbers of broken bonds and delete repeated ones");
-  check_ascending(
-      table, "fields_times", output.fields_times,
-      "sort the positive times and delete repeated ones; fields at time 0 are always written");
-  return output;
 }
 
 }  // namespace perilink

@@ -34,6 +34,5 @@ AnalysisSection read_analysis(const CaseTable& table, Kinds kind);
 /// Refuses a rule of a gauge without its limit.
 void check_rules_of_gauge(const CaseTable& table);
 StopSection read_stop(const CaseTable& table, Kinds kind);
-OutputSection read_output(const CaseTable& table, Kinds kind);
 
 }  // namespace perilink

@@ -42,10 +42,6 @@ InterfaceSection read_interface(const CaseTable& table, Kinds kind) {
                  "its points, corners or group");
   }
   read_face(table, dimension_of(kind), section.points, section.group);
-  if (table.choice<Softening>("softening") == Softening::concrete) {
-    table.refuse("softening", "is \"concrete\", a law with crushing, which interfaces do not have",
-                 "set \"brittle\", \"linear\", \"bilinear\" or \"exponential\"");
-  }
   section.softening = read_softening(table);
   if (!has_stretches(section.softening) && !table.has("fracture_energy")) {
     table.refuse_missing("fracture_energy", "the energy that the face takes per area");

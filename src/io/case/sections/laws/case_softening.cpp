@@ -13,7 +13,6 @@
 namespace perilink {
 namespace {
 
-constexpr double least_error = 1e-5;
 /// Largest ratio of the stretch at zero force to the stretch at the peak.
 constexpr double most_rise = 1e10;
 constexpr std::array knee_keys = {"knee_stress_ratio", "knee_opening_ratio"};
@@ -111,26 +110,11 @@ void refuse_beside_brittle(const CaseTable& table) {
 /// zero.
 std::array<double, 2> read_plateau(const CaseTable& table, const std::string& sense) {
   const std::string factor_key = sense + "_factor";
-  const double limit = table.need(sense + "_limit", table.positive(sense + "_limit"),
+  const double limit = table.need(sense + "_limit", table.number(sense + "_limit"),
                                   "the stretch at which the force of a bond ceases to grow");
-  const double factor = table.need(factor_key, table.positive(factor_key),
+  const double factor = table.need(factor_key, table.number(factor_key),
                                    "the stretch at which it falls to zero over that limit");
-  if (!(factor > 1.0 && factor <= most_rise)) {
-    table.refuse(factor_key,
-                 fmt::format("must be more than one and at most {:g}: the force is constant up to "
-                             "there",
-                             most_rise),
-                 "2 in tension and 3 in compression are the values of the paper");
-  }
   return {limit, factor * limit};
-}
-
-void read_error(const CaseTable& table, SofteningMaterial& material) {
-  assign(material.error, table.number("softening_error", allowed::fraction));
-  if (material.error >= least_error) return;
-  table.refuse("softening_error", fmt::format("is {}", material.error),
-               fmt::format("give {} or more: a smaller error needs too many saw-tooth segments",
-                           least_error));
 }
 
 void read_concrete(const CaseTable& table, SofteningMaterial& material) {
@@ -145,7 +129,6 @@ void read_concrete(const CaseTable& table, SofteningMaterial& material) {
   material.stretches = read_plateau(table, "tension");
   material.crushing = read_plateau(table, "compression");
   assign(material.shear_softens, table.boolean("shear_softening"));
-  read_error(table, material);
 }
 
 }  // namespace
@@ -156,6 +139,7 @@ SofteningMaterial read_softening(const CaseTable& table) {
   const auto kind = table.choice<Softening>("softening");
   const bool named = kind || table.has("tensile_strength") || table.has("softening_stretches");
   material.shape.kind = kind.value_or(named ? Softening::bilinear : Softening::brittle);
+  assign(material.error, table.number("softening_error"));
   const bool concrete = material.shape.kind == Softening::concrete;
   material.closes = closes.value_or(material.shape.kind != Softening::brittle && !concrete);
   if (material.shape.kind == Softening::brittle) {
@@ -170,7 +154,7 @@ SofteningMaterial read_softening(const CaseTable& table) {
     table.refuse(key, "is given, but only softening = \"concrete\" has it", "delete it");
   }
   table.need_one_of({"tensile_strength", "softening_stretches"});
-  assign(material.tensile_strength, table.positive("tensile_strength"));
+  assign(material.tensile_strength, table.number("tensile_strength"));
   material.stretches = read_stretches(table, material.shape.kind);
   material.shape.points = read_points(table, material.shape.kind);
   const char* knee = find_given(table, knee_keys);
@@ -178,9 +162,8 @@ SofteningMaterial read_softening(const CaseTable& table) {
     table.refuse(knee, "is given, but only bilinear softening has a knee",
                  "delete it, or set softening = \"bilinear\"");
   }
-  assign(material.shape.knee_force, table.number("knee_stress_ratio", allowed::fraction));
-  assign(material.shape.knee_stretch, table.number("knee_opening_ratio", allowed::fraction));
-  read_error(table, material);
+  assign(material.shape.knee_force, table.number("knee_stress_ratio"));
+  assign(material.shape.knee_stretch, table.number("knee_opening_ratio"));
   return material;
 }
 

@@ -26,6 +26,8 @@ struct ToySection {
   std::vector<double> times;
   Vector3 at{};
   double depth = 1.0;
+  std::vector<int> marks;
+  double width = 2.0;
 };
 
 /// What a new key needs: its row.
@@ -36,9 +38,17 @@ const TableSchema& toy_table() {
       true,
       {key("count", &ToySection::count, from(1, 9), {{kinds::explicit_, {}, {}}}),
        key("size", &ToySection::size, positive).needed("the size of the toy"),
-       key("strain", &ToySection::strain), key("times", &ToySection::times, not_negative),
+       key("strain", &ToySection::strain),
+       key("times", &ToySection::times, not_negative),
        key("at", &ToySection::at, Values::Kind::position),
-       key("depth", &ToySection::depth, fraction).only_with("strain", {"green"}).hinted("try 0.5")},
+       key("depth", &ToySection::depth, fraction).only_with("strain", {"green"}).hinted("try 0.5"),
+       key("marks", &ToySection::marks, from(1, 9), {{kinds::explicit_, {}, {}}})
+           .ascending()
+           .hinted("sort them")
+           .instead_of("times"),
+       {"weight", {Values::Kind::number, positive}},
+       KeySchema("side", {{"left", "right"}}).beside("weight").needed("its side"),
+       key("width", &ToySection::width, positive).derived()},
       {}};
   return table;
 }
@@ -46,8 +56,7 @@ const TableSchema& toy_table() {
 ToySection read_toy(const std::string& text, Kinds kind = toy_damage_run) {
   const TomlValue root = parse_toml(text, "toy.toml");
   ToySection section, others;
-  read_keys(toy_table(), CaseTable(root, "toy[1]", "toy.toml"), kind, &section, &others,
-            typeid(ToySection));
+  read_keys(toy_table(), CaseTable(root, "toy[1]", "toy.toml"), kind, &section, &others);
   return section;
 }
 
@@ -62,7 +71,7 @@ std::string toy_refusal(const std::string& text, Kinds kind = toy_damage_run) {
 
 std::string toy_text(const ToySection& section, Kinds kind = toy_damage_run) {
   TomlWriter out;
-  write_keys(toy_table(), out, kind, &section, typeid(ToySection), "");
+  write_keys(toy_table(), out, kind, &section, "");
   return out.take();
 }
 
@@ -96,10 +105,42 @@ TEST(KeyBinding, ChecksKeysOfOtherKindsWithoutUsingThem) {
   EXPECT_THAT(toy_refusal("size = 1\ncount = 10", toy_explicit_run), HasSubstr("from 1 to 9"));
 }
 
+TEST(KeyBinding, ChecksOrderAndRivalsOfKeysOfOtherKinds) {
+  for (const Kinds kind : {toy_damage_run, toy_explicit_run}) {
+    EXPECT_EQ(toy_refusal("size = 1\nmarks = [1, 3]", kind), "accepted");
+    EXPECT_THAT(toy_refusal("size = 1\nmarks = [3, 3]", kind),
+                HasSubstr("toy.toml:2: toy[1].marks: has 3 after 3, but the numbers must ascend"));
+    EXPECT_THAT(toy_refusal("size = 1\nmarks = [3, 2]", kind), HasSubstr("sort them"));
+    EXPECT_THAT(toy_refusal("size = 1\nmarks = [3]\ntimes = [1]", kind),
+                HasSubstr("toy[1].marks: is given together with `times`"));
+  }
+}
+
+TEST(KeyBinding, ChecksValuesThatAreReadByHand) {
+  EXPECT_EQ(toy_refusal("size = 1\nweight = 2\nside = \"left\""), "accepted");
+  EXPECT_THAT(toy_refusal("size = 1\nweight = 0\nside = \"left\""),
+              HasSubstr("toy[1].weight: is 0, but must be greater than zero"));
+  EXPECT_THAT(toy_refusal("size = 1\nweight = 2\nside = \"lft\""),
+              HasSubstr("did you mean `left`?"));
+}
+
+TEST(KeyBinding, NeedsAKeyOnlyBesideTheOneThatItDependsOn) {
+  EXPECT_EQ(toy_refusal("size = 1"), "accepted");
+  EXPECT_THAT(toy_refusal("size = 1\nweight = 2"), HasSubstr("give its side"));
+  EXPECT_THAT(toy_refusal("size = 1\nside = \"left\""), HasSubstr("is given without `weight`"));
+}
+
+TEST(KeyBinding, ReportsWrongValuesBeforeMissingAndExcludedKeys) {
+  EXPECT_THAT(toy_refusal("count = 10"), HasSubstr("toy[1].count: is the integer 10"));
+  EXPECT_THAT(toy_refusal("strain = \"gren\"\ndepth = 0.5"),
+              HasSubstr("toy[1].strain: is \"gren\", which is not one of the choices"));
+}
+
 TEST(KeyBinding, WritesWhatItReads) {
-  const std::string text = "count = 4\nsize = 2\nstrain = \"green\"\nat = [1, 2]\ndepth = 0.25\n";
+  const std::string text =
+      "count = 4\nsize = 2\nstrain = \"green\"\nat = [1, 2]\ndepth = 0.25\nwidth = 2\n";
   EXPECT_EQ(toy_text(read_toy(text)), text);
-  EXPECT_EQ(toy_text(ToySection{}), "count = 3\nstrain = \"small\"\nat = [0, 0]\n")
+  EXPECT_EQ(toy_text(ToySection{}), "count = 3\nstrain = \"small\"\nat = [0, 0]\nwidth = 2\n")
       << "neither absent numbers, nor empty lists, nor keys of another word";
   EXPECT_THAT(toy_text(ToySection{}, toy_explicit_run), Not(HasSubstr("count")));
 }
@@ -111,6 +152,7 @@ TEST(KeyBinding, KnowsDefaults) {
   EXPECT_EQ(default_of(keys[2])->text, "small");
   EXPECT_EQ(default_of(keys[5]), std::nullopt)
       << "a default out of range stands for a computed one";
+  EXPECT_EQ(default_of(keys.back()), std::nullopt) << "it depends on other keys";
 }
 
 TEST(KeyBinding, KeysOfATableAreMembersOfOneSection) {

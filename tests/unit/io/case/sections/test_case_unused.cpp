@@ -93,5 +93,47 @@ TEST(CaseUnused, AreNotWritten) {
   EXPECT_THAT(parse_case(once, "a.toml").unused, IsEmpty());
 }
 
+std::string message_of_type(const std::string& type, const std::string& analysis,
+                            const std::string& tables = "") {
+  const std::string text = replaced(small_case, "fracture_energy", "density = 1\nfracture_energy");
+  return message_of(text + "[analysis]\nduration = 1\ntype = \"" + type + "\"\n" + analysis + "\n" +
+                    tables);
+}
+
+TEST(CaseUnused, ChecksUnusedListsLikeUsedOnes) {
+  for (const char* type : {"damage", "elastic", "explicit", "relaxation"}) {
+    EXPECT_THAT(message_of_type(type, "", "[output]\nfields_at = [5, 3]"),
+                HasSubstr("output.fields_at: has 3 after 5"))
+        << type;
+    EXPECT_THAT(message_of_type(type, "", "[output]\nfields_times = [0.5, 0.5]"),
+                HasSubstr("output.fields_times: has 0.5 after 0.5"))
+        << type;
+    EXPECT_THAT(message_of_type(type, "", "[output]\nfields_times = [-2]"),
+                HasSubstr("output.fields_times: is -2, but must be greater than zero"))
+        << type;
+  }
+  for (const char* type : {"elastic", "explicit", "relaxation"}) {
+    EXPECT_THAT(message_of_type(type, "load_factors = []"),
+                HasSubstr("analysis.load_factors: is empty"))
+        << type;
+    EXPECT_THAT(message_of_type(type, "load_factors = [0.0, 0]"), HasSubstr("only zeros")) << type;
+    EXPECT_EQ(message_of_type(type, "load_factors = [0, 2]"), "accepted") << type;
+  }
+}
+
+TEST(CaseUnused, ChecksUnusedKeysThatExcludeEachOther) {
+  for (const char* type : {"damage", "elastic", "explicit"}) {
+    EXPECT_THAT(message_of_type(type, "", "[elements]\nsize = 1\nalert = 0.5\nalert_strain = 0.1"),
+                HasSubstr("elements.alert_strain: is given together with `alert`"))
+        << type;
+    EXPECT_THAT(message_of_type(type, "time_step = 0.1\nsafety = 0.5"),
+                HasSubstr("analysis.safety: is given together with `time_step`"))
+        << type;
+    EXPECT_THAT(message_of_type(type, "", "[stop]\nabove = 1"),
+                HasSubstr("stop.above: is given without `gauge`"))
+        << type;
+  }
+}
+
 }  // namespace
 }  // namespace perilink
