@@ -8,8 +8,10 @@
 #include <optional>
 #include <utility>
 
+#include "analysis/quasistatic/equilibrium/equilibrium.hpp"
 #include "app/run/resume.hpp"
 #include "app/run/run_kind.hpp"
+#include "base/error.hpp"
 #include "base/files.hpp"
 #include "base/memory.hpp"
 #include "base/plain_text.hpp"
@@ -80,6 +82,16 @@ void attempt(const RunOutcome& run_outcome, RunEnd& end, const Action& action) {
   } catch (const std::exception& error) {
     fail(run_outcome, end, error);
   }
+}
+
+/// Refuses a body that no equilibrium holds although its pre-cracks may close.
+[[noreturn]] void refuse_separated(const CaseFile& input) {
+  throw InputError(
+      input.where(input.cracks.empty() ? "analysis" : "cracks[1]"),
+      "the pre-cracks leave a part of the body free to move: the loads pull it off, or "
+      "turn it about the few bonds that are left, as about a hinge",
+      "end or move the crack so that more rows of particles are left, remove the "
+      "loads on that part, or hold it with [[supports]] or [[springs]]");
 }
 
 /// Opens all files of a run. On failure nothing is computed and the summary gives the reason.
@@ -157,7 +169,13 @@ RunEnd run_case(const CaseFile& input, const fs::path& directory, const RunSetti
   timer.restart();
   RunEnd end;
   const RunOutcome run_outcome = run->run_outcome();
-  attempt(run_outcome, end, [&] { run->analyse(); });
+  attempt(run_outcome, end, [&] {
+    try {
+      run->analyse();
+    } catch (const CracksSeparate&) {
+      refuse_separated(input);
+    }
+  });
   attempt(run_outcome, end, [&] { run->files().finish(); });
   attempt(run_outcome, end, [&] { sync_files(directory.string()); });
   run->seconds.output = run->files().seconds_writing();
