@@ -1,6 +1,5 @@
 // Longer runs of the program from outside: signals, threads, three dimensions.
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <pty.h>
@@ -345,57 +344,6 @@ TEST_F(ProgramRuns, DoubtResultsThatRoundOffHasReached) {
   EXPECT_THAT(warning, testing::HasSubstr("of the load is out of balance"));
   EXPECT_THAT(end.out, testing::HasSubstr(warning));
   EXPECT_THAT(read_text(work() / "r/log.txt"), testing::HasSubstr("warning: " + warning));
-}
-
-/// A closed crack leaves one layer of a bond-based body, about which the load turns a half.
-TEST_F(ProgramRuns, ABodyThatACrackLeavesAsAHingeIsRefusedWithTheCrack) {
-  const std::string hinge = R"([body]
-problem = "three_dimensional"
-surface = "none"
-spacing = 4
-horizon_ratio = 1.8
-[[regions]]
-name = "beam"
-x = [0, 32]
-y = [0, 16]
-z = [0, 8]
-[[regions]]
-name = "left"
-x = [0, 0]
-y = [0, 16]
-z = [0, 8]
-[[regions]]
-name = "right"
-x = [32, 32]
-y = [0, 16]
-z = [0, 8]
-[[materials]]
-region = "beam"
-youngs_modulus = 20000
-fracture_energy = 0.1
-tensile_strength = 2
-[[cracks]]
-corners = [[14, 15, -1], [14, 15, 9], [14, -1, 9], [14, -1, -1]]
-[[supports]]
-region = "left"
-fix = ["x", "y", "z"]
-[[tractions]]
-region = "right"
-traction = [1, 0, 0]
-[stop]
-broken_bonds = 3
-)";
-  const auto line = 1 + std::count(hinge.begin(), hinge.begin() + hinge.find("[[cracks]]"), '\n');
-  for (const char* type : {"damage", "elastic"}) {
-    const std::string ending = fmt::format("[analysis]\ntype = \"{}\"\n", type);
-    write_text(work() / "hinge.toml",
-               hinge.substr(0, type[0] == 'd' ? hinge.npos : hinge.find("[stop]")) + ending);
-    const ProcessEnd end = run({"run", "hinge.toml", "--out", "r", "--force"});
-    EXPECT_EQ(end.exit_status, 2);
-    EXPECT_THAT(end.err, testing::HasSubstr(fmt::format("hinge.toml:{}: cracks[1]", line)));
-    EXPECT_THAT(end.err, testing::HasSubstr("as about a hinge"));
-    EXPECT_EQ(summary("r")["status"], "failed");
-  }
 }
 
 /// Ten and twenty thousand times as long as high: the factor's answers are 0.2 and some 10 % off,

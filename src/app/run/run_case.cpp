@@ -84,14 +84,18 @@ void attempt(const RunOutcome& run_outcome, RunEnd& end, const Action& action) {
   }
 }
 
-/// Refuses a body that no equilibrium holds although its pre-cracks may close.
-[[noreturn]] void refuse_separated(const CaseFile& input) {
-  throw InputError(
-      input.where(input.cracks.empty() ? "analysis" : "cracks[1]"),
-      "the pre-cracks leave a part of the body free to move: the loads pull it off, or "
-      "turn it about the few bonds that are left, as about a hinge",
-      "end or move the crack so that more rows of particles are left, remove the "
-      "loads on that part, or hold it with [[supports]] or [[springs]]");
+/// \throws InputError  for a body that no equilibrium holds although its pre-cracks may close
+void analyse(RunKind& run, const CaseFile& input) {
+  try {
+    run.analyse();
+  } catch (const CracksSeparate&) {
+    throw InputError(
+        input.where(input.cracks.empty() ? "analysis" : "cracks[1]"),
+        "the pre-cracks leave a part of the body free to move: the loads pull it off, or turn it "
+        "about the few bonds that are left, as about a hinge",
+        "end or move the crack so that more rows of particles are left, remove the loads on that "
+        "part, or hold it with [[supports]] or [[springs]]");
+  }
 }
 
 /// Opens all files of a run. On failure nothing is computed and the summary gives the reason.
@@ -169,13 +173,7 @@ RunEnd run_case(const CaseFile& input, const fs::path& directory, const RunSetti
   timer.restart();
   RunEnd end;
   const RunOutcome run_outcome = run->run_outcome();
-  attempt(run_outcome, end, [&] {
-    try {
-      run->analyse();
-    } catch (const CracksSeparate&) {
-      refuse_separated(input);
-    }
-  });
+  attempt(run_outcome, end, [&] { analyse(*run, input); });
   attempt(run_outcome, end, [&] { run->files().finish(); });
   attempt(run_outcome, end, [&] { sync_files(directory.string()); });
   run->seconds.output = run->files().seconds_writing();

@@ -185,7 +185,7 @@ ScanFile parse_scan(const std::string& text, const std::string& path) {
 
 namespace {
 
-/// Returns the keys of a case that are seeds in a member of the scan, with their values in the case.
+/// Returns the keys that are seeds in a member of the scan, with their values in the case.
 std::vector<std::pair<std::string, std::int64_t>> seeds_of(const TomlValue& document,
                                                            const ScanMember& member) {
   std::vector<std::pair<std::string, std::int64_t>> seeds;

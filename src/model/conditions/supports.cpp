@@ -322,8 +322,8 @@ std::vector<std::size_t> cracks_beside(const Model& model, std::span<const Index
   return first;
 }
 
-/// Adds springs in the fewest components that hold the part. All its particles have them: springs on
-/// one particle would turn and move a symmetric part to one side.
+/// Adds springs in the fewest components that hold the part. All its particles have them: springs
+/// on one particle would turn and move a symmetric part to one side.
 void add_springs(const Model& model, const Fragment& part, const std::vector<std::uint8_t>& held,
                  std::vector<double>& springs) {
   const Network& network = model.network;
