@@ -238,7 +238,8 @@ traction = [1, 0, 0]
 [stop]
 broken_bonds = 3
 )";
-  const auto line = 1 + std::count(hinge.begin(), hinge.begin() + hinge.find("[[cracks]]"), '\n');
+  const std::string before = hinge.substr(0, hinge.find("[[cracks]]"));
+  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
   const TemporaryDirectory work;
   for (const char* type : {"damage", "elastic"}) {
     const std::string ending = fmt::format("[analysis]\ntype = \"{}\"\n", type);
