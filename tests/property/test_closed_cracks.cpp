@@ -123,33 +123,5 @@ TEST(ClosedCracks, SlideFreely) {
   }
 }
 
-/// A slice between two closed cracks that nothing else holds stays in the middle of a block that
-/// is pressed evenly.
-TEST(ClosedCracks, KeepSlicesInTheMiddle) {
-  const std::string pressed =
-      "[[supports]]\nregion = \"base\"\nfix = [\"x\"]\n[[supports]]\nregion = \"top\"\n"
-      "fix = [\"x\"]\n[[displacements]]\nregion = \"top\"\ny = -0.01\n"
-      "[[cracks]]\npoints = [[-1.0, 15.5], [41.0, 15.5]]\n";
-  for (const char* model_name : {"bond_based", "micropolar"}) {
-    CutBlock block;
-    block.model = model_name;
-    const Model model = block.build(pressed);
-    const ElasticResult result = run_elastic_analysis(model);
-    const Particles& particles = model.network.particles;
-    const int width = model.network.width();
-    double mean = 0.0, largest = 0.0;
-    int count = 0;
-    for (Index i = 0; i < model.network.num_particles(); ++i) {
-      const double y = particles.position(i)[1], moved = result.displacement[i * width];
-      if (y < 10.5 || y > 15.5) continue;
-      mean += moved;
-      largest = std::max(largest, std::abs(moved));
-      ++count;
-    }
-    ASSERT_EQ(count, 5 * 41);
-    EXPECT_LT(std::abs(mean / count), 1e-6 * largest) << model_name;
-  }
-}
-
 }  // namespace
 }  // namespace perilink

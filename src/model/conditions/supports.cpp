@@ -322,8 +322,7 @@ std::vector<std::size_t> cracks_beside(const Model& model, std::span<const Index
   return first;
 }
 
-/// Adds springs in the fewest components that hold the part. All its particles have them: springs
-/// on one particle would turn and move a symmetric part to one side.
+/// Adds springs to the fewest components that hold the part.
 void add_springs(const Model& model, const Fragment& part, const std::vector<std::uint8_t>& held,
                  std::vector<double>& springs) {
   const Network& network = model.network;
@@ -332,13 +331,11 @@ void add_springs(const Model& model, const Fragment& part, const std::vector<std
   std::vector<std::uint8_t> pinned = held;
   pin_rigid_modes(network, part, pinned);
   const std::size_t width = network.width(), dim = network.dim();
-  const double share = softness * stiffest / static_cast<double>(part.particles.size());
-  for (std::size_t a = 0; a < width; ++a) {
-    const double stiffness = a < dim ? share : share * model.horizon * model.horizon;
-    const auto is_pinned = [&](Index i) { return pinned[i * width + a] != held[i * width + a]; };
-    if (std::ranges::none_of(part.particles, is_pinned)) continue;
-    for (const Index i : part.particles) {
-      if (held[i * width + a] == 0) springs[i * width + a] = stiffness;
+  for (const Index i : part.particles) {
+    for (std::size_t slot = i * width; slot < (i + 1) * width; ++slot) {
+      if (pinned[slot] == held[slot]) continue;
+      const double lever = slot % width < dim ? 1.0 : model.horizon;
+      springs[slot] = softness * stiffest * lever * lever;
     }
   }
 }
