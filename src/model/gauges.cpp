@@ -54,10 +54,8 @@ std::vector<Index> neighbors_of(const Model& model, Index particle, const Vector
     return square;
   };
   std::vector<Index> neighbors;
-  double shortest = infinity;  // square; cells around the particle may be coarser than the mean
   const auto add = [&](Index i) {
     if (particles.kind[i] != ParticleKind::solid || i == particle) return;
-    shortest = std::min(shortest, away(i, particles.position(particle)));
     const bool fits = !same_material || particles.material[i] == particles.material[particle];
     if (fits) neighbors.push_back(i);
   };
@@ -66,9 +64,8 @@ std::vector<Index> neighbors_of(const Model& model, Index particle, const Vector
     if (i == particle || j == particle) add(i == particle ? j : i);
   }
   for (Index i = 0; network.bonds.size() == 0 && i < particles.size(); ++i) add(i);
-  const double spacing = model.lattice.spacing;
-  const double size = shortest < infinity ? std::max(spacing, std::sqrt(shortest)) : spacing;
-  std::erase_if(neighbors, [&](Index i) { return away(i, point) >= std::pow(reach * size, 2); });
+  const double farthest = reach * spacing_around(model, particle);
+  std::erase_if(neighbors, [&](Index i) { return away(i, point) >= std::pow(farthest, 2); });
   std::stable_sort(neighbors.begin(), neighbors.end(),
                    [&](Index i, Index j) { return away(i, point) < away(j, point); });
   return neighbors;
@@ -124,13 +121,14 @@ std::vector<Gauge::Term> terms_at(const CaseFile& input, const Model& model, con
   const double spacing = model.lattice.spacing;
   const std::span<const double> at(point.data(), static_cast<std::size_t>(particles.dim));
   const NearestParticle nearest = nearest_particle(particles, at);
-  if (!(nearest.distance <= spacing)) {
-    throw InputError(input.where(key),
-                     fmt::format("the point ({}) is {:.6g} from the nearest particle", joined(at),
-                                 nearest.distance),
-                     fmt::format("the spacing is {:.6g}; place the point within this distance of a "
-                                 "particle",
-                                 spacing));
+  if (const double around = spacing_around(model, nearest.particle); nearest.distance > around) {
+    throw InputError(
+        input.where(key),
+        fmt::format("the point ({}) is {:.6g} from the nearest particle", joined(at),
+                    nearest.distance),
+        fmt::format("the spacing there is {:.6g}; place the point within this distance "
+                    "of a particle",
+                    around));
   }
   if (nearest.distance <= moved * spacing) return {{nearest.particle, 1.0}};
   std::vector<Gauge::Term> terms =

@@ -253,4 +253,17 @@ NearestParticle nearest_particle(const Particles& particles, std::span<const dou
   return nearest;
 }
 
+double spacing_around(const Model& model, Index particle) {
+  const Network& network = model.network;
+  double shortest = infinity, longest_edge = model.lattice.spacing;
+  for (Index e = 0; e < network.first_contact(); ++e) {
+    if (network.bonds.first[e] != particle && network.bonds.second[e] != particle) continue;
+    const double length = network.bonds.length(e);
+    shortest = std::min(shortest, length);
+    const bool is_edge = model.elements || e >= network.num_bonds();
+    if (is_edge) longest_edge = std::max(longest_edge, length);
+  }
+  return shortest < infinity ? std::max(shortest, longest_edge) : longest_edge;
+}
+
 }  // namespace perilink

@@ -32,4 +32,8 @@ struct NearestParticle {
 };
 NearestParticle nearest_particle(const Particles& particles, std::span<const double> point);
 
+/// Returns the distance [length] of particles around one of them: the mean spacing of the body, or
+/// the shortest bond or the longest edge of a finite element there where it is larger.
+double spacing_around(const Model& model, Index particle);
+
 }  // namespace perilink

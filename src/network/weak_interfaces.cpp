@@ -200,14 +200,15 @@ BondStiffnesses Measure::even_stiffness(Index bond) const {
   if (even_.stiffness.empty()) return stiffness_of(bond);
   const double axial = even_.stiffness[bond];
   return {axial * (stress_ / dilatation_[0]),
-          axial > 0.0 && network_.carries_moments() ? even_.bending[bond] / axial : 0.0};
+          axial > 0.0 && !even_.bending.empty() ? even_.bending[bond] / axial : 0.0};
 }
 
 /// Returns the energy of a bond at breaking by an opening along the normal, over k xi^2 s_c^2 / 2
 /// [-]. Bonds with moments break by the ratio k_b / k before calibration.
 /// \param bending  present ratio of bending to axial stiffness [-]
 double Measure::held_at_the_end(Index bond, double cosine, double bending) const {
-  if (!network_.carries_moments()) return 1.0;
+  // Bonds without bending lie beside bars that bend.
+  if (!network_.carries_moments() || network_.ratio_of_bending(bond) == 0.0) return 1.0;
   const double along = cosine * cosine, across = 1.0 - along;
   return (along + bending * across) / (along + network_.ratio_of_bending(bond) * across);
 }

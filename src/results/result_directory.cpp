@@ -123,6 +123,8 @@ void require_result(const fs::path& directory) {
   if (fs::exists(directory / "history.csv", error)) return;
   const char* hint = fs::exists(directory / "study.toml", error)
                          ? "it holds a study of perilink converge"
+                     : fs::exists(directory / "compare.csv", error)
+                         ? "it holds a comparison of perilink compare, with the picture compare.svg"
                      : fs::exists(directory / "scan.csv", error)
                          ? "it holds a scan; name one of its members, such as 0001"
                          : "perilink run writes one";

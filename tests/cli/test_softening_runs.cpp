@@ -1,6 +1,7 @@
 // Bonds of three segments through the whole program: implicit and explicit runs, fields, pictures
 // and their comparison.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -197,6 +198,59 @@ TEST_F(SofteningRuns, StagesEndAtALoad) {
   // Round-off of sums of reactions as large as the weight.
   EXPECT_NEAR(result["stages"][1]["load"].get<double>(), 200.0, 1e-9);
   EXPECT_NEAR(result["stages"][2]["load"].get<double>(), 0.0, 1e-9);
+}
+
+/// A closed crack leaves one layer of a bond-based body, about which the load turns a half.
+TEST(CrackedRuns, NameTheCrackThatLeavesAHinge) {
+  const std::string hinge = R"([body]
+problem = "three_dimensional"
+surface = "none"
+spacing = 4
+horizon_ratio = 1.8
+[[regions]]
+name = "beam"
+x = [0, 32]
+y = [0, 16]
+z = [0, 8]
+[[regions]]
+name = "left"
+x = [0, 0]
+y = [0, 16]
+z = [0, 8]
+[[regions]]
+name = "right"
+x = [32, 32]
+y = [0, 16]
+z = [0, 8]
+[[materials]]
+region = "beam"
+youngs_modulus = 20000
+fracture_energy = 0.1
+tensile_strength = 2
+[[cracks]]
+corners = [[14, 15, -1], [14, 15, 9], [14, -1, 9], [14, -1, -1]]
+[[supports]]
+region = "left"
+fix = ["x", "y", "z"]
+[[tractions]]
+region = "right"
+traction = [1, 0, 0]
+[stop]
+broken_bonds = 3
+)";
+  const std::string before = hinge.substr(0, hinge.find("[[cracks]]"));
+  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+  const TemporaryDirectory work;
+  for (const char* type : {"damage", "elastic"}) {
+    const std::string ending = fmt::format("[analysis]\ntype = \"{}\"\n", type);
+    write_text(work / "hinge.toml",
+               hinge.substr(0, type[0] == 'd' ? hinge.npos : hinge.find("[stop]")) + ending);
+    const ProcessEnd end = run_program(work.path(), {"run", "hinge.toml", "--out", "r", "--force"});
+    EXPECT_EQ(end.exit_status, 2);
+    EXPECT_THAT(end.err, testing::HasSubstr(fmt::format("hinge.toml:{}: cracks[1]", line)));
+    EXPECT_THAT(end.err, testing::HasSubstr("as about a hinge"));
+    EXPECT_THAT(read_text(work / "r/summary.json"), testing::HasSubstr("\"failed\""));
+  }
 }
 
 }  // namespace

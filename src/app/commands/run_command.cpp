@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <exception>
 #include <filesystem>
 #include <optional>
 
@@ -9,15 +10,23 @@
 #include "app/process/threads.hpp"
 #include "app/run/run_case.hpp"
 #include "app/scan/calibration_files.hpp"
+#include "base/error.hpp"
 #include "io/case/case_settings.hpp"
 #include "results/result_directory.hpp"
 
 namespace perilink {
 namespace {
 
-int exit_status_of(Termination termination) {
-  if (termination == Termination::interrupted) return exit_interrupted;
-  return termination == Termination::failed ? exit_solver : exit_done;
+int exit_status_of(const RunEnd& end) {
+  if (end.termination == Termination::interrupted) return exit_interrupted;
+  if (end.termination != Termination::failed) return exit_done;
+  try {
+    if (end.error) std::rethrow_exception(end.error);
+  } catch (const InputError&) {
+    return exit_bad_input;
+  } catch (...) {  // reported by run_case()
+  }
+  return exit_solver;
 }
 
 }  // namespace
@@ -38,13 +47,13 @@ int run_case(const RunOptions& options) {
                                               ? std::filesystem::path(*options.directory)
                                               : default_result_directory(options.case_path);
   const RunEnd end = run_case(input, directory, settings);
-  if (options.quiet) return exit_status_of(end.termination);
+  if (options.quiet) return exit_status_of(end);
   if (end.ran) {
     fmt::print("{}", end.summary.text);
   } else {
     fmt::print("{}: the run has ended already\n", directory.string());
   }
-  return exit_status_of(end.termination);
+  return exit_status_of(end);
 }
 
 }  // namespace perilink

@@ -8,8 +8,10 @@
 #include <optional>
 #include <utility>
 
+#include "analysis/quasistatic/equilibrium/equilibrium.hpp"
 #include "app/run/resume.hpp"
 #include "app/run/run_kind.hpp"
+#include "base/error.hpp"
 #include "base/files.hpp"
 #include "base/memory.hpp"
 #include "base/plain_text.hpp"
@@ -79,6 +81,20 @@ void attempt(const RunOutcome& run_outcome, RunEnd& end, const Action& action) {
     action();
   } catch (const std::exception& error) {
     fail(run_outcome, end, error);
+  }
+}
+
+/// \throws InputError  for a body that no equilibrium holds although its pre-cracks may close
+void analyse(RunKind& run, const CaseFile& input) {
+  try {
+    run.analyse();
+  } catch (const CracksSeparate&) {
+    throw InputError(
+        input.where(input.cracks.empty() ? "analysis" : "cracks[1]"),
+        "the pre-cracks leave a part of the body free to move: the loads pull it off, or turn it "
+        "about the few bonds that are left, as about a hinge",
+        "end or move the crack so that more rows of particles are left, remove the loads on that "
+        "part, or hold it with [[supports]] or [[springs]]");
   }
 }
 
@@ -157,7 +173,7 @@ RunEnd run_case(const CaseFile& input, const fs::path& directory, const RunSetti
   timer.restart();
   RunEnd end;
   const RunOutcome run_outcome = run->run_outcome();
-  attempt(run_outcome, end, [&] { run->analyse(); });
+  attempt(run_outcome, end, [&] { analyse(*run, input); });
   attempt(run_outcome, end, [&] { run->files().finish(); });
   const Timer syncing;
   attempt(run_outcome, end, [&] { sync_files(directory.string()); });

@@ -185,8 +185,9 @@ ScanFile parse_scan(const std::string& text, const std::string& path) {
 
 namespace {
 
-/// Keys of a case that are seeds, with their values there.
-std::vector<std::pair<std::string, std::int64_t>> seeds_of(const TomlValue& document) {
+/// Returns the keys that are seeds in a member of the scan, with their values in the case.
+std::vector<std::pair<std::string, std::int64_t>> seeds_of(const TomlValue& document,
+                                                           const ScanMember& member) {
   std::vector<std::pair<std::string, std::int64_t>> seeds;
   const auto add = [&](const std::string& key, const TomlValue& table) {
     const TomlValue* seed = table.find("seed");
@@ -196,8 +197,10 @@ std::vector<std::pair<std::string, std::int64_t>> seeds_of(const TomlValue& docu
     for (std::size_t k = 0; k < random->items.size(); ++k) add(seed_key(k), random->items[k]);
   }
   const TomlValue* body = document.find("body");
-  const TomlValue* pattern = body == nullptr ? nullptr : body->find("pattern");
-  if (pattern != nullptr && pattern->text == word_of(Pattern::irregular)) add(body_seed, *body);
+  const TomlValue* pattern = member.find("body.pattern");
+  if (pattern == nullptr && body != nullptr) pattern = body->find("pattern");
+  const bool is_unstructured = pattern != nullptr && pattern->text == word_of(Pattern::irregular);
+  if (body != nullptr && is_unstructured) add(body_seed, *body);
   return seeds;
 }
 
@@ -205,14 +208,6 @@ std::vector<std::pair<std::string, std::int64_t>> seeds_of(const TomlValue& docu
 
 void give_seeds(ScanFile& scan, const TomlValue& document) {
   if (scan.seeds.empty()) return;
-  const auto own = seeds_of(document);
-  if (own.empty()) {
-    throw InputError({scan.path, scan.seeds_line, "seeds"},
-                     fmt::format("is given, but {} has no [[random]] and no unstructured particles",
-                                 scan.case_path),
-                     "add [[random]] to the case, set pattern = \"unstructured\" in its [body], or "
-                     "delete the line");
-  }
   const auto given =
       std::ranges::find_if(scan.keys, [&](const std::string& key) { return is_seed(scan, key); });
   if (given != scan.keys.end()) {
@@ -220,16 +215,28 @@ void give_seeds(ScanFile& scan, const TomlValue& document) {
                      fmt::format("is given together with {}", quoted(*given)),
                      "delete one of the two");
   }
-  std::vector<std::int64_t> different;  // seeds of the case, and for each key its number in them
-  std::vector<int> number;
-  for (const auto& [key, seed] : own) {
-    const auto found = std::find(different.begin(), different.end(), seed);
-    number.push_back(static_cast<int>(found - different.begin()));
-    if (found == different.end()) different.push_back(seed);
-  }
   refuse_many(scan, scan.members.size() * scan.seeds.size(), {scan.path, scan.seeds_line, "seeds"});
   std::vector<ScanMember> product;
+  std::string first_key;
   for (const ScanMember& member : scan.members) {
+    const auto own = seeds_of(document, member);
+    if (own.empty()) {
+      throw InputError(
+          {scan.path, scan.seeds_line, "seeds"},
+          fmt::format("is given, but {}{}{} has no [[random]] and no unstructured particles",
+                      scan.case_path, member.settings.empty() ? "" : " with ",
+                      member_text(member.settings)),
+          "add [[random]] to the case, set pattern = \"unstructured\" in its [body], or "
+          "delete the line");
+    }
+    first_key = own.front().first;
+    std::vector<std::int64_t> different;  // seeds of the case, and for each key its number in them
+    std::vector<int> number;
+    for (const auto& [key, seed] : own) {
+      const auto found = std::find(different.begin(), different.end(), seed);
+      number.push_back(static_cast<int>(found - different.begin()));
+      if (found == different.end()) different.push_back(seed);
+    }
     for (const int seed : scan.seeds) {
       product.push_back(member);
       for (std::size_t k = 0; k < number.size(); ++k) {
@@ -243,7 +250,7 @@ void give_seeds(ScanFile& scan, const TomlValue& document) {
     }
   }
   scan.members = std::move(product);
-  scan.keys.push_back(own.front().first);
+  scan.keys.push_back(first_key);
 }
 
 bool is_seed(const ScanFile& scan, const std::string& key) {

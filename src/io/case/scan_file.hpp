@@ -35,7 +35,7 @@ struct ScanFile {
 /// Runs each member once for every seed, which varies fastest. Every `seed` of the case's
 /// [[random]] and of unstructured particles gets it; seeds that differ in the case stay different.
 /// \param document  of the case
-/// \throws InputError  where the case has neither
+/// \throws InputError  where a member has neither
 void give_seeds(ScanFile& scan, const TomlValue& document);
 
 /// Returns whether a key of a member is a seed given by give_seeds().

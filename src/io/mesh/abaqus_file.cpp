@@ -87,6 +87,8 @@ class AbaqusReader {
   void read_set(const AbaqusKeyword& keyword);
   void read_surface(const AbaqusKeyword& keyword);
   std::optional<std::int64_t> label_in_set(std::string_view entry) const;
+  std::string set_name(std::string_view entry) const;
+  void put_middles_between();
   void refuse_other_files(const AbaqusKeyword& keyword) const;
   /// Whether labels outside of sets belong to the assembly: reference points, not the mesh.
   bool outside_mesh(const AbaqusKeyword& keyword) const {
@@ -99,7 +101,10 @@ class AbaqusReader {
   Place place_ = Place::model;
   int part_ = 0, part_with_nodes_ = -1;  ///< parts and instances in the order of the file
   std::set<std::string> instanced_;      ///< parts that have an instance
-  std::set<std::string> skipped_;        ///< keywords and element types
+  std::set<std::string> instances_;      ///< names of instances
+  /// Place of each three-node line in MeshListing::corners, with the tag of its middle node.
+  std::vector<std::pair<std::size_t, std::int64_t>> middles_;
+  std::set<std::string> skipped_;  ///< keywords and element types
 };
 
 void AbaqusReader::refuse_other_files(const AbaqusKeyword& keyword) const {
@@ -125,6 +130,7 @@ void AbaqusReader::enter(const AbaqusKeyword& keyword) {
 void AbaqusReader::read_instance(const AbaqusKeyword& keyword) {
   place_ = Place::instance;
   ++part_;
+  instances_.insert(upper(keyword.value("NAME")));
   if (!instanced_.insert(upper(keyword.value("PART"))).second) {
     lines_.refuse(
         fmt::format("has several instances of the part {}", quoted(keyword.value("PART"))),
@@ -176,6 +182,7 @@ void AbaqusReader::read_elements(const AbaqusKeyword& keyword) {
     skipped_.insert("elements of type " + name);
     return;
   }
+  if (name.starts_with("CP")) sets_.add_plane_solids();
   const ShapeProperties& properties = properties_of(type.shape);
   const auto width = static_cast<std::size_t>(type.nodes) + 1;
   while (auto data = lines_.next_data()) {
@@ -192,12 +199,51 @@ void AbaqusReader::read_elements(const AbaqusKeyword& keyword) {
     const std::int64_t label = lines_.label(data->front());
     listing_.shapes.push_back(type.shape);
     listing_.element_tags.push_back(label);
+    const bool is_curved_line = type.shape == CellShape::line && type.nodes == 3;
+    if (is_curved_line) middles_.emplace_back(listing_.corners.size(), lines_.label((*data)[2]));
     for (int k = 1; k <= properties.corners; ++k) {
-      listing_.corners.push_back(lines_.label((*data)[k]));
+      listing_.corners.push_back(lines_.label((*data)[is_curved_line ? 2 * k - 1 : k]));
     }
     if (type.nodes > properties.corners) listing_.second_order[properties.dim] = true;
     if (keyword.has("ELSET")) sets_.add_element(keyword.value("ELSET"), {label, label, 1});
   }
+}
+
+/// Makes the node between the two others the middle of every three-node line. Abaqus writes end,
+/// middle, end; some programs write the middle last.
+void AbaqusReader::put_middles_between() {
+  if (middles_.empty()) return;
+  std::map<std::int64_t, const double*> position;
+  for (std::size_t i = 0; i < listing_.node_tags.size(); ++i) {
+    position[listing_.node_tags[i]] = &listing_.coordinates[3 * i];
+  }
+  // Whether the directions from `between` to the two others make an obtuse angle.
+  const auto lies_between = [&](std::int64_t between, std::int64_t a, std::int64_t b) {
+    const double *x = position.at(between), *y = position.at(a), *z = position.at(b);
+    return (y[0] - x[0]) * (z[0] - x[0]) + (y[1] - x[1]) * (z[1] - x[1]) +
+               (y[2] - x[2]) * (z[2] - x[2]) <
+           0.0;
+  };
+  for (const auto& [corner, middle] : middles_) {
+    std::int64_t &first = listing_.corners[corner], &second = listing_.corners[corner + 1];
+    const bool is_complete = position.count(first) > 0 && position.count(middle) > 0 &&
+                             position.count(second) > 0;  // else refused with the mesh
+    if (!is_complete) continue;
+    if (lies_between(second, first, middle)) {
+      second = middle;
+    } else if (lies_between(first, middle, second)) {
+      first = middle;
+    }
+  }
+}
+
+/// Returns the name of a set in a data line, without quotes and the name of the instance.
+std::string AbaqusReader::set_name(std::string_view entry) const {
+  std::string name(entry);
+  std::erase(name, '"');
+  const std::size_t dot = name.find('.');
+  if (dot != name.npos && instances_.count(upper(name.substr(0, dot))) > 0) name.erase(0, dot + 1);
+  return name;
 }
 
 /// Returns the label of "5" or "Part-1-1.5"; none for names.
@@ -216,7 +262,9 @@ void AbaqusReader::read_set(const AbaqusKeyword& keyword) {
   const auto add = [&](const LabelRange& range) {
     of_nodes ? sets_.add_node(name, range) : sets_.add_element(name, range);
   };
-  if (of_nodes && keyword.has("ELSET")) sets_.add_nodes_of(name, keyword.value("ELSET"));
+  if (of_nodes && keyword.has("ELSET")) {
+    sets_.add_nodes_of(name, set_name(keyword.value("ELSET")));
+  }
   while (const auto data = lines_.next_data()) {
     if (keyword.has("GENERATE")) {
       if (data->size() < 2) lines_.refuse("has a range of labels without an end", "");
@@ -231,7 +279,7 @@ void AbaqusReader::read_set(const AbaqusKeyword& keyword) {
       const auto label = label_in_set(entry);
       const bool own = entry.find('.') != entry.npos || !outside_mesh(keyword);
       if (label && own) add({*label, *label, 1});
-      if (!label) sets_.add_set(of_nodes, name, std::string(entry));
+      if (!label) sets_.add_set(of_nodes, name, set_name(entry));
     }
   }
 }
@@ -244,16 +292,26 @@ void AbaqusReader::read_surface(const AbaqusKeyword& keyword) {
     return;
   }
   if (name.empty()) lines_.refuse("has *SURFACE without a name", "");
+  const std::string combine = upper(keyword.value("COMBINE"));
+  if (!combine.empty() && combine != "UNION") {
+    lines_.refuse(fmt::format("has a surface by COMBINE={}", combine),
+                  "only UNION is read; give the faces of the surface");
+  }
   while (const auto data = lines_.next_data()) {
+    if (!combine.empty()) {
+      for (const std::string_view other : *data) sets_.add_surface(name, set_name(other));
+      continue;
+    }
     const std::string_view entry = data->front();
     const auto label = label_in_set(entry);
     const LabelRange range = label ? LabelRange{*label, *label, 1} : LabelRange{1, 0, 1};
-    const std::string set = label ? std::string() : std::string(entry);
+    const std::string set = label ? std::string() : set_name(entry);
     if (type == "NODE") {
       if (label) sets_.add_node(name, range);
       if (!label) sets_.add_set(true, name, set);
     } else {
-      sets_.add_faces(name, set, range, data->size() > 1 ? upper((*data)[1]) : std::string());
+      sets_.add_faces({name, {range}, data->size() > 1 ? upper((*data)[1]) : "", lines_.line()},
+                      set);
     }
   }
 }
@@ -291,6 +349,7 @@ MeshListing AbaqusReader::read(const std::string& path) {
         fmt::format("{}: skipped {}: only nodes, elements, sets and surfaces are read", path,
                     joined(std::vector<std::string>(skipped_.begin(), skipped_.end()))));
   }
+  put_middles_between();
   sets_.add_groups();
   return std::move(listing_);
 }

@@ -15,11 +15,15 @@
 namespace perilink {
 namespace {
 
-/// Returns the entries between commas; a last comma ends the line.
+/// Returns the entries between commas outside of quotes; a last comma ends the line.
 std::vector<std::string_view> entries_of(std::string_view line) {
   std::vector<std::string_view> entries;
   while (!line.empty()) {
-    const std::size_t comma = std::min(line.find(','), line.size());
+    std::size_t comma = 0;
+    for (bool in_quotes = false; comma < line.size(); ++comma) {
+      if (line[comma] == ',' && !in_quotes) break;
+      in_quotes ^= line[comma] == '"';
+    }
     entries.push_back(trimmed(line.substr(0, comma)));
     line.remove_prefix(std::min(comma + 1, line.size()));
   }

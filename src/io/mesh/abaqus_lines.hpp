@@ -39,6 +39,7 @@ class AbaqusLines {
   /// Whether an entry is a label and not a name.
   static bool is_label(std::string_view entry);
 
+  int line() const { return line_; }  ///< line that was read last
   [[noreturn]] void refuse(const std::string& fault, const std::string& advice) const;
 
  private:

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/plain_text.hpp"
@@ -48,6 +48,10 @@ void AbaqusSets::add_set(bool of_nodes, const std::string& set, const std::strin
     incomplete_.insert(set);
   } else if (&found->second.labels != &labels) {
     labels.insert(labels.end(), found->second.labels.begin(), found->second.labels.end());
+    if (!of_nodes) return;
+    const std::vector<std::string>& more = corners_of_[upper(other)];
+    std::vector<std::string>& corners = corners_of_[upper(set)];
+    corners.insert(corners.end(), more.begin(), more.end());
   }
 }
 
@@ -56,15 +60,25 @@ void AbaqusSets::add_nodes_of(const std::string& set, const std::string& element
   corners_of_[upper(set)].push_back(elements);
 }
 
-void AbaqusSets::add_faces(const std::string& surface, const std::string& elements,
-                           const LabelRange& range, const std::string& side) {
-  if (elements.empty()) {
-    faces_.push_back({surface, {{range}}, side});
-  } else if (const auto found = element_sets_.find(upper(elements)); found != element_sets_.end()) {
-    faces_.push_back({surface, found->second.labels, side});
-  } else {
-    incomplete_.insert(surface);
+void AbaqusSets::add_faces(AbaqusFaces faces, const std::string& set) {
+  const auto found = element_sets_.find(upper(set));
+  if (!set.empty() && found == element_sets_.end()) {
+    incomplete_.insert(faces.surface);
+    return;
   }
+  if (!set.empty()) faces.elements = found->second.labels;
+  faces_.push_back(std::move(faces));
+}
+
+void AbaqusSets::add_surface(const std::string& surface, const std::string& other) {
+  const std::size_t before = faces_.size();
+  for (std::size_t k = 0; k < before; ++k) {
+    if (upper(faces_[k].surface) != upper(other)) continue;
+    AbaqusFaces copy = faces_[k];
+    copy.surface = surface;
+    faces_.push_back(std::move(copy));
+  }
+  if (faces_.size() == before) add_set(true, surface, other);
 }
 
 std::vector<Index> AbaqusSets::members(const Labels& all, const std::string& set,
@@ -101,14 +115,26 @@ void AbaqusSets::add(const std::string& name, CellShape shape,
   listing_.corners.insert(listing_.corners.end(), corners.begin(), corners.end());
 }
 
-void AbaqusSets::add_sides(const Faces& faces, std::span<const std::size_t> begin) {
-  int wanted = 0;
-  if (faces.side.starts_with('S')) {
-    std::from_chars(faces.side.data() + 1, faces.side.data() + faces.side.size(), wanted);
-  }
+/// Refuses names of sides that elements of a dimension do not have.
+void AbaqusSets::check_side(const AbaqusFaces& faces, int dim) const {
+  const std::string& side = faces.side;
+  const bool is_solid = dim == 3 || (dim == 2 && plane_solids_);
+  const bool is_numbered = side.size() == 2 && side[1] >= '1' && side[1] <= '9';
+  if (side.empty() || (is_numbered && side[0] == 'S')) return;
+  if (!is_solid && (side == "SPOS" || side == "SNEG" || (is_numbered && side[0] == 'E'))) return;
+  throw InputError({path_, faces.line, ""},
+                   fmt::format("has the surface {} with {}, which is no face of its elements",
+                               quoted(faces.surface), quoted(side)),
+                   "solid elements have the faces S1, S2, ...; shells have SPOS, SNEG and the "
+                   "edges E1, E2, ...");
+}
+
+void AbaqusSets::add_sides(const AbaqusFaces& faces, std::span<const std::size_t> begin) {
+  const bool is_shell_face = faces.side == "SPOS" || faces.side == "SNEG";
+  const int wanted = faces.side.empty() || is_shell_face ? 0 : faces.side.back() - '0';
   for (const Index e : members(elements_, faces.surface, faces.elements)) {
     const ShapeProperties& properties = properties_of(listing_.shapes[e]);
-    const bool is_shell_face = wanted == 0 && !faces.side.empty();  // SPOS or SNEG
+    check_side(faces, properties.dim);
     if (is_shell_face) {
       group(properties.dim, faces.surface).elements.push_back(e);
       continue;
@@ -149,7 +175,7 @@ void AbaqusSets::add_groups() {
       group(properties_of(listing_.shapes[e]).dim, set.name).elements.push_back(e);
     }
   }
-  for (const Faces& faces : faces_) add_sides(faces, begin);
+  for (const AbaqusFaces& faces : faces_) add_sides(faces, begin);
   for (const auto& [key, set] : node_sets_) {
     for (const std::string& other : corners_of_[key]) {
       for (const Index e : members_of[upper(other)]) {

@@ -17,6 +17,14 @@ struct LabelRange {
   std::int64_t first, last, step;
 };
 
+/// Sides of elements in a surface.
+struct AbaqusFaces {
+  std::string surface;
+  std::vector<LabelRange> elements;
+  std::string side;  ///< "S1", "S2", ...; shells: "SPOS", "SNEG", "E1", ...; empty: all sides
+  int line = 0;      ///< in the file, for messages
+};
+
 /// Sets of nodes and elements, and surfaces, of an input file of Abaqus. Names are compared without
 /// regard to case.
 class AbaqusSets {
@@ -31,14 +39,17 @@ class AbaqusSets {
   /// Adds the corners of the elements of a set.
   void add_nodes_of(const std::string& set, const std::string& elements);
   /// Adds sides of elements to a surface.
-  /// \param elements  earlier set of elements; empty: the range
-  /// \param side      "S1", "S2", ...; other names: the elements themselves; empty: all sides
-  void add_faces(const std::string& surface, const std::string& elements, const LabelRange& range,
-                 const std::string& side);
+  /// \param set  earlier set that gives the elements, or empty
+  void add_faces(AbaqusFaces faces, const std::string& set);
+  /// Adds an earlier surface, of elements or nodes, to a surface.
+  void add_surface(const std::string& surface, const std::string& other);
+  /// States that the plane elements of the file are solids, without faces of shells.
+  void add_plane_solids() { plane_solids_ = true; }
 
   /// Adds a group to the listing for every set and dimension, in the order of dimension and name,
   /// and a note on members that are not in the file.
-  /// \throws InputError  where two elements have one label, or sets have too many members
+  /// \throws InputError  where two elements have one label, sets have too many members, or elements
+  ///                     lack a side of this name
   void add_groups();
 
  private:
@@ -48,24 +59,21 @@ class AbaqusSets {
     std::string name;  ///< as first written
     std::vector<LabelRange> labels;
   };
-  struct Faces {
-    std::string surface;
-    std::vector<LabelRange> elements;
-    std::string side;
-  };
 
   static Set& find(std::map<std::string, Set>& sets, const std::string& name);
   std::vector<Index> members(const Labels& all, const std::string& set,
                              std::span<const LabelRange> ranges);
   MeshListing::Group& group(int dim, const std::string& name);
   void add(const std::string& name, CellShape shape, std::span<const std::int64_t> corners);
-  void add_sides(const Faces& faces, std::span<const std::size_t> begin);
+  void check_side(const AbaqusFaces& faces, int dim) const;
+  void add_sides(const AbaqusFaces& faces, std::span<const std::size_t> begin);
 
   MeshListing& listing_;
   std::string path_;
   std::map<std::string, Set> node_sets_, element_sets_;         ///< by name in upper case
   std::map<std::string, std::vector<std::string>> corners_of_;  ///< sets of elements, by nodes
-  std::vector<Faces> faces_;
+  std::vector<AbaqusFaces> faces_;
+  bool plane_solids_ = false;
   Labels elements_;
   std::map<std::pair<int, std::string>, MeshListing::Group> groups_;
   std::set<std::string> incomplete_;  ///< sets with members that are not in the file

@@ -80,8 +80,10 @@ std::optional<std::string> unmeasured_cost_note(const Model& model) {
         "sides of the body more evenly",
         what, 100.0 * (ratio - 1.0));
   }
-  if (model.network.dim() == 2 || model.network.shell || !model.network.carries_moments())
-    return std::nullopt;
+  const Network& network = model.network;
+  // Beside bars that bend, bonds of the solid have a bending stiffness of zero.
+  const bool bends = network.carries_moments() && network.bending.front() > 0.0;
+  if (network.dim() == 2 || network.shell || !bends) return std::nullopt;
   return fmt::format(
       "{} for three-dimensional unstructured particle sets with bending "
       "bonds: the correction for bonds without bending is used",

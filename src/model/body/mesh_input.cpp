@@ -51,7 +51,9 @@ std::string suggest_group(const Mesh& mesh, const std::string& name) {
         mesh.dim == 2 ? "Surface" : "Volume", name);
   }
   std::vector<std::string_view> names;
-  for (const MeshGroup& group : mesh.groups) names.push_back(group.name);
+  for (const MeshGroup& group : mesh.groups) {
+    if (std::ranges::find(names, group.name) == names.end()) names.emplace_back(group.name);
+  }
   return suggest(name, names);
 }
 

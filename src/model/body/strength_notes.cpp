@@ -118,7 +118,7 @@ std::optional<std::string> path_note(const CaseFile& input, const Model& model) 
   Index bond = 0;
   while (bond < network.first_slip_spring && !network.can_break(bond)) ++bond;
   if (bond == network.first_slip_spring) return std::nullopt;
-  const bool turns = network.carries_moments();
+  const bool turns = network.shell || input.body.model == BodyModel::micropolar;
   if (model.lattice.pattern != Pattern::irregular) {
     return fmt::format(
         "cracks tend to follow the rows of a lattice: where the path is not known, take pattern = "

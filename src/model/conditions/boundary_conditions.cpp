@@ -95,7 +95,8 @@ void refuse_cut_off(const CaseFile& input, const Model& model, std::span<const I
                                "it, and loads act on it",
                                counted(particles.size(), "particle"), joined(x)),
                    "end or move the crack, remove the loads on that part, or hold it with "
-                   "[[supports]] or [[springs]]");
+                   "[[supports]] or [[springs]]; faces that may press on each other need closing = "
+                   "true, which is not the default beside brittle or unbreakable materials");
 }
 
 /// Pins the free rigid-body modes of a body in static equilibrium. In dynamic analyses pins would

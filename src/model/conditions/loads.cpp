@@ -123,12 +123,12 @@ void add_point_load(const CaseFile& input, const Model& model, std::size_t k, Ap
   const std::size_t width = all.loads.forces.size() / static_cast<std::size_t>(particles.size());
   const std::span<const double> at(section.at.data(), static_cast<std::size_t>(dim));
   const NearestParticle nearest = nearest_particle(particles, at);
-  const double spacing = model.lattice.spacing;
+  const double spacing = spacing_around(model, nearest.particle);
   if (nearest.distance > spacing) {
     throw InputError(
         input.where(item_key("point_loads", k, "at")),
         fmt::format("is ({}), {:.6g} from the nearest particle", joined(at), nearest.distance),
-        fmt::format("the spacing is {:.6g}; place the load within this distance of a "
+        fmt::format("the spacing there is {:.6g}; place the load within this distance of a "
                     "particle",
                     spacing));
   }

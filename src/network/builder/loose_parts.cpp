@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "discretization/bonds.hpp"
+#include "network/unknowns.hpp"
 
 namespace perilink {
 namespace {
@@ -16,7 +17,7 @@ constexpr double flat_determinant = 1e-10;
 
 /// Rigid parts of a body with open pre-cracks. A part grows from bonded particles, two in the plane
 /// and three in space. It takes particles that bonds in independent directions connect to it; one
-/// bond with moments suffices. Each remaining particle is a part of its own.
+/// bond suffices for particles that rotate. Each remaining particle is a part of its own.
 class RigidParts {
  public:
   explicit RigidParts(const Network& network);
@@ -40,8 +41,10 @@ class RigidParts {
   bool grow(std::vector<Index> members, std::size_t fewest);
   void grow_from(Index particle);
   bool holds(Index particle) const;
+  bool rotates(Index particle) const { return !rotating_.empty() && rotating_[particle] != 0; }
 
   const Network& network_;
+  std::vector<std::uint8_t> rotating_;  ///< see rotating_particles()
   Csr neighbourhoods_;
   std::vector<std::uint8_t> carries_;
   std::vector<std::vector<Index>> parts_;
@@ -54,6 +57,7 @@ class RigidParts {
 
 RigidParts::RigidParts(const Network& network)
     : network_(network),
+      rotating_(rotating_particles(network)),
       neighbourhoods_(bonds_of_particles(network.bonds, network.particles.size())) {
   for (const double k : network.stiffness) carries_.push_back(k > 0.0);
   for (const Index e : network.contacts()) carries_[e] = 0;
@@ -92,7 +96,7 @@ std::vector<Index> RigidParts::free_neighbors(Index particle) const {
 }
 
 bool RigidParts::holds(Index particle) const {
-  if (network_.carries_moments()) return true;
+  if (rotates(particle)) return true;
   const Eigen::Matrix3d& sum = directions_[particle];
   const double determinant =
       network_.dim() == 2 ? sum.topLeftCorner<2, 2>().determinant() : sum.determinant();
@@ -126,7 +130,7 @@ bool RigidParts::grow(std::vector<Index> members, std::size_t fewest) {
 }
 
 void RigidParts::grow_from(Index particle) {
-  if (network_.carries_moments()) {
+  if (rotates(particle)) {
     grow({particle}, 0);
     return;
   }

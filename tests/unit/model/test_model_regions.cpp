@@ -34,6 +34,28 @@ TEST(ModelRegions, ForgiveRoundOffButNoMore) {
   EXPECT_THROW(particles_of_region(input, model, "middle", "loads[1]"), InputError);
 }
 
+/// A row of particles at 0, 1, 2 and 5. As an edge of a finite element the last bond is
+/// the spacing at both of its ends.
+TEST(ModelRegions, SpacingsAreThoseOfBondsOrEdgesAround) {
+  Model model;
+  model.lattice.spacing = 1.5;
+  Network& network = model.network;
+  network.particles.dim = 2;
+  network.particles.positions = {0, 0, 1, 0, 2, 0, 5, 0};
+  network.particles.kind.assign(4, ParticleKind::solid);
+  network.particles.volumes.assign(4, 1.0);
+  for (Index i = 0; i < 3; ++i) network.bonds.append(network.particles, i, i + 1);
+  network.first_slip_spring = 3;
+  const auto spacings = [&] {
+    std::vector<double> all;
+    for (Index i = 0; i < 4; ++i) all.push_back(spacing_around(model, i));
+    return all;
+  };
+  EXPECT_EQ(spacings(), (std::vector<double>{1.5, 1.5, 1.5, 3.0}));
+  network.cells.emplace().num_edges = 1;
+  EXPECT_EQ(spacings(), (std::vector<double>{1.5, 1.5, 3.0, 3.0}));
+}
+
 TEST(ModelRegions, LeaveGhostsOut) {
   CaseFile input = strip_case();
   input.body.surface = Surface::ghost;

@@ -118,6 +118,30 @@ INSTANTIATE_TEST_SUITE_P(
                     FaceCase{"cubic", Pattern::cubic, BondModel::bond_based, 3}),
     [](const auto& tested) { return tested.param.name; });
 
+/// Bars that bend leave the bonds of a body of two materials without bending.
+TEST(WeakInterfaces, AreTheSameBesideBarsThatBend) {
+  for (const int dim : {2, 3}) {
+    FaceBody face({"", dim == 2 ? Pattern::hexagonal : Pattern::cubic, BondModel::bond_based, dim});
+    for (Index i = 0; i < face.body.particles.size(); ++i) {
+      face.body.particles.material[i] = face.body.particles.position(i)[0] > 30.0 ? 1 : 0;
+    }
+    face.input.materials.push_back({3.0 * youngs_modulus, fracture_energy, 0.0});
+    RebarLine bar{{5.0, 13.0, 7.0}, {52.0, 15.0, 7.0}};
+    if (dim == 2) bar.from[2] = bar.to[2] = 0.0;
+    bar.embedded = true;
+    face.input.bars = {bar};
+    face.input.bar_materials = {{200000.0, 10.0}};
+    face.input.bar_materials[0].bond.perimeter = 11.0;
+    const Network straight = build_network(face.body, face.input);
+    face.input.bar_materials[0].bends = true;
+    const Network bending = build_network(face.body, face.input);
+    ASSERT_TRUE(bending.carries_moments() && !straight.carries_moments());
+    EXPECT_EQ(bending.interfaces[0].count, straight.interfaces[0].count);
+    EXPECT_EQ(bending.interfaces[0].area, straight.interfaces[0].area);
+    EXPECT_EQ(bending.critical_stretch, straight.critical_stretch);
+  }
+}
+
 TEST(WeakInterfaces, CostNothingWhereThereAreNone) {
   FaceBody face({"", Pattern::rectangular, BondModel::bond_based, 2});
   face.input.interfaces.clear();

@@ -25,6 +25,21 @@ TEST(ResultDirectory, IsNamedAfterTheCase) {
   EXPECT_EQ(default_result_directory("beam"), fs::path("results/beam"));
 }
 
+TEST(ResultDirectory, SaysWhatADirectoryWithoutARunHolds) {
+  for (const auto& [name, text] :
+       {std::pair("study.toml", "a study"), std::pair("compare.csv", "a comparison"),
+        std::pair("scan.csv", "a scan"), std::pair("notes.txt", "perilink run writes one")}) {
+    const test::TemporaryDirectory work;
+    test::write_text(work / name, "");
+    try {
+      require_result(work.path());
+      ADD_FAILURE() << name;
+    } catch (const FileError& error) {
+      EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(ResultDirectory, IsMadeWithItsParents) {
   const test::TemporaryDirectory work;
   ResultDirectory(work / "a/b/c", OldResults::refused);

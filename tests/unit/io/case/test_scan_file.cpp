@@ -123,6 +123,24 @@ TEST(ScanFile, SeedsPlaceUnstructuredParticles) {
   EXPECT_THROW(seeded("seeds = 2\n", "[body]\npattern = \"hexagonal\"\n"), InputError);
 }
 
+/// The seed of the body is that of the members with unstructured particles.
+TEST(ScanFile, SeedsFollowThePatternsOfTheMembers) {
+  const std::string body = "[body]\npattern = \"hexagonal\"\n";
+  const ScanFile scan =
+      seeded("seeds = [4, 9]\n[values]\nbody.pattern = [\"unstructured\"]\n", body);
+  EXPECT_THAT(texts_of(scan), ElementsAre("body.pattern = unstructured, body.seed = 4",
+                                          "body.pattern = unstructured, body.seed = 9"));
+  const ScanFile mixed =
+      seeded("seeds = [4]\n[values]\nbody.pattern = [\"hexagonal\", \"unstructured\"]\n",
+             body + "[[random]]\nseed = 7\n");
+  EXPECT_THAT(texts_of(mixed),
+              ElementsAre("body.pattern = hexagonal, random[1].seed = 4",
+                          "body.pattern = unstructured, random[1].seed = 4, body.seed = 1000004"));
+  EXPECT_THROW(
+      seeded("seeds = 2\n[values]\nbody.pattern = [\"unstructured\", \"rectangular\"]\n", body),
+      InputError);
+}
+
 TEST(ScanFile, RefusesSeedsWithoutUseOrGivenTwice) {
   EXPECT_THROW(seeded("seeds = 2\n", "title = \"a\"\n"), InputError);
   EXPECT_THROW(seeded("seeds = 2\n[values]\n\"random[1].seed\" = [1, 2]\n", "[[random]]\n"),

@@ -216,6 +216,12 @@ TEST(AbaqusFile, RefusesWithFileAndLine) {
       {"0., 0., 0.\n*End", "0., 1., 0.\n*End", "plate.inp:36: moves the instance of a part"},
       {"*End Instance", "*End Instance\n*Instance, name=b, part=PLATE\n*End Instance",
        "plate.inp:38: has several instances of the part \"PLATE\""},
+      {"squares, S3", "squares, E3",
+       "plate.inp:28: has the surface \"top\" with \"E3\", which is no face of its elements"},
+      {"20, S2", "20, SNEG", "plate.inp:29: has the surface \"top\" with \"SNEG\""},
+      {"20, S2", "20, S", "plate.inp:29: has the surface \"top\" with \"S\""},
+      {"name=top", "name=top, combine=difference",
+       "plate.inp:27: has a surface by COMBINE=DIFFERENCE"},
       {"*Assembly", "*Part, name=b\n*Node\n1, 0.\n*End Part\n*Assembly",
        "has nodes in several parts"}};
   for (const auto& [from, to, message] : faults) {
@@ -237,6 +243,62 @@ TEST(AbaqusFile, AcceptsWindowsLineEnds) {
   std::string windows;
   for (const char c : std::string(abaqus_plate)) windows += c == '\n' ? "\r\n" : std::string(1, c);
   EXPECT_EQ(parse_mesh(windows, "m.inp", 2).cells, parse_mesh(abaqus_plate, "m.inp", 2).cells);
+}
+
+/// A bent and a straight line, in the order of Abaqus and with the middle last or first.
+TEST(AbaqusFile, EndsOfThreeNodeLinesAreTheirEnds) {
+  const std::string nodes =
+      "*NODE\n1,0,0\n2,4,0\n3,4,4\n4,0,4\n5,1.7,0\n6,4.4,2\n*ELEMENT,TYPE=CPS4,ELSET=BODY\n"
+      "1,1,2,3,4\n*ELEMENT,ELSET=EDGE,TYPE=";
+  for (const char* type : {"T2D3", "T3D3H", "B22", "B32OS"}) {
+    for (const char* lines : {"2,1,5,2\n3,2,6,3\n", "2,1,2,5\n3,3,2,6\n", "2,5,2,1\n3,6,3,2\n"}) {
+      const Mesh mesh = parse_mesh(nodes + type + "\n" + lines, "m.inp", 2);
+      EXPECT_THAT(abaqus_groups(mesh)["EDGE"].points, ElementsAre(0, 1, 2)) << type << lines;
+    }
+  }
+}
+
+/// Sets and surfaces of the plate by all the names that a data line may give them.
+TEST(AbaqusFile, FindsSetsByTheirNamesInDataLines) {
+  const char* const sets = R"(*Elset, elset="two, of", instance=Plate-1
+10, 11
+*Nset, nset=of wedge, elset=Plate-1.wedge
+*Nset, nset=again
+of wedge
+*Surface, type=ELEMENT, name=below
+"two, of", S1
+*Surface, type=ELEMENT, name=right
+plate-1.wedge, S1
+*Surface, type=NODE, name=corners
+"of wedge", 1.
+*Surface, name="both of them", combine=union
+below, right
+*Surface, name=nodes of both, combine=union
+corners, tip
+*Surface, name=nobody's, combine=union
+nothing
+*End Assembly)";
+  const Mesh mesh = parse_mesh(replaced(abaqus_plate, "*End Assembly", sets), "plate.inp", 2);
+  auto groups = abaqus_groups(mesh);
+  EXPECT_THAT(groups["two, of"].elements, ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(groups["below"].points, ElementsAre(0, 1, 2));
+  EXPECT_THAT(groups["right"].points, ElementsAre(2, 6));
+  for (const char* name : {"of wedge", "again", "corners", "nodes of both"}) {
+    EXPECT_THAT(groups[name].points, ElementsAre(2, 5, 6)) << name;
+    EXPECT_EQ(groups[name].dim, 0) << name;
+  }
+  EXPECT_THAT(groups["both of them"].points, ElementsAre(0, 1, 2, 6));
+  EXPECT_EQ(groups["both of them"].elements.size(), 3u);
+  EXPECT_THAT(mesh.notes, Contains(HasSubstr("that are read: nobody's")));
+}
+
+/// Shells have edges and two faces, which solids do not have.
+TEST(AbaqusFile, ReadsEdgesOfShells) {
+  const std::string text = replaced(replaced(replaced(abaqus_plate, "CPS4R", "S4R"), "CPE3", "S3"),
+                                    "squares, S3", "squares, E3");
+  auto groups = abaqus_groups(parse_mesh(text, "plate.inp", 2));
+  EXPECT_THAT(groups["top"].points, ElementsAre(3, 4, 5, 6));
+  EXPECT_EQ(groups["top"].dim, 1);
 }
 
 /// A quadrilateral with a corner within: only one diagonal lies inside.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace perilink {
@@ -74,6 +75,22 @@ TEST(LooseParts, InSpaceNeedThreeDirections) {
   const std::vector<Fragment> loose = find_loose_parts(network, all_free(network));
   ASSERT_EQ(loose.size(), 1U);
   EXPECT_EQ(loose[0].particles, std::vector<Index>{5});
+  EXPECT_EQ(loose[0].free_modes, 1);
+}
+
+/// Particles of a truss stay loose on one bond where a bar that bends makes the body carry moments.
+TEST(LooseParts, BarsThatBendHoldNoParticlesOfATruss) {
+  Network network = loose_particles(2, {0, 0, 1, 0, 0, 1, 2, 0.2, 5, 5, 6, 5});
+  for (const auto& [i, j] :
+       std::vector<std::pair<Index, Index>>{{0, 1}, {0, 2}, {1, 2}, {1, 3}, {4, 5}}) {
+    bond(network, i, j);
+  }
+  network.bending = {0, 0, 0, 0, 1};
+  std::vector<std::uint8_t> held(6 * 3, 0);
+  std::fill(held.begin() + 4 * 3, held.end(), 1);  // the bar
+  const std::vector<Fragment> loose = find_loose_parts(network, held);
+  ASSERT_EQ(loose.size(), 1U);
+  EXPECT_EQ(loose[0].particles, std::vector<Index>{3});
   EXPECT_EQ(loose[0].free_modes, 1);
 }
 
