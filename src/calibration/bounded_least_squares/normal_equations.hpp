@@ -70,7 +70,8 @@ class NormalEquations {
   /// \param settled  the active weights are unchanged since the last step
   /// \param last  the step must satisfy the equations
   void prepare_if_stale(bool settled, bool last);
-  /// Solves S direction = residual until the residual is reduced by the factor. \return iterations
+  /// Solves S direction = residual until the residual is reduced by the factor.
+  /// \return iterations; all of LeastSquaresOptions::iterations where a new factor does not help
   int solve(const Vector& residual, double reduction, Vector& direction);
 
   std::vector<double> active_weight;
@@ -93,6 +94,9 @@ class NormalEquations {
   static constexpr double settled_regularisation = 1e-13;
   /// Iterations that take as long as a factor, and iterations after which a factor is stale.
   static constexpr int worth_of_factor = 15, stale_iterations = 40;
+  /// Most iterations of a solution by a factor of the present active-set weights. Feasible ones
+  /// took up to 62, infeasible ones, with a singular matrix, thousands.
+  static constexpr int most_by_factor = 200;
   /// Iterations of a solution after which the coarse space is made, or gets other modes.
   /// Near-null-space modes take about 500 iterations of blocks, and are used in several solutions.
   /// With modes of an earlier problem only the coarse system is made.
@@ -141,8 +145,9 @@ class NormalEquations {
   bool last_ = false;                    // whether the step must satisfy the equations
   bool own_factor_ = false;  // whether the factor is of these equations, not of the last problem
   int last_iterations_ = 0;
-  std::vector<double>
-      coarse_of_;  // active-set weights of the coarse system; empty: of another problem
+  bool gave_up_ = false;  // not even a new factor leads to a solution
+  /// Active-set weights of the factor or the coarse system; empty: of another problem.
+  std::vector<double> prepared_for_;
   Vector compliance_of_factor_;
 };
 
@@ -270,7 +275,7 @@ void NormalEquations<Rows, Odd, Grouped>::use_boxes(Make make) {
   try {
     make();
     with_boxes_ = true;
-    coarse_of_ = active_weight;
+    prepared_for_ = active_weight;
   } catch (const SolverError&) {
     kept_.boxes.reset();
     with_boxes_ = false;
@@ -303,6 +308,7 @@ void NormalEquations<Rows, Odd, Grouped>::build_factor() {
   own_factor_ = true;
   kept_.factor->factorize(equations_, active_weight, diagonal());
   compliance_of_factor_ = compliance;
+  prepared_for_ = active_weight;
   last_iterations_ = 0;
 }
 
@@ -347,14 +353,23 @@ int NormalEquations<Rows, Odd, Grouped>::solve(const Vector& residual, double re
   search.keeps_directions = options_.keeps_directions && !search.rounded;
   find_direction(search);
   direction = std::move(search.direction);
-  return search.iterations;
+  return gave_up_ ? options_.iterations : search.iterations;
 }
 
 /// Iterates with the present preconditioner, and with a stronger one when this takes too long.
 template <int Rows, int Odd, bool Grouped>
 void NormalEquations<Rows, Odd, Grouped>::find_direction(DirectionSearch& search) {
+  if (options_.preconditioner == Preconditioner::factor) {
+    if (iterate(search, most_by_factor)) return;
+    if (prepared_for_ != active_weight) {
+      build_factor();
+      if (iterate(search, most_by_factor)) return;
+    }
+    gave_up_ = true;
+    return;
+  }
   const int times = kept_.boxes && kept_.boxes->is_nested() ? 2 : 1;
-  if (with_boxes_ && coarse_of_ != active_weight) {
+  if (with_boxes_ && prepared_for_ != active_weight) {
     if (iterate(search, times * stale_coarse)) return;
     renew_coarse();
   }
