@@ -94,8 +94,8 @@ class NormalEquations {
   static constexpr double settled_regularisation = 1e-13;
   /// Iterations that take as long as a factor, and iterations after which a factor is stale.
   static constexpr int worth_of_factor = 15, stale_iterations = 40;
-  /// Most iterations of a solution by a factor of the present active-set weights. Feasible ones
-  /// took up to 62, infeasible ones, with a singular matrix, thousands.
+  /// Most iterations of a solution without a penalty by a factor of the present active-set weights.
+  /// Feasible ones took up to 62, infeasible ones, with a singular matrix, thousands.
   static constexpr int most_by_factor = 200;
   /// Iterations of a solution after which the coarse space is made, or gets other modes.
   /// Near-null-space modes take about 500 iterations of blocks, and are used in several solutions.
@@ -359,7 +359,7 @@ int NormalEquations<Rows, Odd, Grouped>::solve(const Vector& residual, double re
 /// Iterates with the present preconditioner, and with a stronger one when this takes too long.
 template <int Rows, int Odd, bool Grouped>
 void NormalEquations<Rows, Odd, Grouped>::find_direction(DirectionSearch& search) {
-  if (options_.preconditioner == Preconditioner::factor) {
+  if (options_.preconditioner == Preconditioner::factor && !std::isfinite(penalty())) {
     if (iterate(search, most_by_factor)) return;
     if (prepared_for_ != active_weight) {
       build_factor();

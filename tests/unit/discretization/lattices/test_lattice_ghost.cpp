@@ -65,8 +65,8 @@ std::vector<std::array<long, 4>> sorted_points(const Body& body, bool turned,
   for (Index i = 0; i < body.particles.size(); ++i) {
     const auto x = body.particles.position(i);
     points.push_back({static_cast<long>(body.particles.kind[i]), body.particles.material[i],
-                      std::lround(1e6 * mirror[turned ? 1 : 0] * x[turned ? 1 : 0]),
-                      std::lround(1e6 * mirror[turned ? 0 : 1] * x[turned ? 0 : 1])});
+                      std::lround(1e6 * mirror[0] * x[turned ? 1 : 0]),
+                      std::lround(1e6 * mirror[1] * x[turned ? 0 : 1])});
   }
   std::ranges::sort(points);
   return points;
