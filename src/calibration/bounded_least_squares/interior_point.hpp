@@ -69,7 +69,7 @@ class InteriorPoint {
   /// residual at settled multipliers.
   static constexpr double infeasible_ratio = 0.9;
   static constexpr int most_stalls = 2;
-  /// Without regularisation the solution ends after this number of steps in a row that are shorter
+  /// Without regularisation and penalty the solution ends after this number of steps in a row that are shorter
   /// than this.
   static constexpr double short_step = 0.1;
   static constexpr int most_short_steps = 10;
@@ -291,7 +291,8 @@ bool InteriorPoint<Normal>::solve(double target, int most, int& iterations) {
     const double length = take_step(mu, reduction, iterations);
     full = length > 0.8;
     centring = full ? 0.1 : 0.4;
-    short_steps_ = length < short_step && regularisation_ == 0.0 ? short_steps_ + 1 : 0;
+    const bool exact = regularisation_ == 0.0 && over_.empty();
+    short_steps_ = length < short_step && exact ? short_steps_ + 1 : 0;
     if (stalled()) break;
   }
   return false;
