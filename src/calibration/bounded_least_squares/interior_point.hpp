@@ -69,8 +69,8 @@ class InteriorPoint {
   /// residual at settled multipliers.
   static constexpr double infeasible_ratio = 0.9;
   static constexpr int most_stalls = 2;
-  /// Without regularisation and penalty the solution ends after this number of steps in a row that are shorter
-  /// than this.
+  /// Without regularisation and penalty the solution ends after this number of steps in a row that
+  /// are shorter than this.
   static constexpr double short_step = 0.1;
   static constexpr int most_short_steps = 10;
   /// Below this gap the multipliers of infeasible equations are known to about a third.
