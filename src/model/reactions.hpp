@@ -64,8 +64,8 @@ struct ReactionTable {
   /// Sum of loads and reactions, about the middle of all particles. Its magnitudes include the
   /// forces of bars, which a prestrain gives to bodies without loads and reactions.
   Reaction sum;
-  /// Forces that the last digits of the displacements cause, for example where a body moves far more
-  /// than it is strained [force].
+  /// Forces that the last digits of the displacements cause, for example where a body moves far
+  /// more than it is strained [force].
   double round_off = 0.0;
 };
 /// \param forces  holding_forces() where they are known, as for bodies in motion

@@ -203,8 +203,9 @@ class Session {
 /// Exit status of the child for a size that memory does not allow.
 constexpr int too_small = 2;
 
-/// Refuses a size that would keep gmsh busy for hours and then exceed the memory. Bodies fill a part
-/// of their box and their cells may grow, so coarse meshes decide, finer ones for slender bodies.
+/// Refuses a size that would keep gmsh busy for hours and then exceed the memory. Bodies fill a
+/// part of their box and their cells may grow, so coarse meshes decide, finer ones for slender
+/// bodies.
 void refuse_small_size(Session& session, int dim, double size) {
   constexpr double bytes_per_cell = 2000.0;  // of the mesh and a run: bonds of three spacings
   constexpr double cells_per_square = 2.3, cells_per_cube = 9.0;

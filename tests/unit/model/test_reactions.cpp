@@ -160,7 +160,7 @@ TEST(Reactions, OfSpringsCountParticlesAroundTheirFacets) {
   test::expect_refused(input, "springs[1].region", "no particle lies in the region \"part\"");
 }
 
-/// A strip that moves by 0.01 as a whole and is stretched by 1e-15 has reactions of its last digits.
+/// A strip that moves by 0.01 as a whole and is stretched by 1e-15 has reactions of last digits.
 TEST(Reactions, OfNearlyRigidMotionsAreRoundOff) {
   const CaseFile input = parse_case(R"(
 [body]
