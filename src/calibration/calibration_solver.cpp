@@ -47,6 +47,9 @@ constexpr double regularisation = 1e-8;
 /// are near-null-space modes, and a factor of all equations is as fast.
 constexpr Index least_freedom = 3;
 
+/// Unbalanced forces of a stalled solution: lower bounds of single bonds are not their cause.
+constexpr double far_from_balance = 0.1;
+
 /// Unbalanced forces of a coarse solution; smaller forces do not show infeasibility.
 constexpr double coarsely_met = 1e-4;
 
@@ -60,6 +63,7 @@ LeastSquaresResult CalibrationSolver::solve_least_squares(PointEquations equatio
   LeastSquaresResult change = bounded_least_squares(std::move(equations), options, kept_);
   equations_.apply(change.weights);
   report_.iterations += change.iterations;
+  stalled_ = change.stalled;
   return change;
 }
 
@@ -177,6 +181,7 @@ bool CalibrationSolver::keep_floors() { return balance(first_tolerance()); }
 /// bounds where this does not reduce the largest unbalanced force to a tenth.
 /// \return whether a lower bound was removed
 bool CalibrationSolver::remove_floors() {
+  if (stalled_ && unbalanced() > far_from_balance) return false;
   if (penalised_ || !equations_.allow_zero(in_space_ ? coarsely_met : met_balance)) return false;
   const double floored = unbalanced();
   const CalibrationEquations::State with_floors = equations_.save();

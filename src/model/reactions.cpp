@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "assembly/internal_force.hpp"
@@ -142,6 +143,21 @@ std::vector<double> reactions_from(const Model& model, const ModelState& state,
   return forces;
 }
 
+/// Returns the sum over bonds and bars of stiffness times motion, times the digits lost [force].
+double round_off_of(const Network& network, const ModelState& state) {
+  const auto width = static_cast<std::size_t>(network.width());
+  double sum = 0.0;
+  if (state.motion.empty()) return sum;
+  for (Index e = 0; e < static_cast<Index>(network.stiffness.size()); ++e) {
+    const std::size_t i = network.bonds.first[e] * width, j = network.bonds.second[e] * width;
+    for (int a = 0; a < network.dim(); ++a) {
+      sum += state.secants.axial(e) * network.stiffness[e] *
+             (std::abs(state.motion[i + a]) + std::abs(state.motion[j + a]));
+    }
+  }
+  return std::numeric_limits<double>::epsilon() * std::abs(state.scale) * sum;
+}
+
 /// Returns the sum of the magnitudes of forces on embedded points [force].
 double size_on_bars(const Network& network, std::span<const double> forces) {
   const auto width = static_cast<std::size_t>(network.width());
@@ -254,7 +270,7 @@ ReactionTable reaction_table(const std::vector<SupportRegion>& places, const Mod
   text += loads + row_of("sum", sum, dim);
   sum = about(all.middle, sum);
   sum.force_size += on_bars;
-  return {std::move(text), sum};
+  return {std::move(text), sum, round_off_of(model.network, state)};
 }
 
 std::vector<VtuArray> condition_fields(const Model& model) {
@@ -289,11 +305,13 @@ std::vector<VtuArray> condition_fields(const Model& model) {
   return fields;
 }
 
-void ReactionBalance::add(Index row, const Reaction& sum, double length, double tolerance) {
+void ReactionBalance::add(Index row, const Reaction& sum, double length, double tolerance,
+                          double round_off) {
   size_ = std::max(size_, sum.force_size + sum.moment_size / length);
   if (row_ > 0 || size_ == 0.0) return;
-  const double imbalance = std::max(norm(sum.force), norm(sum.moment) / length) / size_;
-  if (imbalance <= tolerance) return;
+  const double force = std::max(norm(sum.force), norm(sum.moment) / length);
+  const double imbalance = force / size_;
+  if (imbalance <= tolerance || force <= round_off) return;
   row_ = row;
   imbalance_ = imbalance;
 }

@@ -64,6 +64,9 @@ struct ReactionTable {
   /// Sum of loads and reactions, about the middle of all particles. Its magnitudes include the
   /// forces of bars, which a prestrain gives to bodies without loads and reactions.
   Reaction sum;
+  /// Forces that the last digits of the displacements cause, for example where a body moves far
+  /// more than it is strained [force].
+  double round_off = 0.0;
 };
 /// \param forces  holding_forces() where they are known, as for bodies in motion
 ReactionTable reaction_table(const std::vector<SupportRegion>& places, const Model& model,
@@ -83,7 +86,8 @@ class ReactionBalance {
   /// \param sum        see ReactionTable
   /// \param length     longest side of the body [length]
   /// \param tolerance  on the sum over the largest magnitude of loads and reactions so far [-]
-  void add(Index row, const Reaction& sum, double length, double tolerance);
+  /// \param round_off  sum of forces that is round-off [force]
+  void add(Index row, const Reaction& sum, double length, double tolerance, double round_off = 0.0);
   /// Returns a warning about the first row with reactions out of balance.
   std::optional<std::string> warning() const;
 

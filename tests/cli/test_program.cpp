@@ -234,7 +234,7 @@ TEST_F(Program, CheckLeavesTheCalibrationToTheRun) {
   const ProcessEnd check = run({"check", "block.toml"});
   EXPECT_EQ(check.exit_status, 0) << check.err;
   EXPECT_THAT(check.out, testing::ContainsRegex(
-                             "calibration        of [1-9][0-9]* bonds, at the start of the run"));
+                             "calibration        of [1-9][0-9]* bonds, about [0-9.]+ s at"));
   EXPECT_THAT(check.out, testing::Not(HasSubstr("out of balance")));
   ASSERT_EQ(run({"run", "block.toml", "--out", "r"}).exit_status, 0);
   EXPECT_THAT(read_text(work() / "r/log.txt"),

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 
+#include "app/process/progress.hpp"
 #include "base/plain_text.hpp"
 #include "discretization/lattices/triangulate.hpp"
 
@@ -106,8 +107,9 @@ void print_elements(const Model& model) {
     fmt::print("#   linear elements    {} tied to the bonds\n", network.cells->cells.size());
   }
   if (network.calibration) {
-    fmt::print("#   calibration        of {}, at the start of the run\n",
-               counted(network.calibration->free_bonds, "bond"));
+    fmt::print("#   calibration        of {}, about {} at the start of the run\n",
+               counted(network.calibration->free_bonds, "bond"),
+               format_duration(network.calibration->seconds));
   }
   for (std::size_t k = 0; k < network.cut_by_crack.size(); ++k) {
     fmt::print("#   crack {}            {} cut\n", k + 1, counted(network.cut_by_crack[k], "bond"));

@@ -84,7 +84,7 @@ void NetworkRun::write_reactions(const StepRecord& row, const std::vector<Suppor
   // A sum of n numbers is at most sqrt(n) times the root of the sum of their squares.
   const double numbers = static_cast<double>(model_.unknowns.number.size());
   balance.add(row.step, table.sum, longest_side(model_.network.particles),
-              std::max(1e-8, std::sqrt(numbers) * row.residual));
+              std::max(1e-8, std::sqrt(numbers) * row.residual), table.round_off);
 }
 
 std::string rate_text(double count, double seconds, const std::string& unit) {

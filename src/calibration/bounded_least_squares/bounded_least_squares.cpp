@@ -203,8 +203,10 @@ LeastSquaresResult DualNewton::solve() {
     result_.converged = interior.solve(finished ? target : rough * root_of_points(),
                                        options_.iterations, result_.iterations);
     normal_.regularisation = 0.0;
+    result_.stalled = interior.stalled();
     weights_ = interior.weights();
-    if (!finished && !interior.infeasible()) finish(interior.multipliers(), target);
+    if (!finished && !interior.infeasible() && !interior.stalled())
+      finish(interior.multipliers(), target);
   }
   report();
   return result_;

@@ -21,6 +21,8 @@ struct LeastSquaresResult {
   std::vector<double> multipliers;  ///< by Newton's method
   /// False: no weights within the bounds satisfy all equations, or too few iterations were allowed.
   bool converged = false;
+  /// Steps of the interior-point method stayed short: the equations seem far from feasible.
+  bool stalled = false;
 };
 
 /// Minimises sum (w_v - 1)^2 subject to the equations and the bounds. Newton's method maximises the

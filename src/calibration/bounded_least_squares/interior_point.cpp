@@ -178,8 +178,12 @@ bool InteriorPoint::solve(double target, int most, int& iterations) {
     // Once the active bounds are settled, steps only reduce the residual.
     const double reduction = settled ? std::clamp(0.1 * enough / size, finest, coarse) : coarse;
     const double mu = std::max(centring * present, 0.1 * last_gap);
-    full = take_step(mu, reduction, iterations) > 0.8;
+    const double length = take_step(mu, reduction, iterations);
+    full = length > 0.8;
     centring = full ? 0.1 : 0.4;
+    const bool exact = regularisation_ == 0.0 && over_.empty();
+    short_steps_ = length < short_step && exact ? short_steps_ + 1 : 0;
+    if (stalled()) break;
   }
   return false;
 }

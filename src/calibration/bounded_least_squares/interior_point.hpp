@@ -46,6 +46,8 @@ class InteriorPoint {
   bool solve(double target, int most, int& iterations);
   /// Whether the equations are infeasible by more than Newton's method can correct.
   bool infeasible() const { return infeasible_; }
+  /// Whether the solution ended because its steps stayed short.
+  bool stalled() const { return short_steps_ == most_short_steps; }
   const Vector& multipliers() const { return y_; }
   const std::vector<double>& weights() const { return weights_; }
 
@@ -65,6 +67,10 @@ class InteriorPoint {
   /// residual at settled multipliers.
   static constexpr double infeasible_ratio = 0.9;
   static constexpr int most_stalls = 2;
+  /// Without regularisation and penalty the solution ends after this number of steps in a row that
+  /// are shorter than this.
+  static constexpr double short_step = 0.1;
+  static constexpr int most_short_steps = 10;
   /// Below this gap the multipliers of infeasible equations are known to about a third.
   static constexpr double settling_gap = 1.0;
   /// Smaller residuals do not show infeasibility: Newton's method removes them.
@@ -89,6 +95,7 @@ class InteriorPoint {
   NormalSystem& normal_;
   double regularisation_, infeasible_above_;
   bool infeasible_ = false;
+  int short_steps_ = 0;  // in a row
   std::span<const double> lower_, upper_;
   Vector y_;
   std::vector<double> weights_;

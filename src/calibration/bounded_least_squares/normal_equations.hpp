@@ -14,6 +14,7 @@
 #include "calibration/bounded_least_squares/equations/point_equations.hpp"
 #include "calibration/bounded_least_squares/equations/variable_parts.hpp"
 #include "calibration/bounded_least_squares/kept_preconditioner.hpp"
+#include "calibration/bounded_least_squares/normal_equations_limits.hpp"
 #include "calibration/bounded_least_squares/normal_system.hpp"
 #include "calibration/bounded_least_squares/packed_product.hpp"
 #include "calibration/bounded_least_squares/system_product.hpp"
@@ -25,7 +26,7 @@ namespace perilink {
 /// \tparam Odd  the first of them, of opposite sign at the two ends of a variable
 /// \tparam Grouped  whether the last equation of a point is shared by its group
 template <int Rows, int Odd, bool Grouped>
-class NormalEquations final : public NormalSystem {
+class NormalEquations final : public NormalSystem, private NormalEquationsLimits {
  public:
   NormalEquations(const PointEquations& equations, const LeastSquaresOptions& options,
                   KeptPreconditioner& kept)
@@ -65,22 +66,6 @@ class NormalEquations final : public NormalSystem {
   using Block = Eigen::Matrix<double, Rows, Rows>;
   static constexpr int own = Grouped ? Rows - 1 : Rows;  // rows per point, without the group row
 
-  /// Least regularisations of the method of multipliers. Singular values of waves along a boundary
-  /// fall with the square of their length; a factor allows a smaller regularisation.
-  static constexpr double least_regularisation = 1e-10;
-  static constexpr double factor_regularisation = 1e-18;
-  /// Regularisation of the last steps, smaller for long waves of unstructured particle sets.
-  static constexpr double settled_regularisation = 1e-13;
-  /// Iterations that take as long as a factor, and iterations after which a factor is stale.
-  static constexpr int worth_of_factor = 15, stale_iterations = 40;
-  /// Iterations of a solution after which the coarse space is made, or gets other modes.
-  /// Near-null-space modes take about 500 iterations of blocks, and are used in several solutions.
-  /// With modes of an earlier problem only the coarse system is made.
-  static constexpr int patience = 200, patience_with_fields = 100, stale_fields = 200;
-  /// Iterations after which the coarse system is made again, which takes about forty iterations.
-  static constexpr int stale_coarse = 80;
-  /// Iterations that take as long as the blocks.
-  static constexpr int cheap_iterations = 10;
   /// Least number of points for threads, and the number of parts of their sums.
   static constexpr std::size_t points_for_threads = 8000, parts_of_sums = 8;
 
@@ -122,8 +107,9 @@ class NormalEquations final : public NormalSystem {
   bool last_ = false;                    // whether the step must satisfy the equations
   bool own_factor_ = false;  // whether the factor is of these equations, not of the last problem
   int last_iterations_ = 0;
-  std::vector<double>
-      coarse_of_;  // active-set weights of the coarse system; empty: of another problem
+  bool gave_up_ = false;  // not even a new factor leads to a solution
+  /// Active-set weights of the factor or the coarse system; empty: of another problem.
+  std::vector<double> prepared_for_;
   Vector compliance_of_factor_;
 };
 
@@ -251,7 +237,7 @@ void NormalEquations<Rows, Odd, Grouped>::use_boxes(Make make) {
   try {
     make();
     with_boxes_ = true;
-    coarse_of_ = active_weight;
+    prepared_for_ = active_weight;
   } catch (const SolverError&) {
     kept_.boxes.reset();
     with_boxes_ = false;
@@ -284,6 +270,7 @@ void NormalEquations<Rows, Odd, Grouped>::build_factor() {
   own_factor_ = true;
   kept_.factor->factorize(equations_, active_weight, diagonal());
   compliance_of_factor_ = compliance;
+  prepared_for_ = active_weight;
   last_iterations_ = 0;
 }
 
@@ -328,14 +315,23 @@ int NormalEquations<Rows, Odd, Grouped>::solve(const Vector& residual, double re
   search.keeps_directions = options_.keeps_directions && !search.rounded;
   find_direction(search);
   direction = std::move(search.direction);
-  return search.iterations;
+  return gave_up_ ? options_.iterations : search.iterations;
 }
 
 /// Iterates with the present preconditioner, and with a stronger one when this takes too long.
 template <int Rows, int Odd, bool Grouped>
 void NormalEquations<Rows, Odd, Grouped>::find_direction(DirectionSearch& search) {
+  if (options_.preconditioner == Preconditioner::factor && !std::isfinite(penalty())) {
+    if (iterate(search, most_by_factor)) return;
+    if (prepared_for_ != active_weight) {
+      build_factor();
+      if (iterate(search, most_by_factor)) return;
+    }
+    gave_up_ = true;
+    return;
+  }
   const int times = kept_.boxes && kept_.boxes->is_nested() ? 2 : 1;
-  if (with_boxes_ && coarse_of_ != active_weight) {
+  if (with_boxes_ && prepared_for_ != active_weight) {
     if (iterate(search, times * stale_coarse)) return;
     renew_coarse();
   }

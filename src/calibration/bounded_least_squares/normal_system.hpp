@@ -26,7 +26,8 @@ class NormalSystem {
   /// \param settled  the active weights are unchanged since the last step
   /// \param last  the step must satisfy the equations
   virtual void prepare_if_stale(bool settled, bool last) = 0;
-  /// Solves S direction = residual until the residual is reduced by the factor. \return iterations
+  /// Solves S direction = residual until the residual is reduced by the factor.
+  /// \return iterations; all of LeastSquaresOptions::iterations where a new factor does not help
   virtual int solve(const Vector& residual, double reduction, Vector& direction) = 0;
 
   /// Returns the largest multiplier of exact equations; infinity: they have no penalty.

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <filesystem>
@@ -19,6 +20,7 @@
 
 #include "base/error.hpp"
 #include "base/files.hpp"
+#include "base/memory.hpp"
 #include "io/case/case_words.hpp"
 #include "io/mesh/gmsh_script.hpp"
 #include "io/mesh/mesh_file.hpp"
@@ -41,7 +43,7 @@ Mesh mesh_geometry(const std::string& path, int dim, std::optional<double> /*siz
       path, dim, path));
 }
 
-Mesh mesh_drawing(const std::string& /*script*/, int /*dim*/) {
+Mesh mesh_drawing(const std::string& /*script*/, int /*dim*/, double /*size*/) {
   throw FileError("this program was built without gmsh, which places unstructured particles");
 }
 
@@ -54,9 +56,11 @@ struct Gmsh {
   decltype(&gmshInitialize) initialize = nullptr;
   decltype(&gmshOpen) open = nullptr;
   decltype(&gmshWrite) write = nullptr;
+  decltype(&gmshOptionGetNumber) get_number = nullptr;
   decltype(&gmshOptionSetNumber) set_number = nullptr;
   decltype(&gmshModelGetEntities) entities = nullptr;
   decltype(&gmshModelMeshGetElementTypes) element_types = nullptr;
+  decltype(&gmshModelMeshClear) clear = nullptr;
   decltype(&gmshModelMeshGenerate) generate = nullptr;
   decltype(&gmshModelGetBoundingBox) box = nullptr;
   decltype(&gmshLoggerGetLastError) last_error = nullptr;
@@ -84,9 +88,11 @@ Gmsh load_gmsh() {
   find(gmsh.initialize, "gmshInitialize");
   find(gmsh.open, "gmshOpen");
   find(gmsh.write, "gmshWrite");
+  find(gmsh.get_number, "gmshOptionGetNumber");
   find(gmsh.set_number, "gmshOptionSetNumber");
   find(gmsh.entities, "gmshModelGetEntities");
   find(gmsh.element_types, "gmshModelMeshGetElementTypes");
+  find(gmsh.clear, "gmshModelMeshClear");
   find(gmsh.generate, "gmshModelMeshGenerate");
   find(gmsh.box, "gmshModelGetBoundingBox");
   find(gmsh.last_error, "gmshLoggerGetLastError");
@@ -120,6 +126,12 @@ class Session {
     set("General.NumThreads", 1.0);
   }
 
+  double get(const char* option) {
+    double value = 0.0;
+    gmsh_.get_number(option, &value, &error_);
+    check();
+    return value;
+  }
   void set(const char* option, double value) {
     gmsh_.set_number(option, value, &error_);
     check();
@@ -144,14 +156,27 @@ class Session {
     return count > 0 && num_types > 0;
   }
   /// Returns the number of cubes or squares of a size in the box around the geometry.
-  double cells_in_box(int dim, double size) {
+  double squares_in_box(int dim, double size) {
     std::array<double, 3> low{}, high{}, sides{};
     gmsh_.box(-1, -1, &low[0], &low[1], &low[2], &high[0], &high[1], &high[2], &error_);
     check();
     for (int a = 0; a < 3; ++a) sides[a] = std::max(0.0, high[a] - low[a]);
     std::ranges::sort(sides, std::greater());
-    double cells = 1.0;
-    for (int a = 0; a < dim; ++a) cells *= sides[a] / size;
+    double squares = 1.0;
+    for (int a = 0; a < dim; ++a) squares *= sides[a] / size;
+    return squares;
+  }
+  /// Returns the number of cells of a mesh with all sizes multiplied by a factor.
+  double cells_of_coarse_mesh(int dim, double factor) {
+    constexpr const char* option = "Mesh.MeshSizeFactor";
+    const double own = get(option);
+    set(option, factor * own);
+    generate(dim);
+    const double cells = dim == 2 ? get("Mesh.NbTriangles") + get("Mesh.NbQuadrangles")
+                                  : get("Mesh.NbTetrahedra") + get("Mesh.NbHexahedra");
+    gmsh_.clear(nullptr, 0, &error_);
+    check();
+    set(option, own);
     return cells;
   }
   /// Writes format 4.1, even where the script sets another format.
@@ -175,15 +200,30 @@ class Session {
   int error_ = 0;
 };
 
-/// Refuses a size that would keep gmsh busy for hours.
-/// \param cells  Session::cells_in_box()
-void refuse_small_size(double cells, int dim, double size) {
-  const double most = dim == 2 ? 1e8 : 1e9;  // bodies fill a part of their box
-  if (cells <= most) return;
-  throw Error(
-      fmt::format("mesh_size {:g} fills the box around it with {:.1e} cells, at most {:.0e} "
-                  "are possible; is it in the unit of the geometry?",
-                  size, cells, most));
+/// Exit status of the child for a size that memory does not allow.
+constexpr int too_small = 2;
+
+/// Refuses a size that would keep gmsh busy for hours and then exceed the memory. Bodies fill a
+/// part of their box and their cells may grow, so coarse meshes decide, finer ones for slender
+/// bodies.
+void refuse_small_size(Session& session, int dim, double size) {
+  constexpr double bytes_per_cell = 2000.0;  // of the mesh and a run: bonds of three spacings
+  constexpr double cells_per_square = 2.3, cells_per_cube = 9.0;
+  constexpr double coarse_squares = 1e4, enough_cells = 3e4;
+  const double memory = available_memory(), most = memory / bytes_per_cell;
+  const double squares = session.squares_in_box(dim, size);
+  if (squares * (dim == 2 ? cells_per_square : cells_per_cube) <= most) return;
+  double factor = std::max(1.0, std::pow(squares / coarse_squares, 1.0 / dim)), cells = 0.0;
+  for (double count = 0.0; count < enough_cells && factor >= 1.0; factor *= 0.25) {
+    count = session.cells_of_coarse_mesh(dim, factor);
+    cells = count * std::pow(factor, dim);
+    if (cells <= most) return;
+  }
+  throw CellSizeError(fmt::format(
+      "gives about {:.1e} cells, with a run of about {}; {} are free, for {:.1e} cells of {:.2g} "
+      "times this size",
+      cells, bytes_text(cells * bytes_per_cell), bytes_text(memory), most,
+      std::pow(cells / most, 1.0 / dim)));
 }
 
 void write_mesh(const std::string& path, int dim, std::optional<double> size,
@@ -198,7 +238,7 @@ void write_mesh(const std::string& path, int dim, std::optional<double> size,
   // A script that meshes by itself may have changed its mesh afterwards, for example by
   // Plugin(Crack).
   if (!session.is_meshed(dim) || (dim == 2 && session.is_meshed(3))) {
-    if (size) refuse_small_size(session.cells_in_box(dim, *size), dim, *size);
+    if (size) refuse_small_size(session, dim, *size);
     session.generate(dim);
   }
   session.write(target);
@@ -233,14 +273,18 @@ Outcome mesh_in_child(const std::string& path, int dim, std::optional<double> si
     follow_parent(parent);
     close(ends[0]);
     std::string message;
+    int status = 1;
     try {
       write_mesh(path, dim, size, target);
+    } catch (const CellSizeError& error) {
+      message = error.what();
+      status = too_small;
     } catch (const std::exception& error) {
       message = error.what();
     }
     const auto written = write(ends[1], message.data(), message.size());
     // The parent's buffers and objects must not be flushed or destroyed twice.
-    _exit(message.empty() && written == 0 ? 0 : 1);
+    _exit(message.empty() && written == 0 ? 0 : status);
   }
   close(ends[1]);
   Outcome outcome;
@@ -301,12 +345,13 @@ class MeshingError : public Error {
 };
 
 /// \param name  of the geometry, for messages
-/// \throws MeshingError
+/// \throws MeshingError, CellSizeError
 Mesh mesh_checked(const std::string& path, int dim, std::optional<double> size,
                   const std::string& name) {
   const TemporaryFile target(".msh");
   const Outcome outcome = mesh_in_child(path, dim, size, target.path());
   if (!WIFEXITED(outcome.status)) throw MeshingError("gmsh crashed on it");
+  if (WEXITSTATUS(outcome.status) == too_small) throw CellSizeError(outcome.message);
   if (WEXITSTATUS(outcome.status) != 0) {
     throw MeshingError("gmsh cannot mesh it: " + outcome.message);
   }
@@ -329,10 +374,10 @@ Mesh mesh_geometry(const std::string& path, int dim, std::optional<double> size,
   }
 }
 
-Mesh mesh_drawing(const std::string& script, int dim) {
+Mesh mesh_drawing(const std::string& script, int dim, double size) {
   const TemporaryFile drawing(".geo");
   std::ofstream(drawing.path()) << script;
-  return mesh_checked(drawing.path(), dim, {}, "the drawing of the body");
+  return mesh_checked(drawing.path(), dim, size, "the drawing of the body");
 }
 
 #endif

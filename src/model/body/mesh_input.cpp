@@ -144,6 +144,9 @@ Mesh read_mesh(const CaseFile& input, const std::string& key, const MeshSource& 
                                   : load_mesh(path, dim);
     for (double& x : mesh.positions) x *= scale;
     return mesh;
+  } catch (const CellSizeError& error) {
+    throw InputError(input.where(key + "_size"), error.what(),
+                     "give a larger size; mesh_size is a length of the case");
   } catch (const FileError& error) {
     throw InputError(input.where(key), error.what(),
                      "give the path relative to the folder of the case");

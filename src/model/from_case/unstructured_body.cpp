@@ -251,7 +251,10 @@ Body make_unstructured_body(const CaseFile& input, int dim, double spacing) {
   const SourceLocation where = input.where("body.pattern");
   Mesh mesh;
   try {
-    mesh = mesh_drawing(Drawing(input, dim, origin, spacing).text(), dim);
+    mesh = mesh_drawing(Drawing(input, dim, origin, spacing).text(), dim, 1.0);
+  } catch (const CellSizeError& error) {
+    throw InputError(input.where(input.body.spacing ? "body.spacing" : "body.columns"),
+                     error.what(), "choose a coarser spacing");
   } catch (const Error& error) {
     throw InputError(where, fmt::format("is \"unstructured\": {}", error.what()), "");
   }

@@ -363,6 +363,27 @@ TEST(BoundedLeastSquares, GivesUpWhereTooMuchWillBeLeft) {
   EXPECT_EQ(met.weights, bounded_least_squares(one_point(1.5, 0.8), patient).weights);
 }
 
+/// Equations far from feasible shorten every step of the interior-point method, which ends then.
+TEST(BoundedLeastSquares, EndsWhereStepsStayShort) {
+  LeastSquaresOptions options;
+  options.method = Method::interior_point;
+  options.preconditioner = Preconditioner::factor;
+  std::vector<double> weights;
+  PointEquations equations = ring(60, 8, 6, weights, 9);
+  const LeastSquaresResult met = bounded_least_squares(equations, options);
+  EXPECT_TRUE(met.converged);
+  EXPECT_FALSE(met.stalled);
+  for (double& right : equations.right) right *= 1000.0;  // weights are at most 100
+  const LeastSquaresResult far = bounded_least_squares(equations, options);
+  EXPECT_FALSE(far.converged);
+  EXPECT_TRUE(far.stalled);
+  EXPECT_LT(far.iterations, 1000);
+  for (const double w : far.weights) {
+    EXPECT_GE(w, 0.1);
+    EXPECT_LE(w, 100.0);
+  }
+}
+
 /// Least squares of change and residual: w = 1 - t, t = d / (3 + ridge) with d = 3 - 1.5.
 TEST(BoundedLeastSquares, ARidgeTradesResidualForChange) {
   PointEquations equations = one_point(1.5, 0.0);

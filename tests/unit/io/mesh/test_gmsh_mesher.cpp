@@ -1,5 +1,6 @@
 #include "io/mesh/gmsh_mesher.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -53,12 +54,31 @@ TEST(GmshMesher, SaysWhatIsWrong) {
   test::write_text(path, "DefineConstant[ size = 0.1 ];\n");
   EXPECT_THAT(refusal(path, 0.1),
               AllOf(HasSubstr("has no constant `h`"), HasSubstr("[ h = 0.1 ]")));
-  EXPECT_THAT(refusal(meshes + "disc.geo", 1e-5),
-              HasSubstr("fills the box around it with 4.0e+10"));
   test::write_text(path, "Plane Surface(1) = {7};\n");
   EXPECT_THAT(refusal(path, {}), HasSubstr("body.geo"));
   test::write_text(path, "// nothing\n");
   EXPECT_THAT(refusal(path, {}), AllOf(HasSubstr("body.geo"), HasSubstr("holds no mesh")));
+}
+
+/// Sizes are refused by the number of cells, not by the box around the body.
+TEST(GmshMesher, RefusesCellsBeyondTheMemory) {
+  if (!has_gmsh()) GTEST_SKIP() << "built without gmsh";
+  // Triangles of gmsh have about 0.43 of the area of a square of the side.
+  EXPECT_THAT(refusal(meshes + "disc.geo", 1e-5), HasSubstr("gives about 7."));
+  const test::TemporaryDirectory directory;
+  const std::string path = (directory / "body.geo").string();
+  const auto corner = [&](double along, double across) {
+    test::write_text(path, fmt::format("SetFactory(\"OpenCASCADE\"); DefineConstant[ h = 1 ];\n"
+                                       "Rectangle(1) = {{0, 0, 0, {0}, {1}}};\n"
+                                       "Rectangle(2) = {{0, 0, 0, {1}, {0}}};\n"
+                                       "BooleanUnion{{Surface{{1}}; Delete;}}{{Surface{{2}}; "
+                                       "Delete;}}\nMeshSize{{:}} = h;\n",
+                                       along, across));
+    return path;
+  };
+  // 1e8 squares in the box of two bars a cell wide
+  EXPECT_NEAR(mesh_geometry(corner(100, 0.01), 2, 0.01).num_cells(), 4e4, 1e4);
+  EXPECT_THAT(refusal(corner(1000, 1000), 0.01), HasSubstr("times this size"));
 }
 
 /// A square with a line in it, of which the lower end is on the side.
