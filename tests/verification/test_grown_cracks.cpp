@@ -110,7 +110,9 @@ TEST_P(GrownCracks, CarryPressureAndSlide) {
   const StagesOf rows(cracked), intact(whole);
   const double stiffness = rows.last(2, "load") / rows.last(2, "load_factor");
   const double wanted = intact.last(2, "load") / intact.last(2, "load_factor");
-  const double kept = (rows.last(3, "load") - spring * slip) / intact.last(3, "load");
+  // The springs act per area of the top.
+  const double springs = spring * (tested.dim == 3 ? 25.0 : 16.0);
+  const double kept = (rows.last(3, "load") - springs * slip) / intact.last(3, "load");
   const double opening = (rows.last(4, "load_factor") - rows.last(2, "load_factor")) / slip;
   RecordProperty("pressed", fmt::format("{:.4f}", stiffness / wanted));
   RecordProperty("shear_kept", fmt::format("{:.2e}", kept));
