@@ -38,6 +38,7 @@ ReferenceEngine::ReferenceEngine(const LoadedNetwork& body, double tolerance)
       segments_(static_cast<std::size_t>(network_.num_elements()), 0),
       secants_(segments_.size(), 1.0),
       axial_(secants_),
+      closed_(secants_),
       threshold_(secants_),
       active_(static_cast<std::size_t>(network_.particles.size()), 0) {
   if (!network_.bending_ratio.empty() || !network_.inflection.empty() || !network_.hinged.empty() ||
@@ -150,7 +151,7 @@ bool ReferenceEngine::is_loose(Index particle) const {
 }
 
 bool ReferenceEngine::can_close(Index element) const {
-  return secants_[element] < 1.0 && network_.law(element).closes();
+  return secants_[element] < closed_[element] && network_.law(element).closes();
 }
 
 bool ReferenceEngine::has_side(Index element) const {
@@ -189,12 +190,27 @@ bool ReferenceEngine::change_some(const std::vector<Index>& wrong) {
   return false;
 }
 
+/// Sets the closed stiffness of broken bonds around those that have just broken.
+void ReferenceEngine::set_closed_ratios() {
+  if (newly_broken_.empty()) return;
+  CrackFaces faces(network_);
+  for (Index e = 0; e < network_.num_elements(); ++e) {
+    if (secants_[e] == 0.0 && faces.concerns(e)) faces.set_broken(e, true);
+  }
+  const Eigen::VectorXd motion = displacement_at(load_factor_);
+  for (const auto& [e, ratio] : faces.ratios_around(newly_broken_)) {
+    if (!is_closed(e) && !(extension(e, motion) < 0.0)) closed_[e] = ratio;
+  }
+  newly_broken_.clear();
+}
+
 /// Finds equilibrium and contact states. Bonds change together at first, then the first one alone,
 /// which ends for every convex energy (Murty 1974, least-index pivoting).
 /// \return false for a mechanism
 bool ReferenceEngine::settle(double direction) {
   constexpr int together = 10, most = 10000;
   if (!solve()) return false;
+  set_closed_ratios();
   for (int round = 0; round < most; ++round) {
     std::vector<Index> wrong = violated(direction);
     if (wrong.empty()) return true;
@@ -280,10 +296,14 @@ EventOutcome ReferenceEngine::finish(EventOutcome outcome, const Parabola& befor
 
 EventOutcome ReferenceEngine::apply(std::span<const Index> elements) {
   const auto segments = segments_;
-  const auto secants = secants_, axial = axial_;
+  const auto secants = secants_, axial = axial_, closed = closed_;
   const auto active = active_;
   const Parabola before = parabola([&](double factor) { return compliance_at(factor); });
-  for (const Index e : elements) weaken(e);
+  newly_broken_.clear();
+  for (const Index e : elements) {
+    weaken(e);
+    if (secants_[e] == 0.0 && network_.law(e).closes()) newly_broken_.push_back(e);
+  }
   EventOutcome outcome;
   const Parabola released = parabola([&](double factor) {
     double sum = 0.0;
@@ -303,6 +323,7 @@ EventOutcome ReferenceEngine::apply(std::span<const Index> elements) {
   segments_ = segments;
   secants_ = secants;
   axial_ = axial;
+  closed_ = closed;
   active_ = active;
   solve();
   return outcome;

@@ -19,11 +19,19 @@ constexpr double no_resistance = 1e12;
 
 void ContactChanges::settle(EventOutcome& outcome, double direction) {
   begin();
+  set_new_ratios();
   ContactRounds rounds(contact_, direction);
   while (!outcome.mechanism) {
     const std::vector<Index> wrong = rounds.next();
     if (wrong.empty()) return;
     outcome.mechanism = !follow(wrong, outcome);
+  }
+}
+
+void ContactChanges::set_new_ratios() {
+  for (const auto& [bond, ratio] : body_.take_new_ratios()) {
+    if (body_.is_closed(bond) || contact_.extension_of(bond).now < 0.0) continue;
+    ratios_before_.emplace_back(bond, body_.set_closed_ratio(bond, ratio));
   }
 }
 
@@ -33,7 +41,8 @@ void ContactChanges::turn(const std::vector<Index>& elements) {
 
 void ContactChanges::take_back() {
   turn(changed_);
-  changed_.clear();
+  for (const auto& [bond, ratio] : ratios_before_) body_.set_closed_ratio(bond, ratio);
+  begin();
 }
 
 void ContactChanges::close(Index element) {

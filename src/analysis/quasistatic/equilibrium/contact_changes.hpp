@@ -31,9 +31,15 @@ class ContactChanges {
   /// Opens a closed element.
   /// \return false if only this element holds the body; then at most K^-1 is new
   bool open(Index element);
-  /// Forgets which contact states the last call of settle() has changed.
-  void begin() { changed_.clear(); }
-  /// Takes back the contact states that have changed since then. K^-1 and displacements stay.
+  /// Forgets which contact states and closed stiffness ratios the last call of settle() has changed.
+  void begin() {
+    changed_.clear();
+    ratios_before_.clear();
+  }
+  /// Sets the closed stiffness of broken bonds around those that have just broken. Bonds that carry
+  /// pressure, or would at once, keep theirs, so that no energy appears.
+  void set_new_ratios();
+  /// Takes back what has changed since then. K^-1 and displacements stay.
   void take_back();
 
  private:
@@ -52,6 +58,7 @@ class ContactChanges {
   ReactionWork& work_;
   Contact contact_;
   std::vector<Index> changed_;  ///< elements whose contact state changed last, in order
+  std::vector<CrackFaces::Ratio> ratios_before_;  ///< closed ratios that changed last
 };
 
 }  // namespace perilink

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "assembly/internal_force.hpp"
 #include "assembly/stiffness.hpp"
@@ -12,8 +13,9 @@ DamagedBody::DamagedBody(const LoadedNetwork& problem, const Unknowns& unknowns,
                          const ElementState* saved)
     : network_(problem.network),
       secants_(static_cast<std::size_t>(network_.num_elements()), 1.0),
-      has_kept_(network_.has_kept_shear()) {
-  if (network_.has_closing() || has_kept_) axial_ = secants_;
+      has_kept_(network_.has_kept_shear()),
+      faces_(network_) {
+  if (network_.has_closing() || has_kept_) axial_ = closed_ = secants_;
   const std::vector<Index> contacts = network_.contacts();
   for (const Index element : contacts) secants_[element] = 0.0;  // closed at first
   if (saved != nullptr) {
@@ -22,13 +24,20 @@ DamagedBody::DamagedBody(const LoadedNetwork& problem, const Unknowns& unknowns,
     ground_stiffness_ = saved->ground_stiffness;
   }
   const auto& damaged = saved != nullptr ? saved->damaged : contacts;
-  for (const Index element : damaged) unilateral_.push_back(ends_of(element));
+  for (const Index element : damaged) {
+    if (saved != nullptr) closed_[element] = saved->closed[unilateral_.size()];
+    unilateral_.push_back(ends_of(element));
+    if (secants_[element] == 0.0 && faces_.concerns(element)) faces_.set_broken(element, true);
+  }
   set_unknowns(unknowns);
 }
 
 ElementState DamagedBody::state() const {
-  ElementState state{secants_, axial_, {}, ground_stiffness_, {}, {}};
-  for (const UnilateralElement& bond : unilateral_) state.damaged.push_back(bond.element);
+  ElementState state{secants_, axial_, {}, {}, ground_stiffness_, {}, {}};
+  for (const UnilateralElement& bond : unilateral_) {
+    state.damaged.push_back(bond.element);
+    state.closed.push_back(closed_[bond.element]);
+  }
   return state;
 }
 
@@ -81,12 +90,24 @@ void DamagedBody::weaken(Index element, double secant) {
   const bool is_first = secants_[element] == 1.0;
   if (has_sides() && is_first && network_.law(element).closes())
     unilateral_.push_back(ends_of(element));
+  const bool breaks = secant == 0.0 && secants_[element] > 0.0;
   set_secant(element, secant);
+  if (!breaks || !faces_.concerns(element)) return;
+  faces_.set_broken(element, true);
+  newly_broken_.push_back(element);
+}
+
+std::vector<CrackFaces::Ratio> DamagedBody::take_new_ratios() {
+  return faces_.ratios_around(std::exchange(newly_broken_, {}));
 }
 
 void DamagedBody::take_back(Index element, double secant, bool intact) {
   const auto is_it = [&](const UnilateralElement& bond) { return bond.element == element; };
   if (intact) std::erase_if(unilateral_, is_it);
+  if (secants_[element] == 0.0 && faces_.concerns(element)) {
+    faces_.set_broken(element, false);
+    std::erase(newly_broken_, element);
+  }
   set_secant(element, secant);
 }
 

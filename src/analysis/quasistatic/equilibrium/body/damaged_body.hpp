@@ -1,8 +1,10 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "analysis/quasistatic/equilibrium/body/crack_faces.hpp"
 #include "analysis/quasistatic/equilibrium/body/element_state.hpp"
 #include "analysis/quasistatic/equilibrium/body/removal.hpp"
 #include "network/loaded_network.hpp"
@@ -78,12 +80,21 @@ class DamagedBody {
   UnilateralElement ends_of(Index element) const;
   bool is_closed(Index element) const { return axial_[element] > secants_[element]; }
   /// Changes the contact state of a unilateral element.
-  void turn(Index element) { axial_[element] = is_closed(element) ? secants_[element] : 1.0; }
+  void turn(Index element) {
+    axial_[element] = is_closed(element) ? secants_[element] : closed_[element];
+  }
   /// Returns the stiffness that a unilateral element has on its closed side only [-]. The element's
-  /// intact stiffness is 1.
-  double one_sided(Index element) const { return 1.0 - secants_[element]; }
+  /// intact stiffness is 1. It is zero for bonds oblique to a crack, which never close.
+  double one_sided(Index element) const { return closed_[element] - secants_[element]; }
   /// Returns the vector of that stiffness.
   Removal one_sided_removal(Index element) const;
+  /// Returns the closed stiffness ratios that follow from the bonds that broke since the last call.
+  std::vector<CrackFaces::Ratio> take_new_ratios();
+  /// Sets the stiffness that an open element has when it closes, over its intact stiffness [-].
+  /// \return former ratio
+  double set_closed_ratio(Index element, double ratio) {
+    return std::exchange(closed_[element], ratio);
+  }
 
   /// Returns the stiffness of ground springs per unknown; empty: there are none.
   const std::vector<double>& ground_stiffness() const { return ground_stiffness_; }
@@ -100,8 +111,11 @@ class DamagedBody {
   std::vector<std::size_t> slot_of_;
   std::vector<std::size_t> moving_slots_;  ///< slots that unknowns move, with embedded particles
   std::vector<double> secants_;
-  std::vector<double> axial_;  ///< secants against a change of length; empty if none differs
-  bool has_kept_;              ///< Network::has_kept_shear()
+  std::vector<double> axial_;   ///< secants against a change of length; empty if none differs
+  std::vector<double> closed_;  ///< see set_closed_ratio(), per element; empty as axial_
+  bool has_kept_;               ///< Network::has_kept_shear()
+  CrackFaces faces_;
+  std::vector<Index> newly_broken_;  ///< bonds without new ratios around them
   std::vector<UnilateralElement> unilateral_;
   std::vector<double> ground_stiffness_;
 };
