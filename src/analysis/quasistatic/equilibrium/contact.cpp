@@ -93,7 +93,10 @@ std::vector<Index> Contact::violated(const Reading& reading) const {
 
 auto Contact::next_change(double distance) const -> Change {
   Change next{no_index, distance};
+  // ContactRounds leaves such elements as they are.
+  const double noise = round_off_of(solution_.growing().field().displacement);
   for_each({}, [&](Index element, const Extension& extension) {
+    if (std::max(std::abs(extension.now), std::abs(extension.growing)) <= noise) return;
     const double growth = std::copysign(1.0, distance) * extension.growing;
     if (!(body_.is_closed(element) ? growth > 0.0 : growth < 0.0)) return;
     if (!body_.is_closed(element) && body_.is_grounded(element)) return;
