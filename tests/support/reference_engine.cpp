@@ -1,7 +1,9 @@
 #include "support/reference_engine.hpp"
 
 #include <cmath>
+#include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "support/analysis_bodies.hpp"
 
@@ -190,18 +192,23 @@ bool ReferenceEngine::change_some(const std::vector<Index>& wrong) {
   return false;
 }
 
-/// Sets the closed stiffness of broken bonds around those that have just broken.
-void ReferenceEngine::set_closed_ratios() {
-  if (newly_broken_.empty()) return;
+/// Sets the closed stiffness of broken bonds around those that have just broken, and of bonds that
+/// have opened.
+void ReferenceEngine::set_closed_ratios(const std::vector<Index>& broken,
+                                        const std::vector<Index>& opened) {
+  if (broken.empty() && opened.empty()) return;
   CrackFaces faces(network_);
   for (Index e = 0; e < network_.num_elements(); ++e) {
     if (secants_[e] == 0.0 && faces.concerns(e)) faces.set_broken(e, true);
   }
+  std::set<Index> bonds = faces.broken_around(broken);
+  for (const Index e : opened) {
+    if (secants_[e] == 0.0 && faces.concerns(e)) bonds.insert(e);
+  }
   const Eigen::VectorXd motion = displacement_at(load_factor_);
-  for (const auto& [e, ratio] : faces.ratios_around(newly_broken_)) {
+  for (const auto& [e, ratio] : faces.ratios_of(bonds)) {
     if (!is_closed(e) && !(extension(e, motion) < 0.0)) closed_[e] = ratio;
   }
-  newly_broken_.clear();
 }
 
 /// Finds equilibrium and contact states. Bonds change together at first, then the first one alone,
@@ -210,10 +217,18 @@ void ReferenceEngine::set_closed_ratios() {
 bool ReferenceEngine::settle(double direction) {
   constexpr int together = 10, most = 10000;
   if (!solve()) return false;
-  set_closed_ratios();
+  set_closed_ratios(std::exchange(newly_broken_, {}), {});
+  std::vector<Index> closed;
+  for (Index e = 0; e < network_.num_elements(); ++e) {
+    if (is_closed(e)) closed.push_back(e);
+  }
   for (int round = 0; round < most; ++round) {
     std::vector<Index> wrong = violated(direction);
-    if (wrong.empty()) return true;
+    if (wrong.empty()) {
+      std::erase_if(closed, [&](Index e) { return is_closed(e); });
+      set_closed_ratios({}, closed);
+      return true;
+    }
     if (round >= together) wrong.erase(wrong.begin() + 1, wrong.end());
     if (!change_some(wrong)) return false;
   }

@@ -106,7 +106,7 @@ class ReferenceEngine {
   Fine restricted(const Fine& matrix) const;
   Fine expanded(const Fine& matrix) const;
   bool settle(double direction);
-  void set_closed_ratios();
+  void set_closed_ratios(const std::vector<Index>& broken, const std::vector<Index>& opened);
   bool change_some(const std::vector<Index>& wrong);
   std::vector<Index> violated(double direction) const;
   bool is_closed(Index element) const { return axial_[element] > secants_[element]; }

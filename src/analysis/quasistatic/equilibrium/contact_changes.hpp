@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <vector>
 
 #include "analysis/quasistatic/equilibrium/body/event_outcome.hpp"
@@ -36,9 +37,8 @@ class ContactChanges {
     changed_.clear();
     ratios_before_.clear();
   }
-  /// Sets the closed stiffness of broken bonds around those that have just broken. Bonds that carry
-  /// pressure, or would at once, keep theirs, so that no energy appears.
-  void set_new_ratios();
+  /// Sets the closed stiffness of broken bonds around those that have just broken.
+  void follow_broken() { set_closed_ratios(body_.take_around_broken()); }
   /// Takes back what has changed since then. K^-1 and displacements stay.
   void take_back();
 
@@ -50,6 +50,8 @@ class ContactChanges {
   bool holds_apart(const std::vector<Index>& opened);
   void close(Index element);
   void turn(const std::vector<Index>& elements);
+  std::set<Index> opened() const;
+  void set_closed_ratios(const std::set<Index>& bonds);
   void add_growth(Index element, const Extension& before, EventOutcome& outcome) const;
 
   DamagedBody& body_;

@@ -159,17 +159,21 @@ CrackFaces::Face CrackFaces::face_of(Index particle) {
   return face;
 }
 
-auto CrackFaces::ratios_around(std::span<const Index> bonds) -> std::vector<Ratio> {
-  has_strut_.clear();
-  std::set<Index> changed;
+std::set<Index> CrackFaces::broken_around(std::span<const Index> bonds) const {
+  std::set<Index> around;
   for (const Index end : particles_of(bonds)) {
     for (const Index i : particles_of(neighbourhoods_.row(end))) {
-      for_each_broken(i, [&](Index e) { changed.insert(e); });
+      for_each_broken(i, [&](Index e) { around.insert(e); });
     }
   }
+  return around;
+}
+
+auto CrackFaces::ratios_of(const std::set<Index>& bonds) -> std::vector<Ratio> {
+  has_strut_.clear();
   std::map<Index, Face> faces;
   std::vector<Ratio> ratios;
-  for (const Index e : changed) {
+  for (const Index e : bonds) {
     const double cosine = cosine_of(e);
     double ratio = 0.0;
     for (const Index end : {network_.bonds.first[e], network_.bonds.second[e]}) {

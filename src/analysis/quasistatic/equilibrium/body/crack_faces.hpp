@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -30,8 +31,10 @@ class CrackFaces {
 
   /// Stiffness of a closed bond over that of the intact bond.
   using Ratio = std::pair<Index, double>;
-  /// Returns the ratios of the broken bonds around given ones, in ascending order of the bonds.
-  std::vector<Ratio> ratios_around(std::span<const Index> bonds);
+  /// Returns the ratios of broken bonds, in ascending order of the bonds.
+  std::vector<Ratio> ratios_of(const std::set<Index>& bonds);
+  /// Returns the broken bonds whose ratios change as given ones break, with these.
+  std::set<Index> broken_around(std::span<const Index> bonds) const;
 
  private:
   /// Pressure that a particle takes over from its broken bonds.

@@ -97,8 +97,13 @@ void DamagedBody::weaken(Index element, double secant) {
   newly_broken_.push_back(element);
 }
 
-std::vector<CrackFaces::Ratio> DamagedBody::take_new_ratios() {
-  return faces_.ratios_around(std::exchange(newly_broken_, {}));
+std::set<Index> DamagedBody::take_around_broken() {
+  return faces_.broken_around(std::exchange(newly_broken_, {}));
+}
+
+std::vector<CrackFaces::Ratio> DamagedBody::closed_ratios(std::set<Index> elements) {
+  std::erase_if(elements, [&](Index e) { return secants_[e] > 0.0 || !faces_.concerns(e); });
+  return faces_.ratios_of(elements);
 }
 
 void DamagedBody::take_back(Index element, double secant, bool intact) {

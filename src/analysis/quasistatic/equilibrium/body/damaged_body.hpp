@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -88,8 +89,10 @@ class DamagedBody {
   double one_sided(Index element) const { return closed_[element] - secants_[element]; }
   /// Returns the vector of that stiffness.
   Removal one_sided_removal(Index element) const;
-  /// Returns the closed stiffness ratios that follow from the bonds that broke since the last call.
-  std::vector<CrackFaces::Ratio> take_new_ratios();
+  /// Returns the broken bonds around those that broke since the last call, with these.
+  std::set<Index> take_around_broken();
+  /// Returns the closed stiffness ratios that follow from all broken bonds.
+  std::vector<CrackFaces::Ratio> closed_ratios(std::set<Index> elements);
   /// Sets the stiffness that an open element has when it closes, over its intact stiffness [-].
   /// \return former ratio
   double set_closed_ratio(Index element, double ratio) {
