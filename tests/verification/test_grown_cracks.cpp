@@ -136,5 +136,43 @@ INSTANTIATE_TEST_SUITE_P(
                     GrownCrack{"in_space", "bond_based", "cubic", 2.0, true, 3}),
     [](const auto& tested) { return tested.param.name; });
 
+/// A crack that wanders through a lattice leaves bonds that only round-off moves. The stages go on,
+/// and the rough faces slide more easily than the intact plate.
+TEST(GrownCrackInAPlate, IsPulledThroughClosesAndSlides) {
+  const auto plate = [](bool cracked) {
+    std::string text =
+        "[body]\nproblem = \"plane_stress\"\nspacing = 1\nhorizon_ratio = 3\n"
+        "model = \"bond_based\"\n";
+    const double extents[][3] = {{0, 0, 16}, {1, 0, 3}, {2, 13, 16}, {3, 0, 0}, {4, 16, 16}};
+    const char* const names[] = {"plate", "feet", "head", "base", "top"};
+    for (const auto& [name, from, to] : extents) {
+      text += fmt::format("[[regions]]\nname = \"{}\"\nx = [0, 24]\ny = [{}, {}]\n",
+                          names[static_cast<int>(name)], from, to);
+      if (name > 2) continue;
+      text += fmt::format("[[materials]]\nregion = \"{}\"\nyoungs_modulus = 30000\n{}",
+                          names[static_cast<int>(name)],
+                          name > 0  ? "fracture_energy = \"infinite\"\n"
+                          : cracked ? "fracture_energy = 0.02\ntensile_strength = 3\n"
+                                    : "fracture_energy = 1e6\n");
+    }
+    if (cracked) text += "[[cracks]]\npoints = [[0, 8.5], [6, 8.5]]\n";
+    return text + fmt::format(
+                      "[[supports]]\nregion = \"base\"\nfix = [\"x\", \"y\"]\n"
+                      "[[displacements]]\nregion = \"top\"\ny = 1\nstage = \"pull\"\n"
+                      "[[displacements]]\nregion = \"top\"\nx = 1\nstage = \"slide\"\n"
+                      "[[springs]]\nregion = \"top\"\nstiffness = [20, 20]\n"
+                      "[[stages]]\nname = \"pull\"\nto = {}\n"
+                      "[[stages]]\nname = \"press\"\nloads = \"pull\"\nto_load = -144\n"
+                      "[[stages]]\nname = \"slide\"\nto = 0.001\n"
+                      "[analysis]\ntype = \"damage\"\n",
+                      cracked ? 0.3 : 0.0);
+  };
+  const StagesOf rows(plate(true)), intact(plate(false));
+  EXPECT_LT(rows.energy_error, 1e-10);
+  EXPECT_EQ(rows.last(3, "load_factor"), slip);
+  EXPECT_LT(rows.last(3, "load"), 0.5 * intact.last(3, "load"));
+  EXPECT_NEAR(rows.last(2, "load_factor") / intact.last(2, "load_factor"), 1.0, 0.05);
+}
+
 }  // namespace
 }  // namespace perilink

@@ -40,11 +40,14 @@ void CrackFaces::for_each_broken(Index particle, Visit visit) const {
 
 /// Returns the particles at the ends of bonds, ascending.
 std::vector<Index> CrackFaces::particles_of(std::span<const Index> bonds) const {
-  std::set<Index> particles;
+  std::vector<Index> particles;
   for (const Index e : bonds) {
-    particles.insert({network_.bonds.first[e], network_.bonds.second[e]});
+    particles.insert(particles.end(), {network_.bonds.first[e], network_.bonds.second[e]});
   }
-  return {particles.begin(), particles.end()};
+  std::ranges::sort(particles);
+  const auto repeated = std::ranges::unique(particles);
+  particles.erase(repeated.begin(), repeated.end());
+  return particles;
 }
 
 void CrackFaces::set_broken(Index bond, bool broken) {
