@@ -44,9 +44,9 @@ std::set<Index> ContactChanges::opened() const {
 /// Sets the closed stiffness of broken bonds. Bonds that carry pressure, or would at once, keep
 /// theirs, so that no energy appears.
 void ContactChanges::set_closed_ratios(const std::set<Index>& bonds) {
-  for (const auto& [bond, ratio] : body_.closed_ratios(bonds)) {
+  for (const auto& [bond, ratio] : body_.faces().ratios_of(bonds)) {
     if (body_.is_closed(bond) || contact_.extension_of(bond).now < 0.0) continue;
-    ratios_before_.emplace_back(bond, body_.set_closed_ratio(bond, ratio));
+    ratios_before_.emplace_back(bond, body_.faces().set_closed_ratio(bond, ratio));
   }
 }
 
@@ -56,7 +56,7 @@ void ContactChanges::turn(const std::vector<Index>& elements) {
 
 void ContactChanges::take_back() {
   turn(changed_);
-  for (const auto& [bond, ratio] : ratios_before_) body_.set_closed_ratio(bond, ratio);
+  for (const auto& [bond, ratio] : ratios_before_) body_.faces().set_closed_ratio(bond, ratio);
   begin();
 }
 

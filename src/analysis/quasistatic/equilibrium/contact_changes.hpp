@@ -38,7 +38,7 @@ class ContactChanges {
     ratios_before_.clear();
   }
   /// Sets the closed stiffness of broken bonds around those that have just broken.
-  void follow_broken() { set_closed_ratios(body_.take_around_broken()); }
+  void follow_broken() { set_closed_ratios(body_.faces().take_around_broken()); }
   /// Takes back what has changed since then. K^-1 and displacements stay.
   void take_back();
 

@@ -22,6 +22,7 @@ constexpr double unit_of_distances = 0.3;
 }  // namespace
 
 CrackFaces::CrackFaces(const Network& network) : network_(network) {
+  closed_.assign(static_cast<std::size_t>(network.num_elements()), 1.0);
   if (!network.has_closing() || network.has_sections()) return;
   neighbourhoods_ = bonds_of_particles(network.bonds, network.particles.size());
   broken_.assign(static_cast<std::size_t>(network.num_bonds()), 0);
@@ -52,6 +53,11 @@ std::vector<Index> CrackFaces::particles_of(std::span<const Index> bonds) const 
 
 void CrackFaces::set_broken(Index bond, bool broken) {
   broken_[bond] = broken ? 1 : 0;
+  if (broken) {
+    newly_broken_.push_back(bond);
+  } else {
+    std::erase(newly_broken_, bond);
+  }
   for (const Index end : {network_.bonds.first[bond], network_.bonds.second[bond]}) {
     for (const Index i : particles_of(neighbourhoods_.row(end))) normals_[i].reset();
   }
@@ -172,11 +178,12 @@ std::set<Index> CrackFaces::broken_around(std::span<const Index> bonds) const {
   return around;
 }
 
-auto CrackFaces::ratios_of(const std::set<Index>& bonds) -> std::vector<Ratio> {
+auto CrackFaces::ratios_of(const std::set<Index>& elements) -> std::vector<Ratio> {
   has_strut_.clear();
   std::map<Index, Face> faces;
   std::vector<Ratio> ratios;
-  for (const Index e : bonds) {
+  for (const Index e : elements) {
+    if (!concerns(e) || broken_[e] == 0) continue;
     const double cosine = cosine_of(e);
     double ratio = 0.0;
     for (const Index end : {network_.bonds.first[e], network_.bonds.second[e]}) {

@@ -29,10 +29,20 @@ class CrackFaces {
   /// Declares that a bond is broken, or whole again.
   void set_broken(Index bond, bool broken);
 
+  /// Returns the stiffness of a closed element over its intact stiffness [-].
+  double closed_ratio(Index element) const { return closed_[element]; }
+  /// Sets that of an open element.
+  /// \return former ratio
+  double set_closed_ratio(Index element, double ratio) {
+    return std::exchange(closed_[element], ratio);
+  }
+  /// Returns the broken bonds around those that broke since the last call, with these.
+  std::set<Index> take_around_broken() { return broken_around(std::exchange(newly_broken_, {})); }
+
   /// Stiffness of a closed bond over that of the intact bond.
   using Ratio = std::pair<Index, double>;
-  /// Returns the ratios of broken bonds, in ascending order of the bonds.
-  std::vector<Ratio> ratios_of(const std::set<Index>& bonds);
+  /// Returns the ratios of the broken bonds among elements by all broken bonds, in ascending order.
+  std::vector<Ratio> ratios_of(const std::set<Index>& elements);
   /// Returns the broken bonds whose ratios change as given ones break, with these.
   std::set<Index> broken_around(std::span<const Index> bonds) const;
 
@@ -54,7 +64,9 @@ class CrackFaces {
   const Network& network_;
   Csr neighbourhoods_;  ///< bonds of each particle; without rows if there is no closing bond
   double unit_ = 0.0;   ///< of distances in the search for normals [length]
+  std::vector<double> closed_;                   ///< closed_ratio(), per element
   std::vector<std::uint8_t> broken_;             ///< per bond
+  std::vector<Index> newly_broken_;              ///< bonds without new ratios around them
   std::vector<std::optional<Vector3>> normals_;  ///< per particle, where they are known
   std::map<Index, bool> has_strut_;              ///< per particle, where it is known
 };

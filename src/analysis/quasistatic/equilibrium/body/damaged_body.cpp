@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "assembly/internal_force.hpp"
 #include "assembly/stiffness.hpp"
@@ -15,7 +14,7 @@ DamagedBody::DamagedBody(const LoadedNetwork& problem, const Unknowns& unknowns,
       secants_(static_cast<std::size_t>(network_.num_elements()), 1.0),
       has_kept_(network_.has_kept_shear()),
       faces_(network_) {
-  if (network_.has_closing() || has_kept_) axial_ = closed_ = secants_;
+  if (network_.has_closing() || has_kept_) axial_ = secants_;
   const std::vector<Index> contacts = network_.contacts();
   for (const Index element : contacts) secants_[element] = 0.0;  // closed at first
   if (saved != nullptr) {
@@ -25,10 +24,11 @@ DamagedBody::DamagedBody(const LoadedNetwork& problem, const Unknowns& unknowns,
   }
   const auto& damaged = saved != nullptr ? saved->damaged : contacts;
   for (const Index element : damaged) {
-    if (saved != nullptr) closed_[element] = saved->closed[unilateral_.size()];
+    if (saved != nullptr) faces_.set_closed_ratio(element, saved->closed[unilateral_.size()]);
     unilateral_.push_back(ends_of(element));
     if (secants_[element] == 0.0 && faces_.concerns(element)) faces_.set_broken(element, true);
   }
+  faces_.take_around_broken();
   set_unknowns(unknowns);
 }
 
@@ -36,7 +36,7 @@ ElementState DamagedBody::state() const {
   ElementState state{secants_, axial_, {}, {}, ground_stiffness_, {}, {}};
   for (const UnilateralElement& bond : unilateral_) {
     state.damaged.push_back(bond.element);
-    state.closed.push_back(closed_[bond.element]);
+    state.closed.push_back(faces_.closed_ratio(bond.element));
   }
   return state;
 }
@@ -92,27 +92,13 @@ void DamagedBody::weaken(Index element, double secant) {
     unilateral_.push_back(ends_of(element));
   const bool breaks = secant == 0.0 && secants_[element] > 0.0;
   set_secant(element, secant);
-  if (!breaks || !faces_.concerns(element)) return;
-  faces_.set_broken(element, true);
-  newly_broken_.push_back(element);
-}
-
-std::set<Index> DamagedBody::take_around_broken() {
-  return faces_.broken_around(std::exchange(newly_broken_, {}));
-}
-
-std::vector<CrackFaces::Ratio> DamagedBody::closed_ratios(std::set<Index> elements) {
-  std::erase_if(elements, [&](Index e) { return secants_[e] > 0.0 || !faces_.concerns(e); });
-  return faces_.ratios_of(elements);
+  if (breaks && faces_.concerns(element)) faces_.set_broken(element, true);
 }
 
 void DamagedBody::take_back(Index element, double secant, bool intact) {
   const auto is_it = [&](const UnilateralElement& bond) { return bond.element == element; };
   if (intact) std::erase_if(unilateral_, is_it);
-  if (secants_[element] == 0.0 && faces_.concerns(element)) {
-    faces_.set_broken(element, false);
-    std::erase(newly_broken_, element);
-  }
+  if (secants_[element] == 0.0 && faces_.concerns(element)) faces_.set_broken(element, false);
   set_secant(element, secant);
 }
 

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <set>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "analysis/quasistatic/equilibrium/body/crack_faces.hpp"
@@ -82,22 +80,14 @@ class DamagedBody {
   bool is_closed(Index element) const { return axial_[element] > secants_[element]; }
   /// Changes the contact state of a unilateral element.
   void turn(Index element) {
-    axial_[element] = is_closed(element) ? secants_[element] : closed_[element];
+    axial_[element] = is_closed(element) ? secants_[element] : faces_.closed_ratio(element);
   }
   /// Returns the stiffness that a unilateral element has on its closed side only [-]. The element's
   /// intact stiffness is 1. It is zero for bonds oblique to a crack, which never close.
-  double one_sided(Index element) const { return closed_[element] - secants_[element]; }
+  double one_sided(Index element) const { return faces_.closed_ratio(element) - secants_[element]; }
   /// Returns the vector of that stiffness.
   Removal one_sided_removal(Index element) const;
-  /// Returns the broken bonds around those that broke since the last call, with these.
-  std::set<Index> take_around_broken();
-  /// Returns the closed stiffness ratios that follow from all broken bonds.
-  std::vector<CrackFaces::Ratio> closed_ratios(std::set<Index> elements);
-  /// Sets the stiffness that an open element has when it closes, over its intact stiffness [-].
-  /// \return former ratio
-  double set_closed_ratio(Index element, double ratio) {
-    return std::exchange(closed_[element], ratio);
-  }
+  CrackFaces& faces() { return faces_; }
 
   /// Returns the stiffness of ground springs per unknown; empty: there are none.
   const std::vector<double>& ground_stiffness() const { return ground_stiffness_; }
@@ -114,11 +104,9 @@ class DamagedBody {
   std::vector<std::size_t> slot_of_;
   std::vector<std::size_t> moving_slots_;  ///< slots that unknowns move, with embedded particles
   std::vector<double> secants_;
-  std::vector<double> axial_;   ///< secants against a change of length; empty if none differs
-  std::vector<double> closed_;  ///< see set_closed_ratio(), per element; empty as axial_
-  bool has_kept_;               ///< Network::has_kept_shear()
+  std::vector<double> axial_;  ///< secants against a change of length; empty if none differs
+  bool has_kept_;              ///< Network::has_kept_shear()
   CrackFaces faces_;
-  std::vector<Index> newly_broken_;  ///< bonds without new ratios around them
   std::vector<UnilateralElement> unilateral_;
   std::vector<double> ground_stiffness_;
 };
