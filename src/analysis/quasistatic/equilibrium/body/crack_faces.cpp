@@ -19,6 +19,28 @@ const double near_normal = std::cos(10.0 * std::acos(-1.0) / 180.0);
 /// normal, the directions of the first few ones otherwise.
 constexpr double unit_of_distances = 0.3;
 
+/// Largest scatter of the middles of bonds over that of a plane crack [-]. Cracks along interfaces
+/// and rows of a lattice have up to 0.8; those that grow through a body mostly have more, and lose
+/// up to half of their stiffness under pressure if they slide freely.
+constexpr double most_scatter = 0.85;
+
+/// tensor += factor x x'
+void add_product(SymmetricTensor& tensor, double factor, const Vector3& x) {
+  for (int a = 0; a < 3; ++a) {
+    tensor[a] += factor * x[a] * x[a];
+    tensor[3 + a] += factor * x[a] * x[(a + 1) % 3];
+  }
+}
+
+/// Returns n' tensor n.
+double along(const SymmetricTensor& tensor, const Vector3& n) {
+  double sum = 0.0;
+  for (int a = 0; a < 3; ++a) {
+    sum += tensor[a] * n[a] * n[a] + 2.0 * tensor[3 + a] * n[a] * n[(a + 1) % 3];
+  }
+  return sum;
+}
+
 }  // namespace
 
 CrackFaces::CrackFaces(const Network& network) : network_(network) {
@@ -26,7 +48,7 @@ CrackFaces::CrackFaces(const Network& network) : network_(network) {
   if (!network.has_closing() || network.has_sections()) return;
   neighbourhoods_ = bonds_of_particles(network.bonds, network.particles.size());
   broken_.assign(static_cast<std::size_t>(network.num_bonds()), 0);
-  normals_.resize(static_cast<std::size_t>(network.particles.size()));
+  planes_.resize(static_cast<std::size_t>(network.particles.size()));
   for (Index e = 0; e < network.num_bonds(); ++e) {
     unit_ = std::max(unit_, unit_of_distances * network.bonds.length(e));
   }
@@ -59,27 +81,30 @@ void CrackFaces::set_broken(Index bond, bool broken) {
     std::erase(newly_broken_, bond);
   }
   for (const Index end : {network_.bonds.first[bond], network_.bonds.second[bond]}) {
-    for (const Index i : particles_of(neighbourhoods_.row(end))) normals_[i].reset();
+    for (const Index i : particles_of(neighbourhoods_.row(end))) planes_[i].reset();
   }
 }
 
-/// Finds the normal of the plane that fits the middles of the broken bonds of a particle and its
-/// neighbours best; shorter bonds count more. With n the normal, x the middle of a bond of the
-/// length xi and the direction e, and l the unit of distances, it minimises
+/// Finds the plane that fits the middles of the broken bonds of a particle and its neighbours best;
+/// shorter bonds count more. With n the normal, x the middle of a bond of the length xi and the
+/// direction e, and l the unit of distances, it minimises
 ///
 ///   sum of ((n'(x - mean x) / l)^2 - (n'e)^2) / xi^2.
-const Vector3& CrackFaces::normal_at(Index particle) {
-  std::optional<Vector3>& normal = normals_[particle];
-  if (normal) return *normal;
+///
+/// Bonds that one plane cuts anywhere have middles up to n'e xi / 2 from it, with the mean square
+/// (n'e xi)^2 / 12. Middles that scatter more are of a rough crack, whose faces interlock.
+auto CrackFaces::plane_at(Index particle) -> const Plane& {
+  std::optional<Plane>& plane = planes_[particle];
+  if (plane) return *plane;
   const int dim = network_.dim();
   const Vector3 origin = point_of(network_.particles.positions, dim, particle);
   double sum = 0.0;
   Vector3 first{};
-  SymmetricTensor tensor{};
+  SymmetricTensor places{}, directions{}, lengths{};
   for (const Index i : particles_of(neighbourhoods_.row(particle))) {
     for_each_broken(i, [&](Index e) {
       const auto direction = network_.bonds.direction(e);
-      const double weight = 1.0 / std::pow(network_.bonds.length(e), 2);
+      const double square = std::pow(network_.bonds.length(e) / unit_, 2), weight = 1.0 / square;
       Vector3 x{}, n{};
       for (int a = 0; a < dim; ++a) {
         const auto at = [&](Index end) { return network_.particles.position(end)[a]; };
@@ -89,38 +114,37 @@ const Vector3& CrackFaces::normal_at(Index particle) {
         first[a] += weight * x[a];
       }
       sum += weight;
-      for (int a = 0; a < 3; ++a) {
-        const int b = (a + 1) % 3;
-        tensor[a] += weight * (n[a] * n[a] - x[a] * x[a]);
-        tensor[3 + a] += weight * (n[a] * n[b] - x[a] * x[b]);
-      }
+      add_product(places, weight, x);
+      add_product(directions, weight, n);
+      add_product(lengths, 1.0, n);
     });
   }
-  for (int a = 0; a < 3; ++a) {
-    tensor[a] += first[a] * first[a] / sum;
-    tensor[3 + a] += first[a] * first[(a + 1) % 3] / sum;
-  }
-  return normal.emplace(principal_direction(tensor, dim));
+  add_product(places, -1.0 / sum, first);
+  SymmetricTensor tensor = directions;
+  for (std::size_t c = 0; c < tensor.size(); ++c) tensor[c] -= places[c];
+  const Vector3 normal = principal_direction(tensor, dim);
+  return plane.emplace(
+      Plane{normal, along(places, normal) <= most_scatter / 12.0 * along(lengths, normal)});
 }
 
 /// Returns the cosine of the angle between a bond and the mean normal at its ends.
 double CrackFaces::cosine_of(Index bond) {
   const auto direction = network_.bonds.direction(bond);
-  const auto along = [&](const Vector3& n) {
+  const auto along_bond = [&](const Vector3& n) {
     double sum = 0.0;
     for (std::size_t a = 0; a < direction.size(); ++a) sum += n[a] * direction[a];
     return sum;
   };
-  const Vector3& first = normal_at(network_.bonds.first[bond]);
-  const Vector3& second = normal_at(network_.bonds.second[bond]);
-  const double side = along(first) * along(second) < 0.0 ? -1.0 : 1.0;
+  const Vector3& first = plane_at(network_.bonds.first[bond]).normal;
+  const Vector3& second = plane_at(network_.bonds.second[bond]).normal;
+  const double side = along_bond(first) * along_bond(second) < 0.0 ? -1.0 : 1.0;
   Vector3 mean{};
   double square = 0.0;
   for (int a = 0; a < 3; ++a) {
     mean[a] = first[a] + side * second[a];
     square += mean[a] * mean[a];
   }
-  return std::min(1.0, std::abs(along(mean)) / std::sqrt(square));
+  return std::min(1.0, std::abs(along_bond(mean)) / std::sqrt(square));
 }
 
 /// Returns the part of a bond in the stress along the normal, times its distance across the crack,
@@ -138,14 +162,17 @@ double CrackFaces::pressure_of(Index bond, double cosine) const {
 bool CrackFaces::has_strut(Index particle) {
   const auto [has, is_new] = has_strut_.try_emplace(particle, false);
   if (!is_new) return has->second;
+  has->second = !plane_at(particle).flat;
   for_each_broken(particle,
                   [&](Index e) { has->second = has->second || cosine_of(e) >= near_normal; });
   return has->second;
 }
 
 /// A particle without bonds near the normal leaves its half of the pressure to the other ends. If
-/// these have none either, the bonds nearest to the normal are the struts.
+/// these have none either, the bonds nearest to the normal are the struts. At a rough crack all
+/// bonds are.
 CrackFaces::Face CrackFaces::face_of(Index particle) {
+  if (!plane_at(particle).flat) return {0.0, 0.5};
   const bool has = has_strut(particle);
   Face face{near_normal, 0.0};
   if (!has) {

@@ -52,10 +52,15 @@ class CrackFaces {
     double least_angle_cosine = 0.0;  ///< least cosine to the normal of a bond that is a strut [-]
     double scale = 0.0;               ///< pressure of its broken bonds over that of its struts [-]
   };
+  /// Plane through the broken bonds around a particle.
+  struct Plane {
+    Vector3 normal;
+    bool flat;  ///< whether the crack is nearly plane there
+  };
   template <class Visit>
   void for_each_broken(Index particle, Visit visit) const;
   std::vector<Index> particles_of(std::span<const Index> bonds) const;
-  const Vector3& normal_at(Index particle);
+  const Plane& plane_at(Index particle);
   double cosine_of(Index bond);
   double pressure_of(Index bond, double cosine) const;
   bool has_strut(Index particle);
@@ -64,11 +69,11 @@ class CrackFaces {
   const Network& network_;
   Csr neighbourhoods_;  ///< bonds of each particle; without rows if there is no closing bond
   double unit_ = 0.0;   ///< of distances in the search for normals [length]
-  std::vector<double> closed_;                   ///< closed_ratio(), per element
-  std::vector<std::uint8_t> broken_;             ///< per bond
-  std::vector<Index> newly_broken_;              ///< bonds without new ratios around them
-  std::vector<std::optional<Vector3>> normals_;  ///< per particle, where they are known
-  std::map<Index, bool> has_strut_;              ///< per particle, where it is known
+  std::vector<double> closed_;                ///< closed_ratio(), per element
+  std::vector<std::uint8_t> broken_;          ///< per bond
+  std::vector<Index> newly_broken_;           ///< bonds without new ratios around them
+  std::vector<std::optional<Plane>> planes_;  ///< per particle, where they are known
+  std::map<Index, bool> has_strut_;           ///< per particle, where it is known
 };
 
 }  // namespace perilink
