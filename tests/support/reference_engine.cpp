@@ -1,7 +1,9 @@
 #include "support/reference_engine.hpp"
 
 #include <cmath>
+#include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "support/analysis_bodies.hpp"
 
@@ -38,6 +40,7 @@ ReferenceEngine::ReferenceEngine(const LoadedNetwork& body, double tolerance)
       segments_(static_cast<std::size_t>(network_.num_elements()), 0),
       secants_(segments_.size(), 1.0),
       axial_(secants_),
+      closed_(secants_),
       threshold_(secants_),
       active_(static_cast<std::size_t>(network_.particles.size()), 0) {
   if (!network_.bending_ratio.empty() || !network_.inflection.empty() || !network_.hinged.empty() ||
@@ -150,7 +153,7 @@ bool ReferenceEngine::is_loose(Index particle) const {
 }
 
 bool ReferenceEngine::can_close(Index element) const {
-  return secants_[element] < 1.0 && network_.law(element).closes();
+  return secants_[element] < closed_[element] && network_.law(element).closes();
 }
 
 bool ReferenceEngine::has_side(Index element) const {
@@ -189,15 +192,43 @@ bool ReferenceEngine::change_some(const std::vector<Index>& wrong) {
   return false;
 }
 
+/// Sets the closed stiffness of broken bonds around those that have just broken, and of bonds that
+/// have opened.
+void ReferenceEngine::set_closed_ratios(const std::vector<Index>& broken,
+                                        const std::vector<Index>& opened) {
+  if (broken.empty() && opened.empty()) return;
+  CrackFaces faces(network_);
+  for (Index e = 0; e < network_.num_elements(); ++e) {
+    if (secants_[e] == 0.0 && faces.concerns(e)) faces.set_broken(e, true);
+  }
+  std::set<Index> bonds = faces.broken_around(broken);
+  for (const Index e : opened) {
+    if (secants_[e] == 0.0 && faces.concerns(e)) bonds.insert(e);
+  }
+  const Eigen::VectorXd motion = displacement_at(load_factor_);
+  for (const auto& [e, ratio] : faces.ratios_of(bonds)) {
+    if (!is_closed(e) && !(extension(e, motion) < 0.0)) closed_[e] = ratio;
+  }
+}
+
 /// Finds equilibrium and contact states. Bonds change together at first, then the first one alone,
 /// which ends for every convex energy (Murty 1974, least-index pivoting).
 /// \return false for a mechanism
 bool ReferenceEngine::settle(double direction) {
   constexpr int together = 10, most = 10000;
   if (!solve()) return false;
+  set_closed_ratios(std::exchange(newly_broken_, {}), {});
+  std::vector<Index> closed;
+  for (Index e = 0; e < network_.num_elements(); ++e) {
+    if (is_closed(e)) closed.push_back(e);
+  }
   for (int round = 0; round < most; ++round) {
     std::vector<Index> wrong = violated(direction);
-    if (wrong.empty()) return true;
+    if (wrong.empty()) {
+      std::erase_if(closed, [&](Index e) { return is_closed(e); });
+      set_closed_ratios({}, closed);
+      return true;
+    }
     if (round >= together) wrong.erase(wrong.begin() + 1, wrong.end());
     if (!change_some(wrong)) return false;
   }
@@ -280,10 +311,14 @@ EventOutcome ReferenceEngine::finish(EventOutcome outcome, const Parabola& befor
 
 EventOutcome ReferenceEngine::apply(std::span<const Index> elements) {
   const auto segments = segments_;
-  const auto secants = secants_, axial = axial_;
+  const auto secants = secants_, axial = axial_, closed = closed_;
   const auto active = active_;
   const Parabola before = parabola([&](double factor) { return compliance_at(factor); });
-  for (const Index e : elements) weaken(e);
+  newly_broken_.clear();
+  for (const Index e : elements) {
+    weaken(e);
+    if (secants_[e] == 0.0 && network_.law(e).closes()) newly_broken_.push_back(e);
+  }
   EventOutcome outcome;
   const Parabola released = parabola([&](double factor) {
     double sum = 0.0;
@@ -303,6 +338,7 @@ EventOutcome ReferenceEngine::apply(std::span<const Index> elements) {
   segments_ = segments;
   secants_ = secants;
   axial_ = axial;
+  closed_ = closed;
   active_ = active;
   solve();
   return outcome;

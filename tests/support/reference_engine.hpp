@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "analysis/quasistatic/equilibrium/body/crack_faces.hpp"
 #include "analysis/quasistatic/equilibrium/body/event_outcome.hpp"
 #include "network/loaded_network.hpp"
 
@@ -105,11 +106,14 @@ class ReferenceEngine {
   Fine restricted(const Fine& matrix) const;
   Fine expanded(const Fine& matrix) const;
   bool settle(double direction);
+  void set_closed_ratios(const std::vector<Index>& broken, const std::vector<Index>& opened);
   bool change_some(const std::vector<Index>& wrong);
   std::vector<Index> violated(double direction) const;
   bool is_closed(Index element) const { return axial_[element] > secants_[element]; }
   bool can_close(Index element) const;
-  void turn(Index element) { axial_[element] = is_closed(element) ? secants_[element] : 1.0; }
+  void turn(Index element) {
+    axial_[element] = is_closed(element) ? secants_[element] : closed_[element];
+  }
   double compliance_at(double load_factor) const;
   double energy_of(Index element, double axial, double rest, double load_factor) const;
   EventOutcome finish(EventOutcome outcome, const Parabola& before) const;
@@ -139,7 +143,8 @@ class ReferenceEngine {
   std::vector<double> factors_, gripped_at_;
   std::size_t set_ = 0, newest_ = 0;
   std::vector<int> segments_;
-  std::vector<double> secants_, axial_, threshold_;
+  std::vector<double> secants_, axial_, closed_, threshold_;
+  std::vector<Index> newly_broken_;
   std::vector<std::uint8_t> active_;  ///< per particle: its compressive branches are active
   Fine stiffness_;                    ///< of all slots, with elastic supports
   Eigen::MatrixXd loose_;             ///< motions of all slots without stiffness, one per column

@@ -70,6 +70,7 @@ void Contact::for_each(const Reading& reading, Visit visit) const {
   const View now = view(reading);
   const bool in_space = body_.network().dim() == 3;
   for (const UnilateralElement& bond : body_.unilateral()) {
+    if (!(body_.one_sided(bond.element) > 0.0)) continue;
     visit(bond.element, in_space ? now.extension<3>(bond) : now.extension<2>(bond));
   }
 }
@@ -92,7 +93,10 @@ std::vector<Index> Contact::violated(const Reading& reading) const {
 
 auto Contact::next_change(double distance) const -> Change {
   Change next{no_index, distance};
+  // ContactRounds leaves such elements as they are.
+  const double noise = round_off_of(solution_.growing().field().displacement);
   for_each({}, [&](Index element, const Extension& extension) {
+    if (std::max(std::abs(extension.now), std::abs(extension.growing)) <= noise) return;
     const double growth = std::copysign(1.0, distance) * extension.growing;
     if (!(body_.is_closed(element) ? growth > 0.0 : growth < 0.0)) return;
     if (!body_.is_closed(element) && body_.is_grounded(element)) return;
@@ -127,7 +131,7 @@ std::vector<double> Contact::extensions(std::span<const double> motion,
     for (int a = 0; a < body_.network().dim(); ++a) {
       sum += bond.n[a] * (motion[bond.second + a] - motion[bond.first + a]);
     }
-    const bool fixed = body_.is_grounded(bond.element) ||
+    const bool fixed = !(body_.one_sided(bond.element) > 0.0) || body_.is_grounded(bond.element) ||
                        (reading.direction != 0.0 && extension_of(bond.element, reading).now != 0.0);
     extensions.push_back(fixed ? 0.0 : sum);
   }

@@ -19,11 +19,34 @@ constexpr double no_resistance = 1e12;
 
 void ContactChanges::settle(EventOutcome& outcome, double direction) {
   begin();
+  follow_broken();
   ContactRounds rounds(contact_, direction);
   while (!outcome.mechanism) {
     const std::vector<Index> wrong = rounds.next();
-    if (wrong.empty()) return;
+    if (wrong.empty()) {
+      set_closed_ratios(opened());
+      return;
+    }
     outcome.mechanism = !follow(wrong, outcome);
+  }
+}
+
+/// Returns the elements that were closed before the last call of settle() and are open now.
+std::set<Index> ContactChanges::opened() const {
+  std::set<Index> opened;
+  for (const Index element : changed_) {
+    if (!opened.erase(element)) opened.insert(element);
+  }
+  std::erase_if(opened, [&](Index element) { return body_.is_closed(element); });
+  return opened;
+}
+
+/// Sets the closed stiffness of broken bonds. Bonds that carry pressure, or would at once, keep
+/// theirs, so that no energy appears.
+void ContactChanges::set_closed_ratios(const std::set<Index>& bonds) {
+  for (const auto& [bond, ratio] : body_.faces().ratios_of(bonds)) {
+    if (body_.is_closed(bond) || contact_.extension_of(bond).now < 0.0) continue;
+    ratios_before_.emplace_back(bond, body_.faces().set_closed_ratio(bond, ratio));
   }
 }
 
@@ -33,7 +56,8 @@ void ContactChanges::turn(const std::vector<Index>& elements) {
 
 void ContactChanges::take_back() {
   turn(changed_);
-  changed_.clear();
+  for (const auto& [bond, ratio] : ratios_before_) body_.faces().set_closed_ratio(bond, ratio);
+  begin();
 }
 
 void ContactChanges::close(Index element) {

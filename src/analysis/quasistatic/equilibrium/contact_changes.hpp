@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <vector>
 
 #include "analysis/quasistatic/equilibrium/body/event_outcome.hpp"
@@ -31,9 +32,14 @@ class ContactChanges {
   /// Opens a closed element.
   /// \return false if only this element holds the body; then at most K^-1 is new
   bool open(Index element);
-  /// Forgets which contact states the last call of settle() has changed.
-  void begin() { changed_.clear(); }
-  /// Takes back the contact states that have changed since then. K^-1 and displacements stay.
+  /// Forgets which contact states and closed stiffness ratios the last call of settle() has changed.
+  void begin() {
+    changed_.clear();
+    ratios_before_.clear();
+  }
+  /// Sets the closed stiffness of broken bonds around those that have just broken.
+  void follow_broken() { set_closed_ratios(body_.faces().take_around_broken()); }
+  /// Takes back what has changed since then. K^-1 and displacements stay.
   void take_back();
 
  private:
@@ -44,6 +50,8 @@ class ContactChanges {
   bool holds_apart(const std::vector<Index>& opened);
   void close(Index element);
   void turn(const std::vector<Index>& elements);
+  std::set<Index> opened() const;
+  void set_closed_ratios(const std::set<Index>& bonds);
   void add_growth(Index element, const Extension& before, EventOutcome& outcome) const;
 
   DamagedBody& body_;
@@ -52,6 +60,7 @@ class ContactChanges {
   ReactionWork& work_;
   Contact contact_;
   std::vector<Index> changed_;  ///< elements whose contact state changed last, in order
+  std::vector<CrackFaces::Ratio> ratios_before_;  ///< closed ratios that changed last
 };
 
 }  // namespace perilink

@@ -189,6 +189,7 @@ int Equilibrium::cut(Index element) {
     throw SolverError("the stiffness matrix without the loose part cannot be factorised");
   }
   commit(removal, {element, 0.0});
+  if (body_.has_sides()) sides_.follow_broken();
   return springs;
 }
 

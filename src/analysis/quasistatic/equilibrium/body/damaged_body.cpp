@@ -12,7 +12,8 @@ DamagedBody::DamagedBody(const LoadedNetwork& problem, const Unknowns& unknowns,
                          const ElementState* saved)
     : network_(problem.network),
       secants_(static_cast<std::size_t>(network_.num_elements()), 1.0),
-      has_kept_(network_.has_kept_shear()) {
+      has_kept_(network_.has_kept_shear()),
+      faces_(network_) {
   if (network_.has_closing() || has_kept_) axial_ = secants_;
   const std::vector<Index> contacts = network_.contacts();
   for (const Index element : contacts) secants_[element] = 0.0;  // closed at first
@@ -22,13 +23,21 @@ DamagedBody::DamagedBody(const LoadedNetwork& problem, const Unknowns& unknowns,
     ground_stiffness_ = saved->ground_stiffness;
   }
   const auto& damaged = saved != nullptr ? saved->damaged : contacts;
-  for (const Index element : damaged) unilateral_.push_back(ends_of(element));
+  for (const Index element : damaged) {
+    if (saved != nullptr) faces_.set_closed_ratio(element, saved->closed[unilateral_.size()]);
+    unilateral_.push_back(ends_of(element));
+    if (secants_[element] == 0.0 && faces_.concerns(element)) faces_.set_broken(element, true);
+  }
+  faces_.take_around_broken();
   set_unknowns(unknowns);
 }
 
 ElementState DamagedBody::state() const {
-  ElementState state{secants_, axial_, {}, ground_stiffness_, {}, {}};
-  for (const UnilateralElement& bond : unilateral_) state.damaged.push_back(bond.element);
+  ElementState state{secants_, axial_, {}, {}, ground_stiffness_, {}, {}};
+  for (const UnilateralElement& bond : unilateral_) {
+    state.damaged.push_back(bond.element);
+    state.closed.push_back(faces_.closed_ratio(bond.element));
+  }
   return state;
 }
 
@@ -81,12 +90,15 @@ void DamagedBody::weaken(Index element, double secant) {
   const bool is_first = secants_[element] == 1.0;
   if (has_sides() && is_first && network_.law(element).closes())
     unilateral_.push_back(ends_of(element));
+  const bool breaks = secant == 0.0 && secants_[element] > 0.0;
   set_secant(element, secant);
+  if (breaks && faces_.concerns(element)) faces_.set_broken(element, true);
 }
 
 void DamagedBody::take_back(Index element, double secant, bool intact) {
   const auto is_it = [&](const UnilateralElement& bond) { return bond.element == element; };
   if (intact) std::erase_if(unilateral_, is_it);
+  if (secants_[element] == 0.0 && faces_.concerns(element)) faces_.set_broken(element, false);
   set_secant(element, secant);
 }
 

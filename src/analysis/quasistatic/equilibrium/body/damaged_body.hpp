@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "analysis/quasistatic/equilibrium/body/crack_faces.hpp"
 #include "analysis/quasistatic/equilibrium/body/element_state.hpp"
 #include "analysis/quasistatic/equilibrium/body/removal.hpp"
 #include "network/loaded_network.hpp"
@@ -78,12 +79,15 @@ class DamagedBody {
   UnilateralElement ends_of(Index element) const;
   bool is_closed(Index element) const { return axial_[element] > secants_[element]; }
   /// Changes the contact state of a unilateral element.
-  void turn(Index element) { axial_[element] = is_closed(element) ? secants_[element] : 1.0; }
+  void turn(Index element) {
+    axial_[element] = is_closed(element) ? secants_[element] : faces_.closed_ratio(element);
+  }
   /// Returns the stiffness that a unilateral element has on its closed side only [-]. The element's
-  /// intact stiffness is 1.
-  double one_sided(Index element) const { return 1.0 - secants_[element]; }
+  /// intact stiffness is 1. It is zero for bonds oblique to a crack, which never close.
+  double one_sided(Index element) const { return faces_.closed_ratio(element) - secants_[element]; }
   /// Returns the vector of that stiffness.
   Removal one_sided_removal(Index element) const;
+  CrackFaces& faces() { return faces_; }
 
   /// Returns the stiffness of ground springs per unknown; empty: there are none.
   const std::vector<double>& ground_stiffness() const { return ground_stiffness_; }
@@ -102,6 +106,7 @@ class DamagedBody {
   std::vector<double> secants_;
   std::vector<double> axial_;  ///< secants against a change of length; empty if none differs
   bool has_kept_;              ///< Network::has_kept_shear()
+  CrackFaces faces_;
   std::vector<UnilateralElement> unilateral_;
   std::vector<double> ground_stiffness_;
 };
