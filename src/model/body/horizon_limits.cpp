@@ -172,7 +172,7 @@ void refuse_shearing_lattice(const CaseFile& input, const Lattice& lattice, doub
 }
 
 std::optional<std::string> thin_body_note(const CaseFile& input, const Model& model) {
-  constexpr double fewest = 0.05, most_error = 0.05;
+  constexpr double fewest = 0.1, most_error = 0.1;
   if (is_shell(input.body) || is_beam(input.body) || input.elements || !input.symmetry.empty()) {
     return std::nullopt;
   }
