@@ -103,6 +103,80 @@ TEST(ResidualStrength, IsNotThePeak) {
   }
 }
 
+/// Returns two halves, 36 wide and 2 thick, glued by an interface of the strength 4. A traction
+/// pulls at one end, then its displacement in a second stage.
+std::string glued_halves(double traction, double tolerance) {
+  return fmt::format(R"([body]
+thickness = 2
+spacing = 4
+horizon_ratio = 3
+[[regions]]
+name = "left"
+x = [0, 24]
+y = [0, 36]
+[[regions]]
+name = "right"
+x = [24, 48]
+y = [0, 36]
+[[regions]]
+name = "fixed"
+x = [0, 0]
+y = [0, 36]
+[[regions]]
+name = "pulled"
+x = [48, 48]
+y = [0, 36]
+[[materials]]
+regions = ["left", "right"]
+youngs_modulus = 20000
+fracture_energy = "infinite"
+[[interfaces]]
+between = ["left", "right"]
+tensile_strength = 4
+fracture_energy = 0.2
+softening = "linear"
+[[supports]]
+region = "fixed"
+fix = ["x", "y"]
+[[supports]]
+region = "pulled"
+fix = ["y"]
+[[tractions]]
+region = "pulled"
+traction = [{}, 0]
+stage = "hold"
+[[displacements]]
+region = "pulled"
+x = 1
+stage = "pull"
+[[stages]]
+name = "hold"
+to = 1
+[[stages]]
+name = "pull"
+[analysis]
+event_tolerance = {}
+)",
+                     traction, tolerance);
+}
+
+/// The interface carries 4 x 36 x 2 = 288, of which the traction takes a part. Behind separation the
+/// moved end holds the traction back, which is no load of the body.
+TEST(ResidualStrength, IsNoneWhereAnEarlierLoadIsHeldBack) {
+  for (const double traction : {1.5, 2.0}) {
+    for (const double tolerance : {0.01, 0.02}) {
+      const test::WholeRun run(glued_halves(traction, tolerance));
+      const auto told = [&](const char* key) { return run.summary.json.at(key).get<double>(); };
+      const double left = 288.0 - traction * 72.0;
+      EXPECT_NEAR(told("peak_load"), left, 0.05 * 288.0) << traction << ", " << tolerance;
+      EXPECT_EQ(told("first_peak_load"), told("peak_load"));
+      EXPECT_EQ(told("largest_load"), told("peak_load"));
+      EXPECT_NEAR(told("smoothed_peak_load"), left, 0.08 * 288.0);
+      EXPECT_THAT(run.summary.warnings, Not(Contains(HasSubstr("residual strength"))));
+    }
+  }
+}
+
 /// The weaker strip is a fifth of the load below the other, so the load never exceeds its peak.
 TEST(ResidualStrength, IsNoneWhereTheLoadStaysBelowItsPeak) {
   const test::WholeRun run(two_strips(160.0, 60.0, 6.0, "[stop]\nload_fraction = 0.1\n"));

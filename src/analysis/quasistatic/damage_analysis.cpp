@@ -60,6 +60,12 @@ void note_peaks(PathState& path, bool keeps_row) {
   if (keeps_row) path.rows.push_back(path.row);
 }
 
+/// Returns whether the load of a growing stage has turned around: it holds back permanent loads
+/// that the body no longer carries, and is no peak.
+bool holds_back(const PathState& path, const ReferenceLoad& load) {
+  return path.row.load * load.value < 0.0 && path.result.peaks.highest().load * load.value > 0.0;
+}
+
 bool is_stopped(PathState& path, const DamageOptions& options) {
   if (!options.stop_requested || !options.stop_requested()) return false;
   path.end(Termination::interrupted, "a signal stopped the run");
@@ -165,7 +171,10 @@ void EventRun::record(double load_factor, const LoadWork& work, const Event& eve
   judge_balance(path_, row, staged_ != nullptr ? path_.most_work : std::abs(row.external_work));
   path_.row = std::move(row);
   const bool counts = staged_ == nullptr || path_.row.load != 0.0;
-  note_peaks(path_, options_.load_factors.empty() && counts);
+  const bool grows = staged_ != nullptr && !stage().to && !stage().to_load;
+  if (!grows || !holds_back(path_, *reference_)) {
+    note_peaks(path_, options_.load_factors.empty() && counts);
+  }
   path_.load_fraction = stop_->load_fraction;
   const bool below = is_below(path_.row, path_);
   if (path_.row.side_change == 0) path_.rows_below = below ? path_.rows_below + 1 : 0;

@@ -9,8 +9,13 @@ namespace {
 /// residual [-].
 constexpr double factor_round_off = 1e-9;
 
-/// Fraction of the first peak by which the envelope must fall [-]. Single events fall by more.
+/// Fraction of the peak by which the load must fall [-]. Single events fall by more.
 constexpr double fallen = 0.02;
+
+/// Fraction by which the displacement must grow until the load comes again [-]. Behind single
+/// events and avalanches within a growing crack it grows by up to an eighth, however deep the load
+/// fell.
+constexpr double lasting = 0.2;
 
 Index events_before(const StepRecord& record) { return record.broken_bonds + record.yield_events; }
 
@@ -52,25 +57,27 @@ std::optional<CurvePoint> smooth_point(Window rows) {
   return CurvePoint{load * std::sqrt(before * after), load};
 }
 
-/// Returns the rows up to the lowest window after the first envelope peak that a later one exceeds.
+/// Returns the rows up to the lowest one of the first fall that lasts, if a later load exceeds the
+/// peak before it.
 std::size_t rows_before_climb(Window path) {
   struct Fall {
-    double peak = 0.0, lowest = 0.0;  // |load|
-    std::size_t rows = 0;             // up to the lowest window
-  } now, first;
-  for (const Window events : windows_of(path, envelope_window(path.size()))) {
-    const auto point = smooth_point(events);
-    if (!point) continue;
-    const double load = std::abs(point->load);
-    const auto rows = static_cast<std::size_t>(events.data() - path.data()) + events.size() - 1;
-    if (load >= now.peak) {
-      if (first.rows == 0 && now.lowest < (1.0 - fallen) * now.peak) first = now;
-      now = {load, load, rows};
-    } else if (load < now.lowest) {
-      now.lowest = load;
-      now.rows = rows;
+    double peak = 0.0;  // |load|
+    std::size_t rows = 0;
+  } first;
+  double peak = 0.0, reached = 0.0;  // |load| and |displacement| of rows that held the load
+  std::size_t held = 0, lowest = 0;
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    const double load = std::abs(path[k].load), at = std::abs(path[k].displacement);
+    if (load < (1.0 - fallen) * peak) {
+      if (load < std::abs(path[lowest].load)) lowest = k;
+      continue;
     }
+    const bool fell = k > held + 1 && at > (1.0 + lasting) * reached;
+    if (fell && first.rows == 0) first = {peak, lowest + 1};
     if (first.rows > 0 && load > (1.0 + residual_climb) * first.peak) return first.rows;
+    peak = std::max(peak, load);
+    reached = std::max(reached, at);
+    held = lowest = k;
   }
   return path.size();
 }

@@ -80,9 +80,14 @@ CurvePoint highest(std::span<const StepRecord> rows) {
   return {row->displacement, row->load};
 }
 
+std::vector<CurvePoint> points_of(std::span<const StepRecord> rows) {
+  std::vector<CurvePoint> points;
+  for (const StepRecord& row : rows) points.push_back({row.displacement, row.load});
+  return points;
+}
+
 /// Returns the number of rows before the load of a stage reaches a twentieth of its largest.
-/// Permanent loads of earlier stages cause most of the damage of these rows, which stage_path()
-/// would attribute to the small load of the stage.
+/// Permanent loads of earlier stages cause most of the damage of these rows.
 std::size_t early_rows(std::span<const StepRecord> rows, double largest) {
   constexpr double small = 0.05;
   const auto first = std::ranges::find_if(
@@ -123,7 +128,7 @@ void find_peaks(const Network& network, std::span<const StepRecord> rows, Damage
   const bool goes_on =
       bars || network.has_crushing() || std::ranges::all_of(network.laws, &BondLaw::is_brittle);
   const std::size_t early = stages ? early_rows(rows, peaks.highest().load) : 0;
-  const std::vector<CurvePoint> late = early > 0 ? stage_path(rows.subspan(early)) : path;
+  const std::vector<CurvePoint> late = stages ? points_of(rows.subspan(early)) : path;
   std::size_t before = early + rows_before_residual(late, goes_on);
   if (before == early + late.size()) before = rows.size();
   if (!goes_on && !rows.empty()) {

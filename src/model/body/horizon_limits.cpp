@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "base/error.hpp"
+#include "base/plain_text.hpp"
 #include "io/case/sections/case_kinds.hpp"
 
 namespace perilink {
@@ -23,6 +24,39 @@ constexpr double least_ratio_refused = 20.0;
 constexpr double bytes_per_bond = 300.0, bytes_per_bar = 65.0;
 
 constexpr const char* usual = "two to four spacings are usual: horizon_ratio = 3";
+
+/// Width of the thin part of a body along an axis.
+struct ThinPart {
+  double width = 0.0;   ///< mean over its particles [length]
+  Index particles = 0;  ///< that see both faces within their horizon
+};
+
+/// Returns the parts along one axis: from their middle, both faces are nearer than the horizon.
+ThinPart thin_part(const Model& model, std::size_t axis) {
+  constexpr double along = 0.8;  // cosine of bonds that measure the width
+  const Network& network = model.network;
+  const auto count = static_cast<std::size_t>(network.num_particles());
+  std::vector<double> up(count), down(count);
+  for (Index b = 0; b < network.num_bonds() && b < network.first_contact(); ++b) {
+    const Index first = network.bonds.first[b], second = network.bonds.second[b];
+    const double apart =
+        network.particles.position(second)[axis] - network.particles.position(first)[axis];
+    if (std::abs(apart) < along * network.bonds.length(b)) continue;
+    double& of_first = (apart > 0.0 ? up : down)[first];
+    double& of_second = (apart > 0.0 ? down : up)[second];
+    of_first = std::max(of_first, std::abs(apart));
+    of_second = std::max(of_second, std::abs(apart));
+  }
+  const double seen = model.horizon - 0.5 * model.lattice.spacing;
+  ThinPart part;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (network.particles.material[i] == no_index || std::max(up[i], down[i]) >= seen) continue;
+    part.width += up[i] + down[i];
+    ++part.particles;
+  }
+  if (part.particles > 0) part.width /= static_cast<double>(part.particles);
+  return part;
+}
 
 double machine_memory() {
   return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
@@ -135,6 +169,31 @@ void refuse_shearing_lattice(const CaseFile& input, const Lattice& lattice, doub
                   "be a mechanism",
                   horizon, longest),
       fmt::format("give at least horizon_ratio = {:.4f}; two to four are usual", least));
+}
+
+std::optional<std::string> thin_body_note(const CaseFile& input, const Model& model) {
+  constexpr double fewest = 0.1, most_error = 0.1;
+  if (is_shell(input.body) || is_beam(input.body) || input.elements || !input.symmetry.empty()) {
+    return std::nullopt;
+  }
+  const double ratio = model.horizon / model.lattice.spacing;
+  const bool turns = input.body.model == BodyModel::micropolar;
+  // Measured on cantilevers: the bending stiffness is 1 + excess / steps^2 of a beam's.
+  const double excess = turns ? 0.75 * ratio : 2.5 / ratio;
+  for (int axis = 0; axis < model.network.dim(); ++axis) {
+    const ThinPart part = thin_part(model, static_cast<std::size_t>(axis));
+    const double steps = std::floor(part.width / model.lattice.spacing + 0.1);
+    const double error = excess / (steps * steps + excess);
+    if (part.particles < fewest * model.network.num_particles() || steps < 1.0) continue;
+    if (error <= most_error) continue;
+    return fmt::format(
+        "thin body: along {} it is {:.4g} wide, {:.2g} horizons, at {}: if it bends there, its "
+        "deflection is about {:.0f} % too small; use a finer spacing and horizon, method = "
+        "\"linear_elements\", or problem = \"beam\"",
+        "xyz"[axis], part.width, part.width / model.horizon, counted(part.particles, "particle"),
+        100.0 * error);
+  }
+  return std::nullopt;
 }
 
 }  // namespace perilink

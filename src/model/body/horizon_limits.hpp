@@ -1,7 +1,11 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "discretization/lattices/lattice.hpp"
 #include "io/case/case_file.hpp"
+#include "model/model.hpp"
 
 namespace perilink {
 
@@ -31,5 +35,9 @@ void refuse_impossible_horizon(const CaseFile& input, const HorizonReach& reach)
 /// Refuses square and cubic lattices with bonds along the rows only, which resist no shear.
 /// \throws InputError
 void refuse_shearing_lattice(const CaseFile& input, const Lattice& lattice, double horizon);
+
+/// Returns a note on a body, or a tenth of its particles, so thin that bonds make it too stiff in
+/// bending by more than 10 %. Bodies on elements or symmetry planes, shells and beams have none.
+std::optional<std::string> thin_body_note(const CaseFile& input, const Model& model);
 
 }  // namespace perilink

@@ -214,7 +214,7 @@ void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, 
   refuse_unbreakable_bodies(input, model.network);
   for (const auto& text : {short_horizon_note(model), unmeasured_cost_note(model),
                            calibration_shortfall(model.network), path_note(input, model),
-                           unnotched_note(input, model)}) {
+                           unnotched_note(input, model), thin_body_note(input, model)}) {
     if (text) model.notes.push_back(*text);
   }
   for (const std::string& text : strength_notes(input, model)) model.notes.push_back(text);

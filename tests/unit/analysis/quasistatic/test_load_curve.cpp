@@ -172,6 +172,22 @@ TEST(ResidualStrength, IsNoneOfTeeth) {
   EXPECT_EQ(rows_before_residual(path, false), path.size());
 }
 
+/// Avalanches take four fifths of the load, thirty rows long, at hardly more compliance than before.
+TEST(ResidualStrength, IsNoneOfAvalanches) {
+  std::vector<CurvePoint> path;
+  for (int k = 0; k < 1200; ++k) {
+    const int within = k % 100;  // the load climbs linearly again
+    const double share = within < 70 ? 1.0 : 0.2 + 0.8 * (within - 70) / 30.0;
+    const double load = -share * (2.0 + 0.005 * k);
+    path.push_back({load * (1.0 + 1e-4 * k), load});
+  }
+  EXPECT_EQ(rows_before_residual(path, false), path.size());
+  for (std::size_t k = 70; k < 96; ++k) path[k].displacement *= 1.5;  // and no more at its end
+  EXPECT_EQ(rows_before_residual(path, false), path.size());
+  for (std::size_t k = 96; k < 1200; ++k) path[k].displacement *= 1.5;
+  EXPECT_EQ(rows_before_residual(path, false), 71u) << "half of the stiffness is lost in it";
+}
+
 /// Event path of one load as rows of a stage.
 TEST(ResidualStrength, StagesHaveTheEnvelopeOfTheirEvents) {
   std::vector<StepRecord> rows = make_path(1001, true);

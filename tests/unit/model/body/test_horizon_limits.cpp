@@ -109,5 +109,21 @@ TEST(HorizonLimits, RefuseBondsAlongRowsOnly) {
   EXPECT_NO_THROW(build_model(input));
 }
 
+/// Columns 10 apart within a horizon of 31: bending is too stiff by 0.8 / n^2 for bonds and by
+/// 2.3 / n^2 for micropolar ones, with n steps across.
+TEST(HorizonLimits, NoteThinBodies) {
+  const auto note = [](double width, BodyModel kind) {
+    CaseFile input = strip_case();
+    for (Region& region : input.regions) region.box.upper[0] = width;
+    input.body.model = kind;
+    return thin_body_note(input, draft_model(input)).value_or("");
+  };
+  EXPECT_THAT(note(20.0, BodyModel::bond_based), AllOf(HasSubstr("along x"), HasSubstr("17 %")));
+  EXPECT_THAT(note(20.0, BodyModel::micropolar), HasSubstr("37 %"));
+  EXPECT_THAT(note(40.0, BodyModel::micropolar), AllOf(HasSubstr("40 wide"), HasSubstr("13 %")));
+  EXPECT_EQ(note(40.0, BodyModel::bond_based), "");
+  EXPECT_EQ(note(70.0, BodyModel::micropolar), "");
+}
+
 }  // namespace
 }  // namespace perilink
