@@ -12,7 +12,7 @@ namespace {
 
 /// Rates of one core, to choose the cheapest way: factorisation, pass through a factor larger than
 /// the caches, change by one vector, change by many vectors.
-constexpr double factor_flops = 15e9, factor_bytes = 20e9, change_bytes = 36e9, change_flops = 50e9;
+constexpr double factor_flops = 15e9, factor_bytes = 20e9, change_bytes = 36e9, change_flops = 20e9;
 /// Per element: time to assemble the stiffness for a batch or for contact states, and to find the
 /// forces of a motion.
 constexpr double seconds_to_assemble = 3e-7, seconds_for_sides = 1e-7, seconds_per_force = 1e-8;
