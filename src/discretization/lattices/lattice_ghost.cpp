@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -34,47 +32,30 @@ struct GhostGrid {
   std::vector<double> others;
 };
 
-/// Points of a grid along an axis.
-struct GridAxis {
-  double first;  ///< coordinate of the first point [length]
-  Index count;   ///< number of points
-  Index margin;  ///< number of points before the body, of which as many follow it
-};
-
-/// Centres the cells on the body, so that turned and mirrored bodies have turned and mirrored
-/// grids. The rows of hexagonal patterns alternate: their number is odd.
-GridAxis grid_axis(const LatticeInput& input, const Lattice& lattice, const Box& bounds, int axis) {
-  const double step = lattice.step[axis];
-  const bool hexagonal = lattice.pattern == Pattern::hexagonal;
-  const double cells = (bounds.upper[axis] - bounds.lower[axis]) / step + input.boundary_tolerance;
-  const auto inside = hexagonal && axis == 1
-                          ? 2 * static_cast<Index>(0.5 * cells) + 1
-                          : std::max<Index>(1, static_cast<Index>(std::lround(cells)));
-  // Round-off must not add a step if the horizon is a multiple of the step. Shifted rows reach half
-  // a step farther.
-  const auto margin =
-      static_cast<Index>(std::ceil(input.horizon / step * (1.0 - horizon_tolerance))) + hexagonal;
-  const double middle = 0.5 * (bounds.lower[axis] + bounds.upper[axis]);
-  return {middle - (0.5 * static_cast<double>(inside - 1) + static_cast<double>(margin)) * step,
-          inside + 2 * margin, margin};
-}
-
 GhostGrid fill_grid(const LatticeInput& input, const Lattice& lattice, const Box& bounds) {
   const int dim = lattice.dim;
   const bool hexagonal = lattice.pattern == Pattern::hexagonal;
-  std::array<GridAxis, 3> axes{{{0.0, 1, 0}, {0.0, 1, 0}, {bounds.lower[2], 1, 0}}};
-  for (int axis = 0; axis < dim; ++axis) axes[axis] = grid_axis(input, lattice, bounds, axis);
+  // Round-off must not add a step if the horizon is a multiple of the step.
+  const auto margin =
+      static_cast<Index>(std::ceil(input.horizon / lattice.step[0] * (1.0 - horizon_tolerance)));
+  std::array<Index, 3> count{1, 1, 1};
+  for (int axis = 0; axis < dim; ++axis) {
+    const double extent = bounds.upper[axis] - bounds.lower[axis] + 2 * margin * lattice.step[0];
+    count[axis] = static_cast<Index>(std::ceil(extent / lattice.step[axis])) + 1;
+  }
   GhostGrid grid;
   grid.solid.dim = dim;
-  for (Index k = 0; k < axes[2].count; ++k) {
-    for (Index j = 0; j < axes[1].count; ++j) {
-      const bool shifted = hexagonal && (j - axes[1].margin) % 2 != 0;
-      // Shifted rows have a point more.
-      for (Index i = 0; i < axes[0].count + (shifted ? 1 : 0); ++i) {
+  for (Index k = 0; k < count[2]; ++k) {
+    for (Index j = 0; j < count[1]; ++j) {
+      const double shift = hexagonal && j % 2 == 1 ? 0.5 : 0.0;
+      // Starts at 0, because shifted rows have a ghost at this distance too.
+      for (Index i = 0; i <= count[0]; ++i) {
         if (lattice.pattern == Pattern::face_centred && (i + j + k) % 2 != 0) continue;
-        const Vector3 point = {axes[0].first + (i - (shifted ? 0.5 : 0.0)) * lattice.step[0],
-                               axes[1].first + j * lattice.step[1],
-                               axes[2].first + k * lattice.step[2]};
+        const Vector3 point = {
+            bounds.lower[0] + (i - margin - 0.5 + shift) * lattice.step[0],
+            hexagonal ? bounds.lower[1] - margin * lattice.step[0] + j * lattice.step[1]
+                      : bounds.lower[1] + (j - margin) * lattice.step[1],
+            bounds.lower[2] + (k - margin) * lattice.step[2]};
         const Index material = material_at(input, {point.data(), static_cast<std::size_t>(dim)});
         if (material != no_index) {
           add_particle(grid.solid, point, lattice.cell_volume, material, ParticleKind::solid);

@@ -63,7 +63,7 @@ TEST(ModelRegions, LeaveGhostsOut) {
   input.regions[3].box = {{-100.0, -100.0, 0.0}, {200.0, 200.0, 0.0}};
   const std::vector<Index> all = particles_of_region(input, model, "middle", "loads[1]");
   EXPECT_LT(all.size(), static_cast<std::size_t>(model.network.particles.size()));
-  EXPECT_EQ(all.size(), 4u * 8u);  // in the centres of cells
+  EXPECT_EQ(all.size(), 4u * 9u);  // cell-centred across, from the lowest row upwards
 }
 
 TEST(ModelRegions, HoldBarNodesToo) {

@@ -173,9 +173,11 @@ y = [0, 4]
 [[regions]]
 name = "left"
 x = [0, 0]
+y = [0, 4]
 [[regions]]
 name = "right"
 x = [7, 7]
+y = [0, 4]
 [[materials]]
 region = "strip"
 youngs_modulus = 1000
