@@ -10,8 +10,6 @@
 #include <type_traits>
 #include <utility>
 
-#include "base/build_info.hpp"
-
 namespace perilink {
 namespace {
 
@@ -60,13 +58,11 @@ class Digest {
   Wide state_ = (Wide{0x6c62272e07bb0142} << 64) + 0x62b821756295c58d;
 };
 
-/// Returns a digest of everything that a calibration depends on. Builds differ in round-off.
+/// Returns a digest of everything that a calibration depends on.
 std::string key_of(const CalibrationInput& input, const CalibrationOptions& options,
                    const Facets& facets, const BondStiffness& stiffness) {
   Digest digest;
   const auto add = [&](const auto&... values) { (digest.add(values), ...); };
-  const std::string build = build_summary();
-  add(std::vector<char>(build.begin(), build.end()));
   const Particles& particles = input.particles;
   add(particles.dim, particles.positions, particles.volumes, particles.material, particles.kind);
   const Bonds& bonds = input.bonds;

