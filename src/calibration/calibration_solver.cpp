@@ -63,7 +63,7 @@ LeastSquaresResult CalibrationSolver::solve_least_squares(PointEquations equatio
   LeastSquaresResult change = bounded_least_squares(std::move(equations), options, kept_);
   equations_.apply(change.weights);
   report_.iterations += change.iterations;
-  stalled_ = change.stalled;
+  if (change.stalled) stalled_search_ = searches_;
   return change;
 }
 
@@ -181,7 +181,7 @@ bool CalibrationSolver::keep_floors() { return balance(first_tolerance()); }
 /// bounds where this does not reduce the largest unbalanced force to a tenth.
 /// \return whether a lower bound was removed
 bool CalibrationSolver::remove_floors() {
-  if (stalled_ && unbalanced() > far_from_balance) return false;
+  if (stalled_search_ == searches_ && unbalanced() > far_from_balance) return false;
   if (penalised_ || !equations_.allow_zero(in_space_ ? coarsely_met : met_balance)) return false;
   const double floored = unbalanced();
   const CalibrationEquations::State with_floors = equations_.save();

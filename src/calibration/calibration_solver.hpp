@@ -108,7 +108,7 @@ class CalibrationSolver {
   int searches_ = 0, refinements_ = 0;
   bool energies_;  // whether equations of the energies of dilatation are used
   bool soft_moments_ = false;
-  bool stalled_ = false;  // the last solution ended with short steps
+  int stalled_search_ = 0;  // number of the last solution that ended with short steps
   double infeasible_above_ = std::numeric_limits<double>::infinity();  // ends a solution
   CalibrationEquations equations_;
   CalibrationEquations::State settled_;  // state before the exact forces

@@ -136,11 +136,12 @@ TEST_F(Program, RunWritesTheFilesOfTheContractAndNoOthers) {
   }
   const std::string place = "results/small/";
   EXPECT_EQ(names(),
-            (std::set<std::string>{"small.toml", place + "case.toml", place + "history.csv",
-                                   place + "timing.csv", place + "summary.json",
-                                   place + "fields.pvd", place + "fields_000001.vtu",
-                                   place + "fields_000011.vtu", place + "fields_000021.vtu",
-                                   place + "fields_000031.vtu", place + "log.txt"}));
+            (std::set<std::string>{
+                "small.toml", place + "case.toml", place + "history.csv", place + "timing.csv",
+                place + "summary.json", place + "fields.pvd", place + "fields_000001.vtu",
+                place + "fields_000011.vtu", place + "fields_000021.vtu",
+                place + "fields_000031.vtu", place + "cracks_000011.csv",
+                place + "cracks_000021.csv", place + "cracks_000031.csv", place + "log.txt"}));
   const auto summary = nlohmann::json::parse(read_text(work() / place / "summary.json"));
   EXPECT_EQ(summary["status"], "completed");
   EXPECT_EQ(summary["broken_bonds"], 30);

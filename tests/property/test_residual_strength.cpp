@@ -160,8 +160,8 @@ event_tolerance = {}
                      traction, tolerance);
 }
 
-/// The interface carries 4 x 36 x 2 = 288, of which the traction takes a part. Behind separation the
-/// moved end holds the traction back, which is no load of the body.
+/// The interface carries 4 x 36 x 2 = 288, of which the traction takes a part. Behind separation
+/// the moved end holds the traction back, which is no load of the body.
 TEST(ResidualStrength, IsNoneWhereAnEarlierLoadIsHeldBack) {
   for (const double traction : {1.5, 2.0}) {
     for (const double tolerance : {0.01, 0.02}) {

@@ -12,9 +12,8 @@ constexpr double factor_round_off = 1e-9;
 /// Fraction of the peak by which the load must fall [-]. Single events fall by more.
 constexpr double fallen = 0.02;
 
-/// Fraction by which the displacement must grow until the load comes again [-]. Behind single
-/// events and avalanches within a growing crack it grows by up to an eighth, however deep the load
-/// fell.
+/// Fraction by which the displacement must grow until the load comes again [-]. Behind events
+/// at constant load within a growing crack it grows by up to an eighth, however deep the load fell.
 constexpr double lasting = 0.2;
 
 Index events_before(const StepRecord& record) { return record.broken_bonds + record.yield_events; }

@@ -53,9 +53,9 @@ std::optional<double> smoothed_peak(std::span<const CurvePoint> path);
 inline constexpr double residual_climb = 0.1;
 
 /// Returns the number of rows before the residual strength of a failed body. They end at the lowest
-/// row of a fall that lasts: until the load comes again, the displacement grows by a fifth. They end
-/// no later than where the body gave way (PeakWatch) if the load climbed again after it. Otherwise
-/// all rows count.
+/// row of a fall that lasts: until the load comes again, the displacement grows by a fifth. They
+/// end no later than where the body gave way (PeakWatch) if the load climbed again after it.
+/// Otherwise all rows count.
 /// \param bars  reinforcing bars carry the load after the solid cracks: only a body that gave way
 ///              counts
 std::size_t rows_before_residual(std::span<const CurvePoint> path, bool bars);

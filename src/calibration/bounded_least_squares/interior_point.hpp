@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "calibration/bounded_least_squares/bounded_least_squares.hpp"
-#include "calibration/bounded_least_squares/normal_system.hpp"
+#include "calibration/bounded_least_squares/equations/normal_system.hpp"
+#include "calibration/bounded_least_squares/equations/point_equations.hpp"
 
 namespace perilink {
 

@@ -11,11 +11,11 @@
 
 #include "base/error.hpp"
 #include "calibration/bounded_least_squares/direction_search.hpp"
+#include "calibration/bounded_least_squares/equations/normal_system.hpp"
 #include "calibration/bounded_least_squares/equations/point_equations.hpp"
 #include "calibration/bounded_least_squares/equations/variable_parts.hpp"
 #include "calibration/bounded_least_squares/kept_preconditioner.hpp"
 #include "calibration/bounded_least_squares/normal_equations_limits.hpp"
-#include "calibration/bounded_least_squares/normal_system.hpp"
 #include "calibration/bounded_least_squares/packed_product.hpp"
 #include "calibration/bounded_least_squares/system_product.hpp"
 
@@ -105,7 +105,6 @@ class NormalEquations final : public NormalSystem, private NormalEquationsLimits
   bool boxes_failed_ = false;            // only blocks are used
   std::optional<PackedProduct> packed_;  // for the steps of conjugate gradients
   bool last_ = false;                    // whether the step must satisfy the equations
-  bool own_factor_ = false;  // whether the factor is of these equations, not of the last problem
   int last_iterations_ = 0;
   bool gave_up_ = false;  // not even a new factor leads to a solution
   /// Active-set weights of the factor or the coarse system; empty: of another problem.
@@ -266,8 +265,7 @@ auto NormalEquations<Rows, Odd, Grouped>::diagonal() const -> Vector {
 
 template <int Rows, int Odd, bool Grouped>
 void NormalEquations<Rows, Odd, Grouped>::build_factor() {
-  if (!own_factor_) kept_.factor = std::make_unique<EquationsFactor>(equations_);
-  own_factor_ = true;
+  if (prepared_for_.empty()) kept_.factor = std::make_unique<EquationsFactor>(equations_);
   kept_.factor->factorize(equations_, active_weight, diagonal());
   compliance_of_factor_ = compliance;
   prepared_for_ = active_weight;

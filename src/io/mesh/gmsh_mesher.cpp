@@ -209,7 +209,7 @@ constexpr int too_small = 2;
 void refuse_small_size(Session& session, int dim, double size) {
   constexpr double bytes_per_cell = 2000.0;  // of the mesh and a run: bonds of three spacings
   constexpr double cells_per_square = 2.3, cells_per_cube = 9.0;
-  constexpr double coarse_squares = 1e4, enough_cells = 3e4;
+  constexpr double coarse_squares = 1e4, enough_cells = 1e4;
   const double memory = available_memory(), most = memory / bytes_per_cell;
   const double squares = session.squares_in_box(dim, size);
   if (squares * (dim == 2 ? cells_per_square : cells_per_cube) <= most) return;

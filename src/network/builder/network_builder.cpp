@@ -223,7 +223,7 @@ void set_stretches(const Body& body, const NetworkInput& input, const PairConsta
                    Network& network) {
   if (input.elastic) return;
   set_materials_at_joints(input, network);
-  network.critical_stretch.clear();  // of the box, whose materials are alike
+  network.critical_stretch.clear();  // the box has one material
   network.critical_stretch.reserve(network.stiffness.size());
   for (Index b = 0; b < network.bonds.size(); ++b) {
     const auto [i, j] = materials_of_bond(network, b);

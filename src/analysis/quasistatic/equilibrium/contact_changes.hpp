@@ -32,7 +32,7 @@ class ContactChanges {
   /// Opens a closed element.
   /// \return false if only this element holds the body; then at most K^-1 is new
   bool open(Index element);
-  /// Forgets which contact states and closed stiffness ratios the last call of settle() has changed.
+  /// Forgets which contact states and closed stiffness ratios the last call of settle() changed.
   void begin() {
     changed_.clear();
     ratios_before_.clear();

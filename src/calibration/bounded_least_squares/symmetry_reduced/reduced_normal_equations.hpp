@@ -6,7 +6,7 @@
 
 #include <Eigen/Dense>
 
-#include "calibration/bounded_least_squares/normal_system.hpp"
+#include "calibration/bounded_least_squares/equations/normal_system.hpp"
 #include "calibration/bounded_least_squares/symmetry_reduced/reduced_equations.hpp"
 #include "calibration/bounded_least_squares/symmetry_reduced/reduced_factor.hpp"
 

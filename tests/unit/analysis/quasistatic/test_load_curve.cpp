@@ -172,7 +172,7 @@ TEST(ResidualStrength, IsNoneOfTeeth) {
   EXPECT_EQ(rows_before_residual(path, false), path.size());
 }
 
-/// Avalanches take four fifths of the load, thirty rows long, at hardly more compliance than before.
+/// Avalanches take four fifths of the load, thirty rows long, at hardly more compliance.
 TEST(ResidualStrength, IsNoneOfAvalanches) {
   std::vector<CurvePoint> path;
   for (int k = 0; k < 1200; ++k) {

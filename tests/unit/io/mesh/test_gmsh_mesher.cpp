@@ -76,8 +76,8 @@ TEST(GmshMesher, RefusesCellsBeyondTheMemory) {
                                        along, across));
     return path;
   };
-  // 1.6e7 squares in the box of two bars a cell wide
-  EXPECT_LT(mesh_geometry(corner(40, 0.01), 2, 0.01).num_cells(), 5e4);
+  // 5e6 squares in the box of two bars a cell wide
+  EXPECT_LT(mesh_geometry(corner(23, 0.01), 2, 0.01).num_cells(), 3e4);
   EXPECT_THAT(refusal(corner(1000, 1000), 0.01), HasSubstr("times this size"));
 }
 
