@@ -176,7 +176,12 @@ TEST_P(GrownCrackInAPlate, IsPulledThroughClosesAndSlides) {
   EXPECT_EQ(rows.last(3, "load_factor"), slip);
   const double springs = 20.0 * 24.0 * slip;  // their part of the load
   const double kept = (rows.last(3, "load") - springs) / (intact.last(3, "load") - springs);
-  EXPECT_NEAR(kept, plane ? 0.0 : 1.0, plane ? 0.01 : 0.1);
+  if (plane) {
+    EXPECT_NEAR(kept, 0.0, 0.01);
+  } else {  // cracks that wander by some rows keep 0.75 to 0.98 of the shear stiffness
+    EXPECT_GT(kept, 0.75);
+    EXPECT_LT(kept, 1.0);
+  }
   // Cracks along lattice rows are within 1 % as stiff as intact under pressure.
   EXPECT_NEAR(rows.last(2, "load_factor") / intact.last(2, "load_factor"), 1.0, 0.01);
 }
