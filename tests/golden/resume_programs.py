@@ -43,7 +43,7 @@ def with_checkpoints(case, rows):
         text = text.replace("\n[output]\n", f"\n[output]\n{line}", 1)
     else:
         text += f"\n[output]\n{line}"
-    return results.Case(case.name, case.group, text)
+    return results.Case(case.name, case.group, text, case.shows, case.options)
 
 
 class Killing:
@@ -57,6 +57,7 @@ class Killing:
     def start(self, out, *options):
         """Starts a run."""
         command = [self.program, "run", f"cases/{self.case.name}.toml", "--threads", "1"]
+        command += self.case.options
         return subprocess.Popen(
             command + ["--out", out, "--quiet", *options],
             cwd=self.home,
