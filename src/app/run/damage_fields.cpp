@@ -27,10 +27,12 @@ void DamageRun::note_compression(const StepRecord& record, const VtuGrid& grid) 
   }
 }
 
-/// Whether fields are due: at the first row of the run and of each stage, and at requested rows and
-/// numbers of broken bonds. A load step may skip such a number; the next row counts then.
+/// Whether fields are due: at the first row of the run and of each stage, and at requested rows,
+/// values, and numbers of broken bonds. A load step may skip such a number; the next row counts
+/// then.
 bool DamageRun::wants_fields(const StepRecord& record) const {
   if (!files_->has_fields() || record.stage != records_.last_stage) return true;
+  if (files_->reaches_value()) return true;
   const std::optional<int>& rows = input.output.fields_every_rows;
   if (rows && record.step % *rows == 0) return true;
   const Index last = records_.broken_at_fields, broken_bonds = record.broken_bonds;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/files.hpp"
@@ -89,6 +90,7 @@ RunFiles::State RunFiles::save() {
 void RunFiles::add_row(const StepRecord& record, std::span<const double> gauges) {
   history_->append(record, gauges);
   ++state_.rows;
+  note_values(record.displacement, gauges);
   if (!callbacks_.on_row) return;
   callbacks_.on_row({state_.rows, record.step, 0.0, record.load_factor, record.load,
                      record.displacement, record.broken_bonds});
@@ -97,11 +99,29 @@ void RunFiles::add_row(const StepRecord& record, std::span<const double> gauges)
 void RunFiles::add_row(const ExplicitRecord& record, std::span<const double> gauges) {
   history_->append(record, gauges);
   ++state_.rows;
+  note_values(record.displacement, gauges);
   const bool intact = record.broken_bonds == 0 && record.cracked_particles == 0;
   state_.peaks.add({record.displacement, record.load}, intact);
   if (!callbacks_.on_row) return;
   callbacks_.on_row({state_.rows, record.step, record.time, record.load_factor, record.load,
                      record.displacement, record.broken_bonds + record.cracked_particles});
+}
+
+/// A value is reached where the quantity has come from zero to it, or passed it, with its sign.
+void RunFiles::note_values(double displacement, std::span<const double> gauges) {
+  reaches_value_ = false;
+  std::size_t number = 0;
+  const auto look = [&](double now, const std::vector<double>& values) {
+    for (const double value : values) {
+      if (number == state_.reached.size()) state_.reached.push_back(0);
+      std::uint8_t& reached = state_.reached[number++];
+      if (reached != 0 || (value < 0.0 ? now > value : now < value)) continue;
+      reached = 1;
+      reaches_value_ = true;
+    }
+  };
+  look(std::abs(displacement), input_.output.fields_at_displacement);
+  for (std::size_t k = 0; k < gauges.size(); ++k) look(gauges[k], input_.gauges[k].fields_at);
 }
 
 void RunFiles::begin_again() {
@@ -115,12 +135,13 @@ void RunFiles::begin_again() {
     }
   }
   state_.series.clear();
+  state_.reached.clear();
   state_.rows = 0;
 }
 
 bool RunFiles::fields_are_due(double time) {
   const std::vector<double>& times = input_.output.fields_times;
-  bool due = state_.rows == 1 || is_relaxation(input_);
+  bool due = state_.rows == 1 || is_relaxation(input_) || reaches_value_;
   const double now = time * (1.0 + round_off);
   for (; state_.next_time < times.size() && times[state_.next_time] <= now; ++state_.next_time)
     due = true;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -30,11 +31,12 @@ class RunFiles {
     Index rows = 0;
     PeakWatch peaks;
     std::size_t next_time = 0;  ///< next entry of the case's output.fields_times
+    std::vector<std::uint8_t> reached;  ///< per value that asks for fields
     std::vector<PvdEntry> series;
 
     template <class Archive>
     void serialize(Archive& archive) {
-      archive(sizes, rows, peaks, next_time, series);
+      archive(sizes, rows, peaks, next_time, reached, series);
     }
   };
 
@@ -55,8 +57,12 @@ class RunFiles {
   /// Removes all rows and field files. \throws FileError
   void begin_again();
   /// Whether fields are due at the last time row. They are due at the first row and at the first
-  /// one at or after each of output.fields_times; in a relaxation at every row.
+  /// one at or after each of output.fields_times or that reaches a value; in a relaxation at every
+  /// row.
   bool fields_are_due(double time);
+  /// Whether the last row is the first to reach a value of output.fields_at_displacement or of
+  /// `fields_at` of a gauge.
+  bool reaches_value() const { return reaches_value_; }
   /// Adds point fields to all field files.
   void add_to_fields(std::vector<VtuArray> constant) { constant_fields_ = std::move(constant); }
   /// Writes fields_STEP.vtu, unless it exists.
@@ -82,6 +88,7 @@ class RunFiles {
   double seconds_writing() const { return seconds_writing_; }
 
  private:
+  void note_values(double displacement, std::span<const double> gauges);
   void write_series() const;
   void remove_later_files() const;
 
@@ -92,6 +99,7 @@ class RunFiles {
   std::optional<HistoryFile> history_;
   State state_;
   std::vector<VtuArray> constant_fields_;
+  bool reaches_value_ = false;
   double seconds_writing_ = 0.0;
 };
 

@@ -223,6 +223,7 @@ struct GaugeSection {
   /// to the other.
   std::optional<int> axis;
   std::optional<std::array<int, 2>> stress;  ///< axes of a component of the stress, ascending
+  std::vector<double> fields_at;             ///< values at which fields are written
 };
 
 /// [analysis]
@@ -288,6 +289,7 @@ struct OutputSection {
   std::vector<int> fields_at;            ///< numbers of broken bonds at which fields are written
   std::optional<int> fields_every;       ///< number of broken bonds between fields
   std::optional<int> fields_every_rows;  ///< rows of history.csv between fields
+  std::vector<double> fields_at_displacement;  ///< absolute displacements of fields [length]
   bool fields_at_peak = true;            ///< for type = damage: fields are written at the peak load
   std::vector<double> fields_times;      ///< for type = explicit: times of fields [time]
   bool body_cells = false;               ///< fields have cells between neighbouring particles

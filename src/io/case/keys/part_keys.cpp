@@ -237,7 +237,8 @@ TableSchema gauge_table() {
                        "give `axis`"}})
                .written_by(+[](TomlWriter& out, const Gauge& gauge, Kinds) {
                  if (gauge.stress) out.write("stress", stress_name(*gauge.stress));
-               })},
+               }),
+           key("fields_at", &Gauge::fields_at, {}, set_aside(elastic))},
           {},
           {{"between", "at", "region", "reaction"}}};
 }

@@ -112,6 +112,9 @@ TableSchema output_table() {
            .written_empty(),
        key("fields_every", &Output::fields_every, from(1, largest), of_damage),
        key("fields_every_rows", &Output::fields_every_rows, from(1, largest), of_damage),
+       key("fields_at_displacement", &Output::fields_at_displacement, positive, set_aside(elastic))
+           .ascending()
+           .hinted("sort the displacements and delete repeated ones"),
        key("fields_at_peak", &Output::fields_at_peak, {}, of_damage),
        key("fields_times", &Output::fields_times, positive, of_time)
            .ascending()

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "base/error.hpp"
 #include "support/cracked_field.hpp"
@@ -36,6 +37,33 @@ TEST(RunFiles, FieldsAreDueAtTheFirstRowAndTheTimesOfTheCase) {
   EXPECT_EQ(due_times(case_of(AnalysisType::explicit_)), (std::vector<double>{0.0, 2.0, 3.0}));
   EXPECT_EQ(due_times(case_of(AnalysisType::relaxation)),
             (std::vector<double>{0.0, 1.0, 2.0, 3.0, 4.0}));
+}
+
+TEST(RunFiles, FieldsAreDueWhereAValueIsFirstReached) {
+  CaseFile input;
+  input.output.fields_at_displacement = {1.0, 3.0};
+  input.gauges.resize(2);
+  input.gauges[0].name = "opening";
+  input.gauges[1].name = "side";
+  input.gauges[1].fields_at = {-0.5, 0.25};
+  const test::TemporaryDirectory work;
+  std::optional<RunFiles> files(std::in_place, input, work.path(), true);
+  struct Row {
+    double displacement, side;
+    bool due;
+  };
+  // Displacements count by size; gauges by their sign; what was reached before counts no more.
+  for (const Row& row : {Row{0.5, 0.0, false}, Row{-1.0, 0.1, true}, Row{0.9, 0.2, false},
+                         Row{1.5, -0.6, true}, Row{1.2, 0.25, true}, Row{2.0, -0.7, false},
+                         Row{4.0, 0.3, true}, Row{4.0, 0.3, false}}) {
+    const RunFiles::State saved = files->save();
+    files.reset();
+    files.emplace(input, work.path(), true, saved);
+    StepRecord record;
+    record.displacement = row.displacement;
+    files->add_row(record, std::vector<double>{9.0, row.side});
+    EXPECT_EQ(files->reaches_value(), row.due) << row.displacement << " " << row.side;
+  }
 }
 
 TEST(RunFiles, AStateIsWrittenOnce) {
