@@ -30,7 +30,7 @@ class RunFiles {
     HistoryFile::Sizes sizes;
     Index rows = 0;
     PeakWatch peaks;
-    std::size_t next_time = 0;  ///< next entry of the case's output.fields_times
+    std::size_t next_time = 0;          ///< next entry of the case's output.fields_times
     std::vector<std::uint8_t> reached;  ///< per value that asks for fields
     std::vector<PvdEntry> series;
 

@@ -290,9 +290,9 @@ struct OutputSection {
   std::optional<int> fields_every;       ///< number of broken bonds between fields
   std::optional<int> fields_every_rows;  ///< rows of history.csv between fields
   std::vector<double> fields_at_displacement;  ///< absolute displacements of fields [length]
-  bool fields_at_peak = true;            ///< for type = damage: fields are written at the peak load
-  std::vector<double> fields_times;      ///< for type = explicit: times of fields [time]
-  bool body_cells = false;               ///< fields have cells between neighbouring particles
+  bool fields_at_peak = true;        ///< for type = damage: fields are written at the peak load
+  std::vector<double> fields_times;  ///< for type = explicit: times of fields [time]
+  bool body_cells = false;           ///< fields have cells between neighbouring particles
   /// Rows of history.csv between checkpoints; 0: none; absent: chosen by the cost.
   std::optional<int> checkpoint_every;
 };
