@@ -26,6 +26,8 @@ void bind_problems(pybind11::module_& module);
 
 /// Adds the class EventRun. Problem must be bound before.
 void bind_events(pybind11::module_& module);
+/// Adds the class TimeRun. Problem must be bound before.
+void bind_time_runs(pybind11::module_& module);
 
 using ArrayShape = std::vector<pybind11::ssize_t>;
 

@@ -70,4 +70,5 @@ PYBIND11_MODULE(_core, module) {
   bind_runs(module);
   bind_problems(module);
   bind_events(module);
+  bind_time_runs(module);
 }

@@ -7,8 +7,8 @@
     result = perilink.run(case, "results/fine")
     print(result.summary["peak_load"], result.history["load"].max())
 
-`Case` describes the case, `run` runs it, `EventRun` advances it row by row, `build` and `solve`
-give its particles, bonds and elastic solution as arrays of numpy. Docs: docs/python.md,
+`Case` describes the case, `run` runs it, `EventRun` and `TimeRun` advance it row by row, `build`
+and `solve` give its particles, bonds and elastic solution as arrays of numpy. Docs: docs/python.md,
 docs/case_file.md.
 """
 
@@ -20,6 +20,7 @@ from .mesh import Mesh
 from .problem import ElasticSolution, build, solve
 from .result import Result, read_result, run
 from .summary import Summary
+from .time_run import TimeRow, TimeRun
 
 __all__ = [
     "Case",
@@ -36,6 +37,8 @@ __all__ = [
     "Row",
     "SolverError",
     "Summary",
+    "TimeRow",
+    "TimeRun",
     "__version__",
     "build",
     "build_summary",
