@@ -195,6 +195,11 @@ void add_plot_command(CLI::App& app, PlotOptions& options) {
       ->expected(2)
       ->type_name("MIN MAX");
   command->add_flag("--png", options.png, "Also write PNG, by the program rsvg-convert");
+  command
+      ->add_flag("--animation", options.animation,
+                 "Draw only the body, at all rows with fields in one view, and animation.png of "
+                 "them")
+      ->excludes("--at");
 }
 
 const CLI::App* add_report_command(CLI::App& app, ReportOptions& options) {

@@ -22,19 +22,18 @@ namespace {
 
 /// Whether a run of this program writes a file of this name.
 bool is_result_file(const std::string& name) {
-  constexpr std::array<std::string_view, 11> names = {
-      "case.toml",  "history.csv", "timing.csv", "summary.json",          "fields.pvd",
-      "log.txt",    "study.toml",  "table.csv",  "load_displacement.svg", "checkpoint.bin",
-      "report.html"};
+  constexpr std::array<std::string_view, 12> names = {
+      "case.toml",   "history.csv",  "timing.csv", "summary.json",          "fields.pvd",
+      "log.txt",     "study.toml",   "table.csv",  "load_displacement.svg", "checkpoint.bin",
+      "report.html", "animation.png"};
   for (const std::string_view known : names) {
     if (name == known) return true;
   }
-  if (name.starts_with("error_")) return name.ends_with(".svg");
-  if (name.starts_with("bars_") || name.starts_with("cracks_") || name.starts_with("reactions_")) {
-    return name.ends_with(".csv");
-  }
-  if (!name.starts_with("fields_")) return false;
-  return name.ends_with(".vtu") || name.ends_with(".svg");
+  const bool is_picture = name.ends_with(".svg") || name.ends_with(".png");
+  if (name.starts_with("error_")) return is_picture;
+  if (name.starts_with("bars_")) return is_picture || name.ends_with(".csv");
+  if (name.starts_with("cracks_") || name.starts_with("reactions_")) return name.ends_with(".csv");
+  return name.starts_with("fields_") && (is_picture || name.ends_with(".vtu"));
 }
 
 /// Returns the rank of a file in the order of removal. Files that refer to others are removed

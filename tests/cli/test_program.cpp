@@ -365,7 +365,7 @@ TEST_F(Program, ExplicitRunsWriteTheFilesOfTheContract) {
 
   const ProcessEnd plot = run({"plot", "again"});
   EXPECT_EQ(plot.exit_status, 0) << plot.err;
-  EXPECT_THAT(read_text(work() / "again/fields_0.svg"), HasSubstr("time 0 "));
+  EXPECT_THAT(read_text(work() / "again/fields_000000.svg"), HasSubstr("time 0 "));
   EXPECT_TRUE(fs::exists(work() / "again/load_displacement.svg"));
   EXPECT_EQ(run({"run", "strip.toml"}).exit_status, 2) << "an earlier result";
 }
@@ -375,13 +375,13 @@ TEST_F(Program, PlotDrawsWhatAResultHolds) {
   ASSERT_EQ(run({"run", "small.toml", "--out", "r"}).exit_status, 0);
   const ProcessEnd end = run({"plot", "r", "--out", "pictures"});
   EXPECT_EQ(end.exit_status, 0) << end.err;
-  for (const char* name : {"load_displacement.svg", "fields_1.svg", "fields_11.svg",
-                           "fields_21.svg", "fields_31.svg"}) {
+  for (const char* name : {"load_displacement.svg", "fields_000001.svg", "fields_000011.svg",
+                           "fields_000021.svg", "fields_000031.svg"}) {
     EXPECT_THAT(read_text(work() / "pictures" / name), HasSubstr("</svg>")) << name;
     EXPECT_THAT(end.out, HasSubstr(name));
   }
   EXPECT_EQ(run({"plot", "r"}).exit_status, 0);
-  EXPECT_TRUE(fs::exists(work() / "r/fields_31.svg"));
+  EXPECT_TRUE(fs::exists(work() / "r/fields_000031.svg"));
 }
 
 TEST_F(Program, PlotOfADirectoryWithoutResultsIsRefused) {

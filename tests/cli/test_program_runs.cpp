@@ -382,7 +382,7 @@ TEST_F(ProgramRuns, ASeparatedBodyBearsNoLoad) {
   EXPECT_EQ(cell, "0") << last;
   ASSERT_EQ(run({"plot", "r"}).exit_status, 0);
   const int row = result["steps"];
-  EXPECT_THAT(read_text(work() / fmt::format("r/fields_{}.svg", row)),
+  EXPECT_THAT(read_text(work() / fmt::format("r/fields_{:06}.svg", row)),
               testing::HasSubstr(" · load 0 · "));
 }
 

@@ -191,7 +191,7 @@ TEST_P(Outputs, EveryFileIsDocumented) {
     if (name.starts_with("bars_")) name = "bars_000010.csv";
     if (name.starts_with("cracks_")) name = "cracks_000010.csv";
     if (name.starts_with("reactions_")) name = "reactions_000010.csv";
-    if (name.starts_with("fields_") && name.ends_with(".svg")) name = "fields_10.svg";
+    if (name.starts_with("fields_") && name.ends_with(".svg")) name = "fields_000010.svg";
     expect_named(text, name, "file");
   }
 }

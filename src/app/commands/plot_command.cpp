@@ -26,6 +26,7 @@
 #include "base/files.hpp"
 #include "base/plain_text.hpp"
 #include "io/case/case_schema.hpp"
+#include "io/fields/animated_png.hpp"
 #include "io/fields/vtu.hpp"
 #include "io/text/csv.hpp"
 #include "io/text/toml_tree.hpp"
@@ -44,7 +45,7 @@ class Pictures {
   /// \throws FileError without the program that makes PNG
   explicit Pictures(const PlotOptions& options)
       : folder_(options.out.empty() ? options.directory : options.out) {
-    if (options.png) converter_.emplace(program_in_path("rsvg-convert"), 1);
+    if (options.png || options.animation) converter_.emplace(program_in_path("rsvg-convert"), 1);
     std::error_code failure;
     fs::create_directories(folder_, failure);  // save() reports the error
   }
@@ -64,6 +65,18 @@ class Pictures {
     say(picture + "\n");
   }
 
+  /// Joins pictures saved before as animation.png.
+  void join(const std::vector<std::string>& names) const {
+    std::vector<std::string> frames;
+    for (const std::string& name : names) {
+      frames.push_back(read_regular_file((folder_ / (name + ".png")).string()));
+    }
+    constexpr int shown = 200;  // ms
+    const std::string path = (folder_ / "animation.png").string();
+    write_whole_file(path, animated_png(frames, shown));
+    say(path + "\n");
+  }
+
  private:
   static std::string program_in_path(const std::string& name) {
     const char* path = std::getenv("PATH");
@@ -72,10 +85,11 @@ class Pictures {
       const fs::path program = fs::path(folder) / name;
       if (!folder.empty() && ::access(program.c_str(), X_OK) == 0) return program.string();
     }
-    throw FileError(fmt::format(
-        "--png needs the program {}, which was not found\n"
-        "  install it (Debian: librsvg2-bin), or leave --png out: browsers and editors open SVG",
-        name));
+    throw FileError(
+        fmt::format("PNG needs the program {}, which was not found\n"
+                    "  install it (Debian: librsvg2-bin), or leave the option out: browsers and "
+                    "editors open SVG",
+                    name));
   }
 
   fs::path folder_;
@@ -148,8 +162,16 @@ ParticleColors colors_of(const VtuGrid& grid, const PlotBody& body, const Plotte
   return colors;
 }
 
-void plot_fields(const PvdEntry& entry, const PlottedRun& run, const PlotOptions& options,
-                 Pictures& pictures) {
+/// View common to all frames of an animation.
+struct FrameView {
+  double scale = 0.0;          ///< factor on the displacements
+  std::optional<ViewBox> box;  ///< absent: that of each picture
+};
+
+/// Draws a file of fields.
+/// \return name of the picture, without its ending
+std::string plot_fields(const PvdEntry& entry, const PlottedRun& run, const PlotOptions& options,
+                        const FrameView& frame, Pictures& pictures) {
   const std::string path = (run.directory / entry.file).string();
   const VtuGrid grid = read_vtu(path);
   const Index step = count_of(grid, "step", path);
@@ -158,17 +180,19 @@ void plot_fields(const PvdEntry& entry, const PlottedRun& run, const PlotOptions
   if (const double time = grid.field("time", -1.0); time >= 0.0) caption.time = time;
   const PlotBody body = read_body(grid, path);
   const std::string field = options.field.empty() ? "" : "_" + file_word(options.field);
-  pictures.save(
-      draw_fields(body, caption, run.labels, options.scale, colors_of(grid, body, run, options)),
-      fmt::format("fields_{}{}", step, field));
+  std::string name = fmt::format("fields_{:06}{}", step, field);
+  pictures.save(draw_fields(body, caption, run.labels, frame.scale,
+                            colors_of(grid, body, run, options), frame.box),
+                name);
   const fs::path bars = run.directory / fmt::format("bars_{:06}.csv", step);
-  if (!field.empty() || !fs::exists(bars)) return;
+  if (!field.empty() || frame.box || !fs::exists(bars)) return name;
   const std::string when = caption.time ? fmt::format("time {}", short_number(*caption.time))
                                         : fmt::format("row {}", step);
   const std::string text =
       fmt::format("{}, load {}", when, in_unit(short_number(caption.load), run.labels.force));
   pictures.save(draw_bars(read_csv(bars.string()), bars.string(), text, run.labels),
-                fmt::format("bars_{}", step));
+                fmt::format("bars_{:06}", step));
+  return name;
 }
 
 /// Returns the row of the number in a name of a field file.
@@ -192,15 +216,57 @@ PvdEntry entry_at(const std::vector<PvdEntry>& entries, const PlottedRun& run,
       at, row, joined(rows)));
 }
 
-void plot_series(const PlottedRun& run, const PlotOptions& options, Pictures& pictures) {
+/// Draws files of fields in one view, at one scale and with one range of colours, and joins them.
+void animate(const std::vector<PvdEntry>& entries, const PlottedRun& run, PlotOptions options,
+             Pictures& pictures) {
+  FrameView frame{options.scale, ViewBox{}};
+  ColorBar range{"", infinity, -infinity};
+  const auto for_each_body = [&](const auto& look) {
+    for (const PvdEntry& entry : entries) {
+      const std::string path = (run.directory / entry.file).string();
+      const VtuGrid grid = read_vtu(path);
+      look(grid, read_body(grid, path));
+    }
+  };
+  for_each_body([&](const VtuGrid& grid, const PlotBody& body) {
+    const ColorBar bar = colors_of(grid, body, run, options).bar;
+    range.low = std::min(range.low, bar.low);
+    range.high = std::max(range.high, bar.high);
+    const bool moves = std::ranges::any_of(body.displacements,
+                                           [](const Vector3& move) { return move != Vector3{}; });
+    if (options.scale > 0.0 || !moves) return;
+    const double own = automatic_scale(body);
+    frame.scale = frame.scale > 0.0 ? std::min(frame.scale, own) : own;
+  });
+  if (!(frame.scale > 0.0)) frame.scale = 1.0;
+  for_each_body([&](const VtuGrid&, const PlotBody& body) {
+    frame.box->add(view_of_body(body, frame.scale));
+  });
+  options.range = {range.low, range.high};
+  std::vector<std::string> names;
+  for (const PvdEntry& entry : entries) {
+    names.push_back(plot_fields(entry, run, options, frame, pictures));
+  }
+  pictures.join(names);
+}
+
+/// \param last  last row of an animation
+void plot_series(const PlottedRun& run, const PlotOptions& options, Index last,
+                 Pictures& pictures) {
   const fs::path list = run.directory / "fields.pvd";
   std::vector<PvdEntry> entries;
   if (fs::exists(list)) entries = read_pvd(list.string());
-  if (!options.at.empty() && entries.empty()) {
+  if ((options.animation || !options.at.empty()) && entries.empty()) {
     throw FileError(fmt::format("{}: has no files of fields", run.directory.string()));
   }
   if (!options.at.empty()) entries = {entry_at(entries, run, options.at)};
-  for (const PvdEntry& entry : entries) plot_fields(entry, run, options, pictures);
+  if (options.animation) {
+    std::erase_if(entries, [&](const PvdEntry& entry) { return row_of(entry) > last; });
+    return animate(entries, run, options, pictures);
+  }
+  for (const PvdEntry& entry : entries) {
+    plot_fields(entry, run, options, {options.scale, {}}, pictures);
+  }
 }
 
 /// Whether a column is not zero in the undeformed state, or has no value there.
@@ -287,14 +353,17 @@ int plot_results(const PlotOptions& options) {
   const std::size_t rows =
       rows_drawn(points_of(records), run, peak_of(summary, "peak"), options.whole);
   const bool columns = !options.x.empty() || !options.y.empty();
-  const bool body = !options.at.empty() || !options.field.empty() || !options.range.empty();
+  const bool body =
+      options.animation || !options.at.empty() || !options.field.empty() || !options.range.empty();
   if (columns) {
     plot_columns(table, rows, run, options, pictures);
   } else if (!body) {
     pictures.save(draw_load_displacement(records, run.labels, peak_of(summary, "first_peak"), rows),
                   "load_displacement");
   }
-  if (body || !columns) plot_series(run, options, pictures);
+  if (body || !columns) {
+    plot_series(run, options, rows == 0 ? 0 : records[rows - 1].step, pictures);
+  }
   return exit_done;
 }
 

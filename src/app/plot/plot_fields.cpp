@@ -323,6 +323,13 @@ std::vector<KeyEntry> draw_body(Svg& svg, const Scene& scene, const PlotLabels& 
   return key;
 }
 
+/// Returns the deformed positions as seen on the page.
+std::vector<Vector3> seen_positions(const PlotBody& body, double scale) {
+  std::vector<Vector3> seen = deformed_positions(body, scale);
+  for (Vector3& point : seen) point = view(point, body.dim);
+  return seen;
+}
+
 std::string caption_text(const FieldsCaption& caption, const PlotBody& body,
                          const PlotLabels& labels, double scale) {
   std::string begin;
@@ -348,12 +355,16 @@ ParticleColors usual_colors(const PlotBody& body, const PlotLabels& labels) {
   return colors;
 }
 
+ViewBox view_of_body(const PlotBody& body, double scale) {
+  return view_of(body, seen_positions(body, scale));
+}
+
 Svg draw_fields(const PlotBody& body, const FieldsCaption& caption, const PlotLabels& labels,
-                double scale, const std::optional<ParticleColors>& chosen) {
+                double scale, const std::optional<ParticleColors>& chosen,
+                const std::optional<ViewBox>& box) {
   if (!(scale > 0.0)) scale = automatic_scale(body);
-  std::vector<Vector3> seen = deformed_positions(body, scale);
-  for (Vector3& point : seen) point = view(point, body.dim);
-  const BodyPage page = make_page(body, seen);
+  const std::vector<Vector3> seen = seen_positions(body, scale);
+  const BodyPage page = make_page(box ? *box : view_of(body, seen));
   const ParticleColors colors = chosen ? *chosen : usual_colors(body, labels);
   const Scene scene{body, seen, page, colors, body.dim == 2 && on_square_lattice(body)};
 

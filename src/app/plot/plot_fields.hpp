@@ -29,10 +29,16 @@ struct ParticleColors {
 /// Returns colours of damage; of elastic analyses of the von Mises stress.
 ParticleColors usual_colors(const PlotBody& body, const PlotLabels& labels);
 
+/// Returns the rectangle in which a body is drawn.
+/// \param scale  factor on the displacements
+ViewBox view_of_body(const PlotBody& body, double scale);
+
 /// Draws the deformed body: particles with their colours, crack faces, bars and ghosts.
 /// \param scale   factor on the displacements; 0: automatic
 /// \param colors  absent: usual_colors()
+/// \param box     shown part; absent: the body
 Svg draw_fields(const PlotBody& body, const FieldsCaption& caption, const PlotLabels& labels,
-                double scale, const std::optional<ParticleColors>& colors = {});
+                double scale, const std::optional<ParticleColors>& colors = {},
+                const std::optional<ViewBox>& box = {});
 
 }  // namespace perilink

@@ -227,24 +227,32 @@ std::vector<KeyEntry> draw_conditions(Svg& svg, const BodyPage& page, const Plot
   return key;
 }
 
-BodyPage make_page(const PlotBody& body, const std::vector<Vector3>& seen) {
-  double low[2] = {infinity, infinity};
-  double high[2] = {-infinity, -infinity};
-  for (Index i = 0; i < body.size(); ++i) {
-    if (body.is_loose(i)) continue;
-    for (std::size_t c = 0; c < 2; ++c) {
-      low[c] = std::min(low[c], seen[i][c]);
-      high[c] = std::max(high[c], seen[i][c]);
-    }
-  }
-  if (!(high[0] >= low[0])) low[0] = low[1] = high[0] = high[1] = 0.0;  // no point is drawn
-  const bool has_arrows = !body.forces.empty() || !body.moves.empty();
-  const double margin = std::max(body.spacing, (has_arrows ? 1.3 * arrow_length : 0.02) *
-                                                   std::max(high[0] - low[0], high[1] - low[1]));
+void ViewBox::add(const ViewBox& other) {
   for (std::size_t c = 0; c < 2; ++c) {
-    low[c] -= margin;
-    high[c] += margin;
+    low[c] = std::min(low[c], other.low[c]);
+    high[c] = std::max(high[c], other.high[c]);
   }
+}
+
+ViewBox view_of(const PlotBody& body, const std::vector<Vector3>& seen) {
+  ViewBox box;
+  for (Index i = 0; i < body.size(); ++i) {
+    if (!body.is_loose(i)) box.add({{seen[i][0], seen[i][1]}, {seen[i][0], seen[i][1]}});
+  }
+  if (!(box.high[0] >= box.low[0])) box = {{0.0, 0.0}, {0.0, 0.0}};  // no point is drawn
+  const bool has_arrows = !body.forces.empty() || !body.moves.empty();
+  const double margin =
+      std::max(body.spacing, (has_arrows ? 1.3 * arrow_length : 0.02) *
+                                 std::max(box.high[0] - box.low[0], box.high[1] - box.low[1]));
+  for (std::size_t c = 0; c < 2; ++c) {
+    box.low[c] -= margin;
+    box.high[c] += margin;
+  }
+  return box;
+}
+
+BodyPage make_page(const ViewBox& box) {
+  const auto& [low, high] = box;
   BodyPage page;
   page.low = {low[0], low[1], 0.0};
   page.pixels = std::min(largest_width / (high[0] - low[0]), largest_height / (high[1] - low[1]));

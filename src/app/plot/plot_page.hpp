@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -25,9 +26,20 @@ struct BodyPage {
   }
 };
 
-/// Returns a page that fits the drawn points, without particles that lost all bonds, and arrows of
-/// loads.
-BodyPage make_page(const PlotBody& body, const std::vector<Vector3>& seen);
+/// Rectangle of the projected points that a picture shows [length].
+struct ViewBox {
+  std::array<double, 2> low{infinity, infinity}, high{-infinity, -infinity};
+
+  /// Grows to hold another rectangle.
+  void add(const ViewBox& other);
+};
+
+/// Returns the rectangle of the drawn points, without particles that lost all bonds, with room for
+/// the arrows of loads.
+ViewBox view_of(const PlotBody& body, const std::vector<Vector3>& seen);
+
+/// Returns a page that shows the rectangle.
+BodyPage make_page(const ViewBox& box);
 
 /// Entry of the key under the picture: a sample drawn with `style` and its name.
 struct KeyEntry {

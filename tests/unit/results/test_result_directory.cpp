@@ -50,7 +50,7 @@ TEST(ResultDirectory, IsMadeWithItsParents) {
 TEST(ResultDirectory, RefusesAnEarlierResultAndLeavesItAlone) {
   for (const char* name :
        {"case.toml", "history.csv", "timing.csv", "summary.json", "fields.pvd", "log.txt",
-        "load_displacement.svg", "fields_000010.vtu", "fields_10.svg"}) {
+        "load_displacement.svg", "fields_000010.vtu", "fields_000010.svg", "animation.png"}) {
     const test::TemporaryDirectory work;
     test::write_text(work / name, "old");
     try {
@@ -69,7 +69,7 @@ TEST(ResultDirectory, ForceRemovesTheFilesOfARunAndOnlyThose) {
   const std::set<std::string> own = {"notes.txt", "fields_old.csv", "history.csv.bak", "my.vtu",
                                      "fields.txt"};
   for (const std::string& name : own) test::write_text(work / name, "mine");
-  for (const char* name : {"case.toml", "history.csv", "fields_000010.vtu", "fields_10.svg"}) {
+  for (const char* name : {"case.toml", "history.csv", "fields_000010.vtu", "fields_000010.png"}) {
     test::write_text(work / name, "old");
   }
   fs::create_directories(work / "sub");

@@ -1,15 +1,19 @@
 #include "app/commands/plot_command.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <pugixml.hpp>
 
 #include "base/error.hpp"
+#include "io/fields/animated_png.hpp"
 #include "results/history_file.hpp"
 #include "support/cracked_field.hpp"
 #include "support/temporary_directory.hpp"
+#include "support/tiny_png.hpp"
 
 namespace perilink {
 namespace {
@@ -48,7 +52,7 @@ TEST_F(Plot, DrawsCurveAndFields) {
       << R"({"status": "completed", "title": "Beam <1>", "units": "kip, in"})";
   EXPECT_EQ(plot_results({directory_.string(), "", 0.0}), 0);
   // The second file of the series has the same number of broken bonds, in the next row.
-  for (const char* name : {"load_displacement.svg", "fields_5.svg", "fields_6.svg"}) {
+  for (const char* name : {"load_displacement.svg", "fields_000005.svg", "fields_000006.svg"}) {
     pugi::xml_document document;
     EXPECT_TRUE(document.load_file((directory_ / name).c_str())) << name;
     EXPECT_NE(text(name).find("Beam &lt;1&gt;"), std::string::npos) << name;
@@ -164,7 +168,8 @@ TEST_F(Plot, DrawsTheFieldOfARow) {
   options.field = "displacement_x";
   options.range = {0.0, 300.0};
   EXPECT_EQ(plot_results(options), 0);
-  const std::string drawn = text("fields_5_displacement_x.svg");  // the file says that it is row 5
+  const std::string drawn =
+      text("fields_000005_displacement_x.svg");  // the file says that it is row 5
   EXPECT_NE(drawn.find(">displacement x<"), std::string::npos);
   EXPECT_NE(drawn.find(">200<"), std::string::npos) << "a tick of the range";
   EXPECT_FALSE(fs::exists(directory_ / "load_displacement.svg"));
@@ -185,6 +190,54 @@ TEST_F(Plot, PngNeedsItsProgram) {
   EXPECT_EQ(plot_results(options), 0);
   setenv("PATH", before.c_str(), 1);
   EXPECT_NE(text("words").find("load_displacement.png"), std::string::npos);
+}
+
+/// All frames have one view and scale, also that before the body moved.
+TEST_F(Plot, AnimatesAllFilesOfFields) {
+  VtuGrid grid = test::make_cracked_field({}, true);
+  const auto value = [&](const char* name) -> double& {
+    return std::ranges::find(grid.field_data, name, &std::pair<std::string, double>::first)->second;
+  };
+  std::vector<PvdEntry> series;
+  for (const int row : {1, 2, 4, 100}) {
+    value("step") = row;
+    for (VtuArray& field : grid.point_data) {
+      if (field.name == "displacement") {
+        for (double& u : field.values) u = row == 1 ? 0.0 : u + 1.0;
+      }
+    }
+    const std::string name = fmt::format("fields_{:06}.vtu", row);
+    write_vtu((directory_ / name).string(), grid);
+    series.push_back({1.0 * row, name});
+  }
+  write_pvd((directory_ / "fields.pvd").string(), series);
+  test::write_text(directory_ / "frame.png", test::tiny_png(2, "pixels"));
+  std::ofstream(directory_ / "rsvg-convert")
+      << "#!/bin/sh\n/bin/cp " << (directory_ / "frame.png").string() << " \"$6\"\n";
+  fs::permissions(directory_ / "rsvg-convert", fs::perms::owner_all);
+  const char* path = std::getenv("PATH");
+  const std::string before = path == nullptr ? "" : path;
+  setenv("PATH", directory_.c_str(), 1);
+  PlotOptions options{directory_.string(), "", 0.0};
+  options.animation = true;
+  options.whole = true;
+  EXPECT_EQ(plot_results(options), 0);
+  setenv("PATH", before.c_str(), 1);
+
+  const std::vector<std::string> frames(3, test::tiny_png(2, "pixels"));
+  EXPECT_EQ(text("animation.png"), animated_png(frames, 200)) << "row 100 is not in the history";
+  EXPECT_FALSE(fs::exists(directory_ / "load_displacement.svg"));
+  const auto head = [&](const char* name) {
+    const std::string drawn = text(name);
+    return drawn.substr(0, drawn.find('>'));  // size of the page
+  };
+  EXPECT_EQ(head("fields_000001.svg"), head("fields_000004.svg"));
+  const std::string scale = "displacements × ";
+  const auto scale_of = [&](const char* name) {
+    const std::string drawn = text(name);
+    return drawn.substr(drawn.find(scale), scale.size() + 4);
+  };
+  EXPECT_EQ(scale_of("fields_000001.svg"), scale_of("fields_000004.svg"));
 }
 
 TEST_F(Plot, FaultsAreReported) {

@@ -13,7 +13,7 @@ namespace {
 TEST(BodyPage, HoldsTheWholeBodyUndistorted) {
   for (const auto& [nx, ny] : {std::pair{25, 8}, std::pair{8, 25}, std::pair{2, 60}}) {
     const PlotBody body = read_body(test::make_cracked_field({.nx = nx, .ny = ny}, false), "");
-    const BodyPage page = make_page(body, body.positions);
+    const BodyPage page = make_page(view_of(body, body.positions));
     for (const Vector3& point : body.positions) {
       const SvgPoint at = page.at(point);
       EXPECT_GE(at.x, page.left);
@@ -30,14 +30,14 @@ TEST(BodyPage, HoldsTheWholeBodyUndistorted) {
 }
 
 TEST(BodyPage, EmptyBodyIsAnEmptyPage) {
-  const BodyPage page = make_page(PlotBody{}, {});
+  const BodyPage page = make_page(view_of(PlotBody{}, {}));
   EXPECT_GT(page.width, 0.0);
   EXPECT_LT(page.width, 2000.0);
 }
 
 TEST(BodyPage, FrameNamesAxesUnitsAndKey) {
   const PlotBody body = read_body(test::make_cracked_field({}, false), "");
-  const BodyPage page = make_page(body, body.positions);
+  const BodyPage page = make_page(view_of(body, body.positions));
   Svg svg(page.width, page.height);
   draw_page(svg, page, 2, {"Plate", "kip", "in"}, "4 broken bonds", {},
             {{"crack face", "stroke=\"#000\""}, {"ghost", "stroke=\"#999\"", true}});
@@ -51,7 +51,7 @@ TEST(BodyPage, ShowsSupportsAndLoads) {
   PlotBody body = read_body(test::make_cracked_field({}, false), "");
   const std::vector<std::uint8_t> visible(body.positions.size(), 1);
   const auto drawn = [&] {
-    const BodyPage page = make_page(body, body.positions);
+    const BodyPage page = make_page(view_of(body, body.positions));
     Svg svg(page.width, page.height);
     std::vector<std::string> names;
     for (const KeyEntry& entry : draw_conditions(svg, page, body, body.positions, visible)) {
@@ -60,7 +60,7 @@ TEST(BodyPage, ShowsSupportsAndLoads) {
     return std::pair(names, svg.str());
   };
   EXPECT_TRUE(drawn().first.empty());
-  const double narrow = make_page(body, body.positions).pixels;
+  const double narrow = make_page(view_of(body, body.positions)).pixels;
   body.held.assign(body.positions.size(), 0);
   body.held[0] = 2;
   body.forces.assign(body.positions.size(), Vector3{0.0, -1.0, 0.0});
@@ -68,7 +68,7 @@ TEST(BodyPage, ShowsSupportsAndLoads) {
   body.moves[3] = {1.0, 0.0, 0.0};
   const auto [names, svg] = drawn();
   EXPECT_EQ(names, (std::vector<std::string>{"held", "load", "prescribed displacement"}));
-  EXPECT_LT(make_page(body, body.positions).pixels, narrow) << "arrows have room";
+  EXPECT_LT(make_page(view_of(body, body.positions)).pixels, narrow) << "arrows have room";
   pugi::xml_document document;
   ASSERT_TRUE(document.load_string(svg.c_str()));
   std::vector<std::string> paths;
@@ -85,7 +85,7 @@ TEST(BodyPage, ShowsSupportsAndLoads) {
 }
 
 TEST(BodyPage, FrameShowsTheAxesOfSpace) {
-  const BodyPage page = make_page(PlotBody{}, {});
+  const BodyPage page = make_page(view_of(PlotBody{}, {}));
   Svg svg(page.width, page.height);
   draw_page(svg, page, 3, {}, "", {}, {});
   for (const char* axis : {">x<", ">y<", ">z<"}) {
