@@ -53,7 +53,8 @@ inline Model build(const CaseFile& input, const CalibrationCalls& calibration = 
   return build_model(input, calibration);
 }
 
-/// Solves for the elastic equilibrium at load factor 1, whatever the analysis type of the case.
+/// Solves for the elastic equilibrium at load factor 1, whatever the analysis type of the case; with
+/// stages under the loads of the first.
 /// \throws SolverError when the stiffness matrix is not positive definite
 inline ElasticAnswer solve(const CaseFile& input, const Model& model, int threads = 1) {
   return solve_elastic(model, elastic_options(input, threads));

@@ -141,6 +141,18 @@ class Problems(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, text):
                 perilink.Mesh(*arguments)
 
+    def test_an_open_crack_is_open_in_the_first_stage_too(self):
+        case = perilink.parse_case(STRIP)
+        case["materials"][0].update({"tensile_strength": 0.3, "softening": "linear"})
+        case["cracks"] = [{"points": [[0, 40], [20, 40]], "closing": True}]
+        single = perilink.solve(perilink.build(case))
+        case["stages"] = [{"name": "pull", "to": 0.5}]
+        staged = perilink.solve(perilink.build(case))
+        np.testing.assert_array_equal(staged.displacement, single.displacement)
+        del case["cracks"]
+        whole = perilink.solve(perilink.build(case))
+        self.assertGreater(single.strain_energy, 1.1 * whole.strain_energy)
+
     def test_examples_build(self):
         for name in ("rc_cantilever", "roof", "timber_beam"):
             problem = perilink.build(perilink.read_case(EXAMPLES / f"{name}.toml"))

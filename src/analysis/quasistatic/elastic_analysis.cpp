@@ -187,6 +187,11 @@ bool is_for_subdomains(const LoadedNetwork& problem, LinearSolver solver, const 
 
 std::pair<std::vector<double>, std::vector<double>> find_closed_cracks(
     const LoadedNetwork& problem, const ElasticOptions& options) {
+  if (!problem.sets.empty()) {  // runs by stages begin without loads, with closed cracks
+    LoadedNetwork first = problem;
+    first.sets.clear();
+    return find_closed_cracks(first, options);
+  }
   EquilibriumOptions settling;
   settling.threads = options.threads;
   settling.subdomains = options.subdomains;

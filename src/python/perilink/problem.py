@@ -52,6 +52,8 @@ def build(case: Case, *, threads: int | None = None) -> _core.Problem:
 def solve(problem: _core.Problem | Case, *, threads: int | None = None) -> ElasticSolution:
     """Solves for the elastic equilibrium at load factor 1, whatever the analysis type of the case.
 
+    Of a case with stages the loads are those of the first one.
+
     Raises:
         SolverError: the body has no unique equilibrium
     """
