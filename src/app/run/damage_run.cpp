@@ -175,6 +175,12 @@ void DamageRun::tell(Summary& summary) const {
   if (const auto text = text_of_peaks(result_, model_, records_.broken)) {
     (input.rebar.empty() ? found.warnings : summary.notes).push_back(*text);
   }
+  if (result_.termination == Termination::completed && result_.last.step > 1 &&
+      result_.last.load == result_.peak_load) {
+    summary.add_note(
+        "the load was still growing at the end: peak_load is the load of the last row, not a "
+        "strength");
+  }
   if (input.output.fields_at_peak && peak.load != 0.0 && records_.peaks.find(peak) == nullptr) {
     summary.add_note(
         "there are no fields at the peak: the load climbed on without a fall behind it, or fell "

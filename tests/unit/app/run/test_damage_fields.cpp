@@ -142,6 +142,15 @@ TEST(PeakFieldsOfARun, AreLeftOutOnDemand) {
   EXPECT_EQ(run.series().size(), 2u);
 }
 
+TEST(NotesOfARun, TellWhetherTheLoadWasStillGrowing) {
+  CaseFile input = parse_case(softening_notched_plate(moved_top), "");
+  const auto growing = testing::Contains(testing::HasSubstr("still growing at the end"));
+  const test::WholeRun whole(input);
+  EXPECT_THAT(whole.summary.notes, testing::Not(growing));
+  input.stop.displacement = 0.6 * whole.summary.json["peak_displacement"].get<double>();
+  EXPECT_THAT(test::WholeRun(input).summary.notes, growing);
+}
+
 /// A strip that a crack crosses: its width is the prescribed displacement without the elastic
 /// elongation U - F L / (E A).
 TEST(CrackTable, WidthsAreTheImposedDisplacementWithoutTheElasticPart) {
