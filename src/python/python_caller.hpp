@@ -52,9 +52,9 @@ class PythonCaller {
     }
   }
 
-  /// Raises the exception that ended the run, if there is one. Needs the lock.
-  void raise() const {
-    if (error_) std::rethrow_exception(error_);
+  /// Raises the exception that ended the run, if there is one, and only once. Needs the lock.
+  void raise() {
+    if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
   }
   void raise_if_stopped() {
     if (!stop_requested()) return;

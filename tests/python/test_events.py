@@ -1,13 +1,16 @@
 """Damage analyses row by row."""
 
+import os
+import signal
 import tempfile
+import threading
 import unittest
 from pathlib import Path
 
 import numpy as np
 
 import perilink
-from test_cases import STRIP
+from test_cases import EXAMPLES, STRIP
 
 
 def strip_with_gauge() -> perilink.Case:
@@ -71,6 +74,16 @@ class Events(unittest.TestCase):
                 break
         self.assertEqual(np.count_nonzero(run.stiffness_ratios == 0.0), row.broken_bonds)
         self.assertGreater(run.damage.max(), 0.0)
+
+    def test_ctrl_c_ends_a_run(self):
+        run = perilink.EventRun(perilink.build(perilink.read_case(EXAMPLES / "notched_beam.toml")))
+        next(run)
+        threading.Timer(0.1, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+        with self.assertRaises(KeyboardInterrupt):
+            for _ in run:
+                pass
+        self.assertEqual(list(run), [])
+        self.assertEqual(run.result["status"], "interrupted")
 
     def test_a_run_goes_on_from_a_saved_state(self):
         problem = perilink.build(strip_with_gauge())

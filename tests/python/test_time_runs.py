@@ -1,6 +1,9 @@
 """Explicit runs and relaxations row by row."""
 
 import gc
+import os
+import signal
+import threading
 import unittest
 
 import numpy as np
@@ -86,6 +89,16 @@ class TimeRuns(unittest.TestCase):
         next(run)
         del run
         gc.collect()
+
+    def test_ctrl_c_ends_the_run(self):
+        case = moving_strip(duration=50.0, ramp_time=50.0, rows=2)
+        run = perilink.TimeRun(perilink.build(case))
+        next(run)
+        threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+        with self.assertRaises(KeyboardInterrupt):
+            next(run)
+        self.assertEqual(list(run), [])
+        self.assertEqual(run.result["status"], "interrupted")
 
     def test_other_analyses_are_refused(self):
         with self.assertRaisesRegex(perilink.InputError, "TimeRun follows"):
