@@ -29,7 +29,7 @@ class EventRun(Iterator[_core.EventRow]):
     Rows equal those of `run`. After a missed release of host elements the run starts again with
     these elements released, as `run` does: ``row.step`` is 1 again, and the rows before do not
     count. `result` gives the number of such restarts as ``missed_releases``. Ctrl-C raises
-    KeyboardInterrupt and ends the run.
+    KeyboardInterrupt; while a row is computed it ends the run.
 
     Args:
         problem: from `build`, of a case with ``type = "damage"``

@@ -23,7 +23,8 @@ class TimeRun(Iterator[_core.TimeRow]):
                 break
 
     Rows equal those of `run`; a stop rule by a gauge ends both. Arrays are copies of the state in
-    the last row. Ctrl-C raises KeyboardInterrupt and ends the run.
+    the last row. Ctrl-C raises KeyboardInterrupt; while a row is computed it ends
+    the run.
 
     Args:
         problem: from `build`, of a case with ``type = "explicit"`` or ``"relaxation"``
