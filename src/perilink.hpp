@@ -13,6 +13,7 @@
 #include "base/error.hpp"
 #include "discretization/bonds.hpp"
 #include "io/case/case_file.hpp"
+#include "io/case/sections/case_kinds.hpp"
 #include "io/fields/vtu.hpp"
 #include "io/text/csv.hpp"
 #include "model/from_case/configure.hpp"
@@ -53,11 +54,15 @@ inline Model build(const CaseFile& input, const CalibrationCalls& calibration = 
   return build_model(input, calibration);
 }
 
-/// Solves for the elastic equilibrium at load factor 1, whatever the analysis type of the case; with
-/// stages under the loads of the first.
+/// Solves for the elastic equilibrium at load factor 1, whatever the analysis type of the case;
+/// with stages under the loads of the first.
 /// \throws SolverError when the stiffness matrix is not positive definite
 inline ElasticAnswer solve(const CaseFile& input, const Model& model, int threads = 1) {
-  return solve_elastic(model, elastic_options(input, threads));
+  const ElasticOptions options = elastic_options(input, threads);
+  if (is_quasistatic(input.analysis.type) || model.elements) return solve_elastic(model, options);
+  Model still = model;  // runs over time have no unknowns for embedded points, nor follow them
+  carry_embedded_points(still.network, still.unknowns);
+  return solve_elastic(still, options);
 }
 
 }  // namespace perilink

@@ -141,7 +141,7 @@ class Problems(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, text):
                 perilink.Mesh(*arguments)
 
-    def test_an_open_crack_is_open_in_the_first_stage_too(self):
+    def test_an_open_crack_is_open_in_all_kinds_of_cases(self):
         case = perilink.parse_case(STRIP)
         case["materials"][0].update({"tensile_strength": 0.3, "softening": "linear"})
         case["cracks"] = [{"points": [[0, 40], [20, 40]], "closing": True}]
@@ -149,6 +149,15 @@ class Problems(unittest.TestCase):
         case["stages"] = [{"name": "pull", "to": 0.5}]
         staged = perilink.solve(perilink.build(case))
         np.testing.assert_array_equal(staged.displacement, single.displacement)
+        del case["stages"]
+        case["materials"][0]["density"] = 1e-9
+        for analysis in ({"type": "elastic"}, {"type": "explicit", "duration": 1.0},
+                         {"type": "relaxation"}):
+            case["analysis"] = analysis
+            other = perilink.solve(perilink.build(case))
+            np.testing.assert_allclose(other.displacement, single.displacement, rtol=1e-12,
+                                       atol=1e-15, err_msg=analysis["type"])
+        del case["analysis"]
         del case["cracks"]
         whole = perilink.solve(perilink.build(case))
         self.assertGreater(single.strain_energy, 1.1 * whole.strain_energy)
