@@ -55,4 +55,13 @@ pybind11::array_t<T> owning_array(std::vector<T> values) {
   return owning_array(std::move(values), {size});
 }
 
+/// Returns values of the gauges of a model by their names.
+inline pybind11::dict gauge_dict(const Model& model, const std::vector<double>& values) {
+  pybind11::dict gauges;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    gauges[pybind11::str(model.gauges[k].name)] = values[k];
+  }
+  return gauges;
+}
+
 }  // namespace perilink

@@ -149,12 +149,7 @@ py::object stress_of(Stepper& stepper) {
 py::dict gauges_of(Stepper& stepper) {
   const Model& model = stepper.built().model;
   Csr neighbourhoods;
-  const std::vector<double> values = gauge_values(model, stepper.state(), neighbourhoods);
-  py::dict gauges;
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    gauges[py::str(model.gauges[k].name)] = values[k];
-  }
-  return gauges;
+  return gauge_dict(model, gauge_values(model, stepper.state(), neighbourhoods));
 }
 
 py::dict result_of(Stepper& stepper) {

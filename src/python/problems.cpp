@@ -123,15 +123,12 @@ py::dict solve_problem(const BuiltCase& built, int threads) {
   const Network& network = built.model.network;
   const py::ssize_t particles = network.particles.size();
   const StepRecord& row = found.answer.row;
-  py::dict result, gauges, reactions;
+  py::dict result, reactions;
   result["displacement"] = owning_array(std::move(found.answer.solution.displacement),
                                         {particles, py::ssize_t{network.width()}});
   result["stress"] = py::none();
   if (!found.stress.empty()) {
     result["stress"] = owning_array(std::move(found.stress), {particles, py::ssize_t{6}});
-  }
-  for (std::size_t k = 0; k < found.gauges.size(); ++k) {
-    gauges[py::str(built.model.gauges[k].name)] = found.gauges[k];
   }
   for (const auto& [name, reaction] : found.reactions) {
     py::dict entry;
@@ -140,7 +137,7 @@ py::dict solve_problem(const BuiltCase& built, int threads) {
     entry["moment"] = std::vector<double>(reaction.moment.begin(), reaction.moment.end());
     reactions[py::str(name)] = entry;
   }
-  result["gauges"] = gauges;
+  result["gauges"] = gauge_dict(built.model, found.gauges);
   result["reactions"] = reactions;
   result["load"] = row.load;
   result["load_displacement"] = row.displacement;

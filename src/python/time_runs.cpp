@@ -176,15 +176,6 @@ py::object stress_of(TimeStepper& stepper) {
                       {now.network.particles.size(), py::ssize_t{6}});
 }
 
-py::dict gauges_of(TimeStepper& stepper) {
-  const std::vector<double> values = stepper.gauges();
-  py::dict gauges;
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    gauges[py::str(stepper.built().model.gauges[k].name)] = values[k];
-  }
-  return gauges;
-}
-
 py::object result_of(const TimeStepper& stepper) {
   if (!stepper.end()) return py::none();
   py::dict result;
@@ -242,7 +233,7 @@ void bind_time_runs(py::module_& module) {
            [](const TimeStepper& s) { return owning_array(s.state().bonds.secants()); })
       .def("damage", damage_of)
       .def("stress", stress_of)
-      .def("gauges", gauges_of)
+      .def("gauges", [](TimeStepper& s) { return gauge_dict(s.built().model, s.gauges()); })
       .def("result", result_of);
 }
 

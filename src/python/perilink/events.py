@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from os import PathLike, fspath
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from . import _core
+from .row_run import RowRun
 
 EventRow = _core.EventRow
 DamageState = _core.DamageState
 
 
-class EventRun(Iterator[_core.EventRow]):
+class EventRun(RowRun[_core.EventRow, _core.Stepper]):
     """A damage analysis that is advanced row by row: step, look, stop, save, go on.
 
     ::
@@ -53,43 +50,6 @@ class EventRun(Iterator[_core.EventRow]):
         if isinstance(state, (str, PathLike)):
             state = _core.read_state(fspath(state), problem)
         self._stepper = _core.Stepper(problem, state, threads or 0)
-
-    def __iter__(self) -> EventRun:
-        return self
-
-    def __next__(self) -> _core.EventRow:
-        row = self._stepper.next()
-        if row is None:
-            raise StopIteration
-        return row
-
-    @property
-    def displacement(self) -> NDArray[np.float64]:
-        """Motion of the particles in the last row, shape (particles, width) [length], [-]."""
-        return self._stepper.displacement()
-
-    @property
-    def damage(self) -> NDArray[np.float64]:
-        """Damage of the particles, shape (particles,) [-]."""
-        return self._stepper.damage()
-
-    @property
-    def stress(self) -> NDArray[np.float64] | None:
-        """Stress of the particles, shape (particles, 6): xx, yy, zz, xy, yz, xz [force/length^2].
-
-        None for shells and beams.
-        """
-        return self._stepper.stress()
-
-    @property
-    def stiffness_ratios(self) -> NDArray[np.float64]:
-        """Present over intact stiffness of the elements, 0: broken, shape (elements,) [-]."""
-        return self._stepper.stiffness_ratios()
-
-    @property
-    def gauges(self) -> dict[str, float]:
-        """Values of the gauges by name."""
-        return self._stepper.gauges()
 
     @property
     def result(self) -> dict[str, Any]:

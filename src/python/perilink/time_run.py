@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
+from .row_run import RowRun
 
 TimeRow = _core.TimeRow
 
 
-class TimeRun(Iterator[_core.TimeRow]):
+class TimeRun(RowRun[_core.TimeRow, _core.TimeStepper]):
     """An explicit run or a relaxation of bonds that is advanced row by row.
 
     ::
@@ -23,8 +22,8 @@ class TimeRun(Iterator[_core.TimeRow]):
                 break
 
     Rows equal those of `run`; a stop rule by a gauge ends both. Arrays are copies of the state in
-    the last row. Ctrl-C raises KeyboardInterrupt; while a row is computed it ends
-    the run.
+    the last row. Ctrl-C raises KeyboardInterrupt; while a row is computed it ends the
+    run.
 
     Args:
         problem: from `build`, of a case with ``type = "explicit"`` or ``"relaxation"``
@@ -39,20 +38,6 @@ class TimeRun(Iterator[_core.TimeRow]):
         self.problem = problem
         self._stepper = _core.TimeStepper(problem, threads or 0)
 
-    def __iter__(self) -> TimeRun:
-        return self
-
-    def __next__(self) -> _core.TimeRow:
-        row = self._stepper.next()
-        if row is None:
-            raise StopIteration
-        return row
-
-    @property
-    def displacement(self) -> NDArray[np.float64]:
-        """Motion of the particles, shape (particles, width) [length], [-]."""
-        return self._stepper.displacement()
-
     @property
     def velocity(self) -> NDArray[np.float64]:
         """Velocity half a time step earlier, shape (particles, width) [length/time], [1/time].
@@ -60,29 +45,6 @@ class TimeRun(Iterator[_core.TimeRow]):
         In a relaxation it is that of the damped motion.
         """
         return self._stepper.velocity()
-
-    @property
-    def damage(self) -> NDArray[np.float64]:
-        """Damage of the particles, shape (particles,) [-]."""
-        return self._stepper.damage()
-
-    @property
-    def stress(self) -> NDArray[np.float64] | None:
-        """Stress of the particles, shape (particles, 6): xx, yy, zz, xy, yz, xz [force/length^2].
-
-        None with Green's strains and for state-based particles.
-        """
-        return self._stepper.stress()
-
-    @property
-    def stiffness_ratios(self) -> NDArray[np.float64]:
-        """Present over intact stiffness of the elements, 0: broken, shape (elements,) [-]."""
-        return self._stepper.stiffness_ratios()
-
-    @property
-    def gauges(self) -> dict[str, float]:
-        """Values of the gauges by name."""
-        return self._stepper.gauges()
 
     @property
     def result(self) -> dict[str, str] | None:
