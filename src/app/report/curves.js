@@ -5,6 +5,9 @@ const lineColors = () => isDark()
   : ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00"];
 const escaped = (text) => text.replace(/[&<>"']/g, (letter) => "&#" + letter.charCodeAt(0) + ";");
 
+// Columns that are not zero in the undeformed state, or have no value there (plot_command.cpp).
+const beginsAtZero = (name) => !["residual", "factorizations", "element", "events", "stage",
+  "avalanche", "side_change", "elements", "step"].includes(name);
 const stageOf = (run, number) => listOf(run.summary.stages)[number - 1] || {};
 
 // Curves of some columns over another one, for all runs. `pick` is called with a run and a row.
@@ -53,6 +56,8 @@ class Chart {
       const of = this.runs.length > 1 ? run.name + (this.y.length > 1 ? ": " : "") : "";
       const base = of + (this.y.length > 1 || !of ? words(name) : "");
       const envelope = this.x === "displacement" && name === "load" && run.rows.envelope;
+      // Before the first row the body is at rest.
+      const origin = beginsAtZero(this.x) && beginsAtZero(name) ? [[0, 0, -1]] : [];
       let curve = null;
       for (let row = 0; row < x.length; ++row) {
         const number = stage ? stage[row] : 0;
@@ -61,7 +66,7 @@ class Chart {
             facts.loads === stageOf(run, curve.stage).loads;
           const own = stage ? `${base}, ${facts.name || "stage " + number}` : base;
           const at = this.y.length > 1 ? k : stage ? r + number - 1 : r;
-          curve = { run, label: own, color: color(at), stage: number, points: [],
+          curve = { run, label: own, color: color(at), stage: number, points: curve ? [] : origin,
             dash: this.y.length > 1 && r > 0 ? [7, 3 + 2 * r] : null,
             pale: Boolean(envelope), width: envelope ? 0.8 : 1.6 };
           // A stage that changes the loads of the stage before continues its curve.
@@ -72,7 +77,7 @@ class Chart {
       }
       if (!envelope) return;
       list.push({ run, label: (of ? of + ", " : "") + "smoothed curve of equal energy", color: color(r),
-        points: envelope.map(([u, p]) => [u, p, -1]), dash: null, pale: false, width: 2.6 });
+        points: [[0, 0, -1], ...envelope.map(([u, p]) => [u, p, -1])], dash: null, pale: false, width: 2.6 });
     }));
     list.forEach((curve, k) => (curve.key = k + " " + curve.label));
     return list;

@@ -48,13 +48,20 @@ function numbers(title, fits) {
       unit(key)]));
 }
 
+// Components of a vector, with the decimals of the largest one.
+function vectorText(parts) {
+  const largest = Math.max(...parts.map(Math.abs));
+  const decimals = largest > 0 ? Math.min(20, Math.max(0, 3 - Math.floor(Math.log10(largest)))) : 0;
+  return parts.map((part) => short(Number(part.toFixed(decimals)) || 0)).join(", ");
+}
+
 // Lists of a summary, as cracks and stages, with a column for each key.
 function listTables(key, title) {
   const entriesOf = (run) => listOf(run.summary[key]).filter((entry) => entry instanceof Object);
   return runs.filter((run) => entriesOf(run).length).map((run) => {
     const names = [...new Set(entriesOf(run).flatMap((entry) => Object.keys(entry)))];
     const text = (value) => (typeof value === "number" ? value : Array.isArray(value)
-      ? value.map((part) => short(part)).join(", ") : String(value ?? "–"));
+      ? vectorText(value) : String(value ?? "–"));
     const heading = (name) => (key === "cracks" && name === "bonds" ? "damaged bonds" : words(name));
     return tableOf(names.map((name) => withBrackets(heading(name), run.units[name])),
       entriesOf(run).map((entry) => names.map((name) => text(entry[name]))),
