@@ -15,16 +15,21 @@
 
 namespace perilink {
 
-/// Records the largest compression. Before the first break stresses are in proportion to the load.
-void DamageRun::note_compression(const StepRecord& record, const VtuGrid& grid) {
-  const bool by_stages = !input.stages.empty();
-  const double load = by_stages ? 1.0 : std::abs(record.load);
-  if (!(load > 0.0) || (!by_stages && files_->has_fields())) return;
-  const Compression here =
-      largest_compression(model_.network, grid.find_point_data("principal_stress")->values);
-  if (here.times / load > records_.compression.times) {
-    records_.compression = {here.stress / load, here.times / load};
+/// Returns the largest compression at a row: that of its fields where it has some. Else it is that
+/// of the first field file in proportion to the load, with stages the largest of all.
+Compression DamageRun::compression_at(const CurvePoint& row) const {
+  const std::vector<FieldCompression>& known = records_.compressions;
+  const auto own = std::ranges::find_if(known, [&](const FieldCompression& file) {
+    return file.row.load == row.load && file.row.displacement == row.displacement;
+  });
+  if (own != known.end()) return own->largest;
+  Compression largest;
+  for (const FieldCompression& file : known) {
+    if (file.largest.times > largest.times) largest = file.largest;
   }
+  if (!input.stages.empty() || known.empty() || known.front().row.load == 0.0) return largest;
+  const double scale = std::abs(row.load / known.front().row.load);
+  return {scale * known.front().largest.stress, scale * known.front().largest.times};
 }
 
 /// Whether fields are due: at the first row of the run and of each stage, and at requested rows,
@@ -53,7 +58,7 @@ ModelState DamageRun::model_state(const StepRecord& record, const StepState& sta
 }
 
 /// Returns the fields of a row and writes its tables.
-/// \param is_last  the row is the last one so far: its cracks and stresses count for the summary
+/// \param is_last  the row is the last one so far: its cracks count for the summary
 VtuGrid DamageRun::fields_of(const StepRecord& record, const StepState& state, bool is_last) {
   const Network& network = model_.network;
   if (neighbourhoods_.rows() == 0) {
@@ -79,10 +84,11 @@ VtuGrid DamageRun::fields_of(const StepRecord& record, const StepState& state, b
     if (!cracks.empty()) {
       files_->write_table("cracks", record.step, crack_table(cracks, network.dim()));
     }
-    if (is_last) {
-      note_compression(record, grid);
-      records_.cracks = cracks;
-    }
+    records_.compressions.push_back(
+        {{record.displacement, record.load},
+         largest_compression(network, grid.find_point_data("principal_stress")->values,
+                             grid.find_point_data("damage")->values)});
+    if (is_last) records_.cracks = cracks;
   }
   write_reactions(record, places_held_, model_state(record, state), records_.balance);
   if (!network.bars.bar.empty()) {

@@ -195,12 +195,8 @@ void DamageRun::tell(Summary& summary) const {
 
 /// Reports quantities of the bonds at the peak and at the end, with warnings.
 void DamageRun::tell_stresses(Summary& summary, Equilibria& found) const {
-  const auto at = [&](double load) {
-    const double scale = input.stages.empty() ? std::abs(load) : 1.0;
-    return Compression{scale * records_.compression.stress, scale * records_.compression.times};
-  };
   constexpr double round_off = 1e-6;
-  const Compression at_peak = at(result_.peak_load);
+  const Compression at_peak = compression_at({result_.peak_displacement, result_.peak_load});
   if (at_peak.times > round_off) summary.add("largest_compression", at_peak.stress);
   if (softened_.cracks + softened_.diffuse > 0.0) {
     summary.add("diffuse_energy", softened_.diffuse);
@@ -215,7 +211,7 @@ void DamageRun::tell_stresses(Summary& summary, Equilibria& found) const {
                          : std::nullopt) {
     found.warnings.push_back(std::move(*warning));
   }
-  for (auto& warning : {warning_about_compression(at(result_.peaks.highest().load)),
+  for (auto& warning : {warning_about_compression(compression_at(result_.peaks.highest())),
                         warning_about_diffuse_softening(softened_, short_horizon)}) {
     if (warning) found.warnings.push_back(*warning);
   }

@@ -38,6 +38,16 @@ class DamageRun final : public NetworkRun {
       archive(load, load_factor, places);
     }
   };
+  /// Largest compression in a field file.
+  struct FieldCompression {
+    CurvePoint row;
+    Compression largest;
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(row, largest);
+    }
+  };
   /// Records of the rows so far.
   struct Records {
     Index missed_releases = 0;        ///< number of restarts after a missed release
@@ -54,15 +64,15 @@ class DamageRun final : public NetworkRun {
     std::vector<GrownCrack> cracks;   ///< in the last field file
     std::vector<HighRow> high_rows;
     PeakStates peaks;
-    Index written_peak = 0;   ///< row of the fields written as those of the peak so far; 0: none
-    Compression compression;  ///< at unit load; with stages the largest of all field files
+    Index written_peak = 0;  ///< row of the fields written as those of the peak so far; 0: none
+    std::vector<FieldCompression> compressions;  ///< of all field files
     ReactionBalance balance;
 
     template <class Archive>
     void serialize(Archive& archive) {
       archive(missed_releases, whole, checkpoint_rows, broken, last_element, last_events,
               broken_at_fields, last_stage, highest, gauges, set_factors, cracks, high_rows, peaks,
-              written_peak, compression, balance);
+              written_peak, compressions, balance);
     }
   };
 
@@ -72,7 +82,7 @@ class DamageRun final : public NetworkRun {
   double scale_of(const StepRecord& record) const;
   ModelState model_state(const StepRecord& record, const StepState& state) const;
   void note_places(const StepRecord& record, StateSource& source);
-  void note_compression(const StepRecord& record, const VtuGrid& grid);
+  Compression compression_at(const CurvePoint& row) const;
   std::vector<RegionForce> places_at_peak() const;
   void tell_stresses(Summary& summary, Equilibria& found) const;
   void tell_elements(Summary& summary) const;

@@ -138,12 +138,14 @@ std::string warning_about_crushing(const CurvePoint& largest) {
       largest.load, largest.displacement);
 }
 
-Compression largest_compression(const Network& network, std::span<const double> principal) {
+Compression largest_compression(const Network& network, std::span<const double> principal,
+                                std::span<const double> damage) {
+  constexpr double most_damage = 0.5;
   Compression worst;
   if (network.has_crushing()) return worst;
   for (std::size_t i = 0; 3 * i < principal.size(); ++i) {
     const Index material = network.particles.material[i];
-    if (material == no_index || network.strengths.empty()) continue;
+    if (material == no_index || network.strengths.empty() || damage[i] > most_damage) continue;
     const double strength = network.strengths[material].tensile_strength;
     if (!(strength > 0.0)) continue;
     const double stress = -*std::min_element(&principal[3 * i], &principal[3 * i] + 3);

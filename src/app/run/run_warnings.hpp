@@ -81,7 +81,9 @@ struct Compression {
 
 /// Returns the largest compression of particles without a crushing law.
 /// \param principal  stresses, shape (particles, 3)
-Compression largest_compression(const Network& network, std::span<const double> principal);
+/// \param damage     of the particles; those above one half are left out: loose pieces of a crack
+Compression largest_compression(const Network& network, std::span<const double> principal,
+                                std::span<const double> damage);
 
 /// Returns a warning about compression above ten times the tensile strength.
 std::optional<std::string> warning_about_compression(const Compression& at_largest_load);

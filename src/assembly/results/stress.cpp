@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 
 #include "assembly/results/bond_strain.hpp"
@@ -99,17 +100,32 @@ bool fit_gradient(std::span<const double> offsets, std::span<const double> /*mar
 }
 
 bool is_damaged(const StressInput& input, Index particle) {
-  if (input.secants.size() == 0) return false;
   return std::ranges::any_of(input.neighbourhoods.row(particle), [&](Index e) {
     return e < input.network.first_contact() && input.secants.least(e) < 1.0;
   });
 }
 
+/// Returns, per particle, whether one of its bonds is damaged; empty where all bonds are intact.
+std::vector<std::uint8_t> damaged_particles(const StressInput& input) {
+  std::vector<std::uint8_t> damaged;
+  if (input.secants.size() == 0) return damaged;
+  const Network& network = input.network;
+  for (Index e = 0; e < network.first_contact(); ++e) {
+    if (!(input.secants.least(e) < 1.0)) continue;
+    damaged.resize(static_cast<std::size_t>(network.particles.size()), 0);
+    damaged[network.bonds.first[e]] = damaged[network.bonds.second[e]] = 1;
+  }
+  return damaged;
+}
+
 template <int Dim>
 class StressFinder {
  public:
-  StressFinder(const StressInput& input, std::span<const double> motion)
+  /// \param damaged  damaged_particles(); null: they are looked for where they matter
+  StressFinder(const StressInput& input, std::span<const double> motion,
+               const std::vector<std::uint8_t>* damaged = nullptr)
       : input_(input),
+        damaged_(damaged),
         motion_(motion),
         gradients_(input.network.particles, motion, input.network.width(), fit_gradient<Dim>),
         surface_gradients_(input.network.particles, motion, input.network.width(),
@@ -118,19 +134,36 @@ class StressFinder {
   Stress at(Index particle);
 
  private:
+  bool is_continuous(Index particle) const;
   Eigen::Matrix3d strain_at(Index particle);
 
   const StressInput& input_;
+  const std::vector<std::uint8_t>* damaged_;
   std::span<const double> motion_;
   NeighborGradients<Dim> gradients_, surface_gradients_;
   std::vector<Index> neighbors_;
   std::vector<double> marks_;
 };
 
+/// Returns whether the displacements near a particle are those of one continuous body: it has no
+/// damaged bond, and none of its neighbours has one. Intact bonds along a crack may join its faces.
+template <int Dim>
+bool StressFinder<Dim>::is_continuous(Index particle) const {
+  if (input_.secants.size() == 0 || (damaged_ != nullptr && damaged_->empty())) return true;
+  const auto is_whole = [&](Index i) {
+    return damaged_ != nullptr ? (*damaged_)[i] == 0 : !is_damaged(input_, i);
+  };
+  return is_whole(particle) &&
+         std::ranges::all_of(input_.neighbourhoods.row(particle), [&](Index e) {
+           return e >= input_.network.first_contact() ||
+                  is_whole(input_.network.bonds.other_end(e, particle));
+         });
+}
+
 template <int Dim>
 Eigen::Matrix3d StressFinder<Dim>::strain_at(Index particle) {
   Eigen::Matrix3d strain = Eigen::Matrix3d::Zero();
-  if (is_damaged(input_, particle)) {
+  if (!is_continuous(particle)) {
     const SymmetricTensor e =
         bond_strain(input_.network, input_.neighbourhoods, input_.secants, motion_, particle);
     strain << e[0], e[3], e[5], e[3], e[1], e[4], e[5], e[4], e[2];
@@ -162,9 +195,10 @@ std::vector<double> stresses_in(const StressInput& input, std::span<const double
   const std::size_t width = Stress{}.size();
   std::vector<double> stresses(width * static_cast<std::size_t>(particles.size()), 0.0);
   constexpr Index block = NeighborGradients<Dim>::block;
+  const std::vector<std::uint8_t> damaged = damaged_particles(input);
 #pragma omp parallel for schedule(dynamic)
   for (Index begin = 0; begin < particles.size(); begin += block) {
-    StressFinder<Dim> finder(input, motion);
+    StressFinder<Dim> finder(input, motion, &damaged);
     for (Index i = begin; i < std::min(begin + block, particles.size()); ++i) {
       if (particles.kind[i] != ParticleKind::solid) continue;
       const Stress stress = finder.at(i);

@@ -142,6 +142,54 @@ TEST(PeakFieldsOfARun, AreLeftOutOnDemand) {
   EXPECT_EQ(run.series().size(), 2u);
 }
 
+/// Intact bonds along the crack join its faces, whose displacements differ by its opening.
+TEST(StressFields, StayWithinTheStrengthBesideAnOpenCrack) {
+  const test::WholeRun run(R"(regions = [
+  {name = "strip", x = [0, 100], y = [0, 200]},
+  {name = "lower", x = [0, 100], y = [0, 0]},
+  {name = "upper", x = [0, 100], y = [200, 200]},
+]
+[body]
+spacing = 5.0
+horizon = 15.0
+[[materials]]
+region = "strip"
+youngs_modulus = 30e3
+tensile_strength = 3.0
+fracture_energy = 0.1
+[[cracks]]
+points = [[0, 100], [50, 100]]
+[[supports]]
+region = "lower"
+fix = ["x", "y"]
+[[displacements]]
+region = "upper"
+y = 1.0
+[stop]
+load_fraction = 0.1
+)");
+  const VtuGrid grid = run.fields(run.series().size() - 1);
+  const std::vector<double>& stress = grid.find_point_data("principal_stress")->values;
+  EXPECT_GT(*std::ranges::max_element(grid.find_point_data("crack_opening")->values), 0.08);
+  EXPECT_LT(*std::ranges::max_element(stress), 3.0);
+  EXPECT_GT(*std::ranges::min_element(stress), -3.0);
+
+  // The summary has the compression of the damaged body at the peak.
+  const double peak = run.summary.json["peak_load"];
+  std::size_t file = 0;
+  while (file < run.series().size() && run.fields(file).field("load", 0.0) != peak) ++file;
+  ASSERT_LT(file, run.series().size());
+  const VtuGrid at_peak = run.fields(file);
+  const std::vector<double>& damage = at_peak.find_point_data("damage")->values;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < damage.size(); ++i) {
+    if (damage[i] > 0.5) continue;
+    largest = std::max(largest, -at_peak.find_point_data("principal_stress")->values[3 * i + 2]);
+    largest = std::max(largest, -at_peak.find_point_data("principal_stress")->values[3 * i + 1]);
+  }
+  EXPECT_NEAR(run.summary.json["largest_compression"].get<double>(), largest, 1e-12 * largest);
+}
+
 TEST(NotesOfARun, TellWhetherTheLoadWasStillGrowing) {
   CaseFile input = parse_case(softening_notched_plate(moved_top), "");
   const auto growing = testing::Contains(testing::HasSubstr("still growing at the end"));

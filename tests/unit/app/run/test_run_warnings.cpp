@@ -58,18 +58,19 @@ TEST(RunWarnings, NameWorkThatIsStillMotion) {
 
 TEST(RunWarnings, NameCompressionBeyondTenTimesTheTensileStrength) {
   Network network;
-  network.particles.material = {0, 1, no_index, 0};
+  network.particles.material = {0, 1, no_index, 0, 0};
   network.strengths = {{4.0}, {}};  // the second material cannot break
-  const std::vector<double> principal = {1.0, -41.0, 0.0, 0.0, -90.0, 0.0,
-                                         0.0, -80.0, 0.0, 2.0, 0.0,   -8.0};
-  const Compression at_peak = largest_compression(network, principal);
+  const std::vector<double> principal = {1.0, -41.0, 0.0, 0.0,  -90.0, 0.0,   0.0, -80.0,
+                                         0.0, 2.0,   0.0, -8.0, 0.0,   -50.0, 0.0};
+  const std::vector<double> damage = {0.4, 0.0, 0.0, 0.0, 0.6};  // the last one is a loose piece
+  const Compression at_peak = largest_compression(network, principal, damage);
   EXPECT_EQ(at_peak.stress, 41.0);
   EXPECT_EQ(at_peak.times, 10.25);
   EXPECT_THAT(warning_about_compression(at_peak).value(),
               AllOf(HasSubstr("no crushing law"), HasSubstr("is 41, 10.2 times the tensile")));
   EXPECT_FALSE(warning_about_compression({39.0, 9.75}));
   network.laws = {BondLaw::brittle().crushing({{1.0, 1.0}}, 1.0, false)};
-  EXPECT_EQ(largest_compression(network, principal).stress, 0.0) << "it can crush";
+  EXPECT_EQ(largest_compression(network, principal, damage).stress, 0.0) << "it can crush";
 }
 
 /// Two bonds of length 2 and stiffness 3 with segments that take 0.05 and 0.95 of 10 (their areas
