@@ -30,7 +30,8 @@ bool fit_linear(std::span<const double> offsets, std::span<const double> /*marks
 
 template <int Dim>
 void fill_principal_strains(const Network& network, const Csr& neighbourhoods, Secants secants,
-                            std::span<const double> displacement, std::vector<double>& strains) {
+                            std::span<const double> displacement, Strain measure,
+                            std::vector<double>& strains) {
   using Matrix = Eigen::Matrix<double, Dim, Dim>;
   constexpr Index block = NeighborGradients<Dim>::block;
 #pragma omp parallel for schedule(dynamic)
@@ -44,7 +45,8 @@ void fill_principal_strains(const Network& network, const Csr& neighbourhoods, S
       }
       Matrix gradient;
       if (!gradients.find(i, neighbors, gradient)) continue;
-      const Matrix strain = 0.5 * (gradient + gradient.transpose());
+      Matrix strain = 0.5 * (gradient + gradient.transpose());
+      if (measure == Strain::green) strain += 0.5 * gradient.transpose() * gradient;
       const auto principal = Eigen::SelfAdjointEigenSolver<Matrix>(strain, Eigen::EigenvaluesOnly)
                                  .eigenvalues()
                                  .eval();
@@ -58,16 +60,19 @@ void fill_principal_strains(const Network& network, const Csr& neighbourhoods, S
 /// Calls visit(element, energy [force length]) for every element.
 template <class Visit>
 void for_each_truss_energy(const Network& network, Secants secants,
-                           std::span<const double> displacement, Visit visit) {
+                           std::span<const double> displacement, Strain measure, Visit visit) {
   const Bonds& bonds = network.bonds;
   const int dim = network.dim();
   for (Index e = 0; e < bonds.size(); ++e) {
     const auto n = bonds.direction(e);
-    double extension = 0.0;
+    double extension = 0.0, square = 0.0;
     for (int axis = 0; axis < dim; ++axis) {
-      extension += n[axis] * (displacement[static_cast<std::size_t>(bonds.second[e]) * dim + axis] -
-                              displacement[static_cast<std::size_t>(bonds.first[e]) * dim + axis]);
+      const double apart = displacement[static_cast<std::size_t>(bonds.second[e]) * dim + axis] -
+                           displacement[static_cast<std::size_t>(bonds.first[e]) * dim + axis];
+      extension += n[axis] * apart;
+      square += apart * apart;
     }
+    if (measure == Strain::green) extension += 0.5 * square / bonds.length(e);
     visit(e, 0.5 * network.stiffness[e] * secants.axial(e) * extension * extension);
   }
 }
@@ -133,7 +138,7 @@ std::vector<double> rotations(const Network& network, std::span<const double> mo
 }
 
 std::vector<double> strain_energy_density(const Network& network, Secants secants,
-                                          std::span<const double> motion) {
+                                          std::span<const double> motion, Strain measure) {
   std::vector<double> density(network.particles.volumes.size(), 0.0);
   const auto add = [&](Index e, double energy) {
     density[network.bonds.first[e]] += energy;
@@ -141,7 +146,7 @@ std::vector<double> strain_energy_density(const Network& network, Secants secant
     density[network.is_contact(e) ? network.bonds.first[e] : network.bonds.second[e]] += energy;
   };
   if (!network.carries_moments()) {
-    for_each_truss_energy(network, secants, motion, add);
+    for_each_truss_energy(network, secants, motion, measure, add);
   } else if (network.dim() == 2) {
     for_each_frame_energy<2>(network, secants, motion, add);
   } else {
@@ -202,12 +207,13 @@ std::vector<double> face_strains(const Network& network, const Csr& neighbourhoo
 }
 
 std::vector<double> principal_strains(const Network& network, const Csr& neighbourhoods,
-                                      Secants secants, std::span<const double> displacement) {
+                                      Secants secants, std::span<const double> displacement,
+                                      Strain measure) {
   std::vector<double> strains(displacement.size(), 0.0);
   if (network.dim() == 2) {
-    fill_principal_strains<2>(network, neighbourhoods, secants, displacement, strains);
+    fill_principal_strains<2>(network, neighbourhoods, secants, displacement, measure, strains);
   } else {
-    fill_principal_strains<3>(network, neighbourhoods, secants, displacement, strains);
+    fill_principal_strains<3>(network, neighbourhoods, secants, displacement, measure, strains);
   }
   return strains;
 }

@@ -108,11 +108,12 @@ VtuGrid make_field_grid(const Network& network, Secants secants, std::span<const
       {"region", 1, as_doubles(network.particles.material)},
       {"kind", 1, as_doubles(network.particles.kind)},
       {"volume", 1, network.particles.volumes},
-      {"strain_energy_density", 1, strain_energy_density(network, secants, motion)},
+      {"strain_energy_density", 1, strain_energy_density(network, secants, motion, moment.strain)},
       {"principal_strain", 3,
        network.shell ? face_strains(network, neighbourhoods, secants, motion)
-                     : padded_to_three(
-                           principal_strains(network, neighbourhoods, secants, displacement), dim)},
+                     : padded_to_three(principal_strains(network, neighbourhoods, secants,
+                                                         displacement, moment.strain),
+                                       dim)},
   };
   if (network.carries_moments()) {
     grid.point_data.push_back({"rotation", dim == 2 ? 1 : 3, rotations(network, motion)});

@@ -10,6 +10,7 @@
 #include "base/csr.hpp"
 #include "discretization/hosts/hosts.hpp"
 #include "io/fields/vtu.hpp"
+#include "material/strain.hpp"
 #include "network/network.hpp"
 
 namespace perilink {
@@ -33,6 +34,7 @@ struct FieldMoment {
   double spacing = 0.0;                  ///< between particles [length]
   std::optional<double> time = {};       ///< time-dependent runs [time]
   std::optional<double> thickness = {};  ///< in the plane [length]
+  Strain strain = Strain::small;         ///< measure of strains and energies
 };
 
 /// Returns the state of a body as a grid. Points are the particles at their reference positions (z

@@ -79,6 +79,7 @@ void MovingBondsRun::write_state(const ExplicitRecord& record, const BondRunStat
     }
     FieldMoment moment = moment_of(record, input, model_);
     moment.time = record.time;
+    moment.strain = input.analysis.strain;
     const bool bonds_break = !model_.network.has_states();
     std::vector<double> motion = state.motion.displacement;
     follow_particles(model_.network, motion);  // embedded points are not unknowns of these runs

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "assembly/fields.hpp"
@@ -47,6 +48,32 @@ TEST(StrainEnergyDensity, SumsToTheEnergyOfTheNetwork) {
       std::inner_product(density.begin(), density.end(), network.particles.volumes.begin(), 0.0);
   const double energy = internal_force(network, secants, displacement).energy;
   EXPECT_NEAR(sum, energy, 1e-13 * energy);
+}
+
+/// A body turned by 40 degrees after a stretch of 0.1 along the first axis.
+TEST(Fields, GreenStrainsDoNotSeeRotations) {
+  const double c = std::cos(0.7), s = std::sin(0.7), stretch = 1.1;
+  for (const Pattern pattern : {Pattern::hexagonal, Pattern::cubic}) {
+    const Network network = make_network({"", pattern, Surface::none}, 4);
+    const std::array<Vector3, 3> gradient = {
+        {{stretch * c - 1.0, -s, 0.0}, {stretch * s, c - 1.0, 0.0}, {0.0, 0.0, 0.0}}};
+    const auto displacement = linear_field(network.particles, gradient);
+    const std::vector<double> intact(static_cast<std::size_t>(network.num_elements()), 1.0);
+    const auto strains =
+        principal_strains(network, neighbourhoods_of(network), intact, displacement, Strain::green);
+    const double green = 0.5 * (stretch * stretch - 1.0);
+    const auto dim = static_cast<std::size_t>(network.dim());
+    for (std::size_t k = 0; k < strains.size(); ++k) {
+      EXPECT_NEAR(strains[k], k % dim == 0 ? green : 0.0, 1e-12);
+    }
+    const std::array<Vector3, 3> straight = {{{green, 0.0, 0.0}, {}, {}}};
+    const auto expected =
+        strain_energy_density(network, intact, linear_field(network.particles, straight));
+    const auto density = strain_energy_density(network, intact, displacement, Strain::green);
+    for (std::size_t i = 0; i < density.size(); ++i) {
+      EXPECT_NEAR(density[i], expected[i], 1e-12 * expected[i]);
+    }
+  }
 }
 
 TEST(Fields, PartTheMotionIntoDisplacementsAndRotations) {
