@@ -11,6 +11,7 @@
 #include "io/case/case_words.hpp"
 #include "model/body/horizon_limits.hpp"
 #include "network/bond_strength.hpp"
+#include "network/correction/joint.hpp"
 
 namespace perilink {
 namespace {
@@ -153,6 +154,36 @@ std::optional<std::string> unnotched_note(const CaseFile& input, const Model& mo
   return "the body has no notch, hole or pre-crack: in bending its strength exceeds that of one "
          "cohesive crack by 10 to 30 %, the more the shorter the horizon; random strength "
          "([[random]], variation 0.1, correlation_length of one horizon) leaves about 9 %";
+}
+
+std::optional<std::string> joint_note(const NetworkInput& input, const Model& model) {
+  const Network& network = model.network;
+  if (input.elastic || !input.interfaces.empty() || !network.calibration) return std::nullopt;
+  if (network.has_sections()) return std::nullopt;
+  std::vector<LameConstants> constants;
+  for (const SolidMaterial& m : input.materials) constants.push_back(lame_constants(input, m));
+  constexpr double alike = 1.05;
+  double largest = 1.0;
+  const Facets& facets = network.facets;
+  for (Index f = 0; f < facets.size(); ++f) {
+    if (facets.on_surface(f) || facets.is_tied(f)) continue;
+    const SolidMaterial& one = input.materials[facets.inside[f]];
+    const SolidMaterial& other = input.materials[facets.outside[f]];
+    if (!std::isfinite(energy_between(one, other))) continue;
+    const auto [least, most] = std::minmax(one.youngs_modulus, other.youngs_modulus);
+    largest = std::max(largest, most / least);
+  }
+  const bool is_layered =
+      input.draft
+          ? find_joint(facets, network.particles, constants, model.lattice.spacing).has_value()
+          : network.calibration->layered;
+  if (largest <= alike || is_layered) return std::nullopt;
+  return fmt::format(
+      "materials of unlike stiffness (moduli 1 and {:.3g}) meet, but not in parallel layers: a "
+      "crack along their joint dissipates less than the smaller fracture energy, 0.4 of it at "
+      "moduli 1 and 4, and begins at a lower load; where a crack may run along it, give strength "
+      "and energy of the joint by [[interfaces]]",
+      largest);
 }
 
 std::vector<std::string> random_notes(const NetworkInput& input, const Network& network) {

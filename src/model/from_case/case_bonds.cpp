@@ -212,9 +212,10 @@ void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, 
   model.network = build_case_network(input, body, network);
   refuse_cracks_without_bonds(input, model);
   refuse_unbreakable_bodies(input, model.network);
-  for (const auto& text : {short_horizon_note(model), unmeasured_cost_note(model),
-                           calibration_shortfall(model.network), path_note(input, model),
-                           unnotched_note(input, model), thin_body_note(input, model)}) {
+  for (const auto& text :
+       {short_horizon_note(model), unmeasured_cost_note(model),
+        calibration_shortfall(model.network), path_note(input, model), unnotched_note(input, model),
+        thin_body_note(input, model), joint_note(network, model)}) {
     if (text) model.notes.push_back(*text);
   }
   for (const std::string& text : strength_notes(input, model)) model.notes.push_back(text);

@@ -282,6 +282,7 @@ bool calibrate_layers(const Body& body, const NetworkInput& input, const Joint& 
   }
   std::vector<LayerBody> layers;
   CalibrationReport report;
+  report.layered = true;
   for (std::size_t k = 0; k < joint.layers.size(); ++k) {
     layers.push_back(cut_layer(body, input, whole, joint, k));
     calibrate(k, layers.back().body, layers.back().network);
