@@ -91,6 +91,15 @@ std::vector<std::pair<std::string, double>> field_data_of(const FieldMoment& mom
   return data;
 }
 
+/// Returns the volumes, zero for embedded points: their volume is that of a particle.
+std::vector<double> volumes_of_particles(const Particles& particles) {
+  std::vector<double> volumes = particles.volumes;
+  for (std::size_t i = 0; i < volumes.size(); ++i) {
+    if (particles.kind[i] == ParticleKind::embedded_point) volumes[i] = 0.0;
+  }
+  return volumes;
+}
+
 }  // namespace
 
 VtuGrid make_field_grid(const Network& network, Secants secants, std::span<const double> motion,
@@ -107,7 +116,7 @@ VtuGrid make_field_grid(const Network& network, Secants secants, std::span<const
       {"damage", 1, particle_damage(network, neighbourhoods, secants)},
       {"region", 1, as_doubles(network.particles.material)},
       {"kind", 1, as_doubles(network.particles.kind)},
-      {"volume", 1, network.particles.volumes},
+      {"volume", 1, volumes_of_particles(network.particles)},
       {"strain_energy_density", 1, strain_energy_density(network, secants, motion, moment.strain)},
       {"principal_strain", 3,
        network.shell ? face_strains(network, neighbourhoods, secants, motion)

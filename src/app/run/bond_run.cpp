@@ -143,6 +143,14 @@ void MovingBondsRun::on_end(const ExplicitRecord& last, const BondRunState& stat
   if (!model_.network.has_states()) loose_pieces_ = count_loose_pieces(model_, state);
 }
 
+void MovingBondsRun::warn_of_size(Summary& summary) const {
+  if (input.analysis.strain == Strain::green || input.supports.empty()) return;
+  if (auto warning =
+          warning_about_size(files().peaks().highest(), longest_side(model_.network.particles))) {
+    summary.add_warnings({std::move(*warning)});
+  }
+}
+
 void MovingBondsRun::on_iteration(Index load_step, Index iteration, double residual) {
   if (!files_->bar().is_due()) return;
   files_->bar().draw(fmt::format("load step {} of {}, iteration {}, residual {:.1e}", load_step,
@@ -194,6 +202,7 @@ class BondRun final : public MovingBondsRun {
     RunFacts facts = run_facts(input, length, files().peaks().highest().load);
     facts.loose_pieces = loose_pieces_;
     summary.add_warnings(warnings_about(result_, facts));
+    if (!facts.impact) warn_of_size(summary);
   }
 
  private:

@@ -32,6 +32,8 @@ class MovingBondsRun : public NetworkRun, protected BondRunObserver {
   bool wants_checkpoint(const ExplicitRecord& last) override;
   void on_checkpoint(const TimeState& state) override;
   void restore(const std::string& state) override;
+  /// Warns of displacements too large for small strains.
+  void warn_of_size(Summary& summary) const;
   void write_state(const ExplicitRecord& record, const BondRunState& state);
   /// \param motion  motion of the state, with the embedded points of bars
   void add_forces_and_cracks(VtuGrid& grid, const ExplicitRecord& record, const BondRunState& state,

@@ -32,6 +32,9 @@ ElasticAnswer solve_elastic(const Model& model, const ElasticOptions& options) {
   row.displacement = row.load != 0.0 ? 2.0 * energy / row.load : 0.0;
   row.residual = answer.solution.residual;
   row.factorizations = answer.solution.subdomains == 0 ? 1 : 0;
+  if (model.embedded) {
+    row.elements = static_cast<Index>(std::ranges::count(model.embedded->whole, 1));
+  }
   answer.peaks.add({row.displacement, row.load});
   return answer;
 }
@@ -198,8 +201,7 @@ void tell_quasistatic(Summary& summary, const CaseFile& input, const Model& mode
   summary.add("warnings", summary.warnings);
   tell_body(summary, model, ", " + counted(model.unknowns.count, "unknown"));
   if (model.embedded) {
-    const std::vector<std::uint8_t>& whole = model.embedded->whole;
-    const auto carrying = std::count(whole.begin(), whole.end(), 1);
+    const auto carrying = std::ranges::count(model.embedded->whole, 1);
     summary.add("elements", carrying);
     summary.line("elements", "{} particles with {}", counted(carrying, "constrains", "constrain"),
                  counted(model.embedded->free.count, "unknown"));

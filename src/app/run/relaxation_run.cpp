@@ -63,7 +63,8 @@ class RelaxationRun final : public MovingBondsRun {
                  energy.external_damping);
     tell_cracks(summary, cracks_);
     tell_body(summary, model_);
-    summary.add_warnings(warnings_at_rest(energy));
+    summary.add_warnings(warnings_at_rest(result_.last));
+    warn_of_size(summary);
     summary.rate = bond_rate(result_.iterations);
     summary.outcome =
         fmt::format("{}, {}, residual {:.2e}", counted(result_.iterations, "iteration"),

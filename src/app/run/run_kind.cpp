@@ -99,7 +99,8 @@ Summary summary_of(RunKind& run, const std::filesystem::path& directory) {
   summary.notes = run.notes;
   summary.json = summary_head(run.input, run.meshes, status, run_outcome.reason);
   summary.text = (run.input.title.empty() ? run.input.path : run.input.title) + "\n";
-  summary.line("ended", "{} ({})", status, run_outcome.reason);
+  summary.line("ended", "{}{}", status,
+               run_outcome.reason == status ? "" : " (" + run_outcome.reason + ")");
   run.tell(summary);
 
   summary.add("notes", summary.notes);

@@ -56,6 +56,7 @@ RunFacts run_facts(const CaseFile& input, double length, double peak_load) {
   RunFacts facts;
   facts.peak_load = peak_load;
   facts.impact = !input.velocities.empty();
+  facts.ramp_ends = facts.impact || input.analysis.ramp_time <= input.analysis.duration;
   facts.wave_time = std::isfinite(slowness) ? 2.0 * length * slowness : 0.0;
   return facts;
 }
@@ -81,19 +82,26 @@ std::vector<std::string> warnings_about(const ExplicitResult& result, const RunF
                     "use the reaction",
                     100.0 * difference / reaction, difference < reaction ? 2 : 3));
   }
+  if (!facts.ramp_ends && result.termination == Termination::completed) {
+    warnings.push_back(
+        fmt::format("the run ends at load factor {:.3g}: ramp_time is longer than duration",
+                    result.last.load_factor));
+  }
   warning_motion(result, facts, warnings);
   return warnings;
 }
 
-std::vector<std::string> warnings_at_rest(const EnergyBalance& energy) {
+std::vector<std::string> warnings_at_rest(const ExplicitRecord& last) {
+  const EnergyBalance& energy = last.energy;
   constexpr double most_surplus = 0.01;
   const double kept = energy.stored + energy.fractured;
   if (kept <= (1.0 + most_surplus) * energy.external_work) return {};
-  return {
-      fmt::format("the stored and dissipated energy {:.6g} exceeds the work of the load "
-                  "steps {:.6g}: bonds broke at larger loads than at the ends of their "
-                  "steps; use smaller steps in load_factors",
-                  kept, energy.external_work)};
+  return {fmt::format(
+      "the stored and dissipated energy {:.6g} exceeds the work of the load "
+      "steps {:.6g}: {}; use smaller steps in load_factors",
+      kept, energy.external_work,
+      last.broken_bonds > 0 ? "bonds broke at larger loads than at the ends of their steps"
+                            : "it is counted with the mean of the loads at the ends of a step")};
 }
 
 std::optional<std::string> warning_about_size(const CurvePoint& peak, double length) {
@@ -123,7 +131,7 @@ std::optional<std::string> warning_about_motion(double share) {
   constexpr double few = 0.01;  // strains around point loads are singular
   if (share <= few) return std::nullopt;
   return fmt::format(
-      "{:.2g} % of the body is stretched or rotated by more than a tenth, "
+      "{:.3g} % of the body is stretched or rotated by more than a tenth, "
       "beyond the range of the theory of small displacements; use smaller "
       "loads; are loads and moduli in units of one system?",
       100.0 * share);

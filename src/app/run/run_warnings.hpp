@@ -21,6 +21,7 @@ struct RunFacts {
   /// Time in which an elastic wave crosses the body and returns [time].
   double wave_time = 0.0;
   Index loose_pieces = 0;  ///< unsupported pieces of the body at the end
+  bool ramp_ends = true;   ///< within the duration
 };
 
 /// Returns the longest side of the box around a body [length].
@@ -54,7 +55,7 @@ std::vector<std::string> warnings_about(const ExplicitResult& result, const RunF
 
 /// Returns the warnings about a dynamic relaxation: more energy stored and dissipated than the work
 /// of its load steps.
-std::vector<std::string> warnings_at_rest(const EnergyBalance& energy);
+std::vector<std::string> warnings_at_rest(const ExplicitRecord& last);
 
 /// Returns a warning about a peak beyond the range of small displacements.
 /// \param length  longest side of the body [length]

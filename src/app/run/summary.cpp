@@ -127,9 +127,9 @@ void tell_cracks(Summary& summary, std::span<const GrownCrack> cracks) {
   if (cracks.empty()) return;
   const GrownCrack& widest = cracks.front();
   summary.line(
-      "cracks", "{}; the widest opens by {:.4g} at ({}), is {:.4g} long{}{}", cracks.size(),
-      widest.largest_opening, joined(widest.widest_at), widest.length,
-      widest.face_opening ? fmt::format(", {:.4g} wide at the face", *widest.face_opening) : "",
+      "cracks", "{}; the widest is {:.4g} long, its opening {:.4g} at ({}){}{}", cracks.size(),
+      widest.length, widest.largest_opening, joined(widest.widest_at),
+      widest.face_opening ? fmt::format(", {:.4g} at the face", *widest.face_opening) : "",
       widest.bar ? fmt::format(", {:.4g} at bar {}", widest.bar_opening, *widest.bar + 1) : "");
 }
 

@@ -152,8 +152,8 @@ std::optional<std::string> unnotched_note(const CaseFile& input, const Model& mo
   constexpr double round_off = 1e-6;
   if (volume < (1.0 - round_off) * box) return std::nullopt;
   return "the body has no notch, hole or pre-crack: in bending its strength exceeds that of one "
-         "cohesive crack by 10 to 30 %, the more the shorter the horizon; random strength "
-         "([[random]], variation 0.1, correlation_length of one horizon) leaves about 9 %";
+         "cohesive crack by 10 to 30 %, the more the shorter the horizon; with random strength "
+         "([[random]], variation 0.1, correlation_length of one horizon) by about 9 %";
 }
 
 std::optional<std::string> joint_note(const NetworkInput& input, const Model& model) {

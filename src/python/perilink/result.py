@@ -91,7 +91,7 @@ class Result:
         return np.stack([connectivity[last - 2], connectivity[last - 1]], axis=1)
 
     def reactions(self, step: int | None = None) -> list[dict[str, Any]]:
-        """Returns the rows of reactions_STEP.csv: forces and moments at supports."""
+        """Returns the rows of reactions_STEP.csv: forces and moments at supports; none without."""
         return self._table("reactions", step)
 
     def bars(self, step: int | None = None) -> list[dict[str, Any]]:
@@ -100,17 +100,15 @@ class Result:
 
     def cracks(self, step: int | None = None) -> list[dict[str, Any]]:
         """Returns the rows of cracks_STEP.csv, the widest crack first; none without cracks."""
-        step = self._step(step)
-        if not (self.directory / f"cracks_{step:06d}.csv").exists():
-            return []
         return self._table("cracks", step)
 
     def _series(self) -> list[str]:
-        return [name for _, name in _core.read_series(str(self.directory / "fields.pvd"))]
+        path = self.directory / "fields.pvd"
+        return [name for _, name in _core.read_series(str(path))] if path.exists() else []
 
     def _step(self, step: int | None) -> int:
         steps = self.steps
-        if step is None:
+        if step is None and steps:
             return steps[-1]
         if step not in steps:
             raise ValueError(f"step {step} has no fields; steps with fields are {steps}")
@@ -120,7 +118,11 @@ class Result:
         return _core.read_fields(str(self.directory / f"fields_{self._step(step):06d}.vtu"))
 
     def _table(self, kind: str, step: int | None) -> list[dict[str, Any]]:
+        if step is None and not self.steps:
+            return []
         path = self.directory / f"{kind}_{self._step(step):06d}.csv"
+        if not path.exists():
+            return []
         with path.open(newline="", encoding="utf-8") as file:
             return [{k: _number(v) for k, v in row.items()} for row in csv.DictReader(file)]
 

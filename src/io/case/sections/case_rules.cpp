@@ -305,14 +305,11 @@ void check_iterative_solver(const CaseFile& input) {
                      "is \"iterative\", but a beam that cracks needs the direct solver",
                      "allowed with problem = \"beam\" and type = \"damage\": \"auto\", \"direct\"");
   }
-  const bool closes = std::ranges::any_of(
-      input.materials, [](const MaterialSection& m) { return m.softening.closes; });
-  for (std::size_t k = 0; k < input.cracks.size(); ++k) {
-    if (!input.cracks[k].closing.value_or(closes)) continue;
+  if (const auto crack = first_closing_crack(input)) {
     throw InputError(input.where("analysis.solver"),
-                     fmt::format("is \"iterative\", but the closed faces of cracks[{}] need the "
-                                 "direct solver",
-                                 k + 1),
+                     fmt::format("is \"iterative\", but the closed faces of {} need the direct "
+                                 "solver",
+                                 item_key("cracks", *crack)),
                      "use \"auto\" or \"direct\", or set closing = false in [[cracks]] for a "
                      "notch that stays open");
   }

@@ -53,9 +53,9 @@ TEST(RunFiles, FieldsAreDueWhereAValueIsFirstReached) {
     bool due;
   };
   // Displacements count by size; gauges by their sign; what was reached before counts no more.
-  for (const Row& row : {Row{0.5, 0.0, false}, Row{-1.0, 0.1, true}, Row{0.9, 0.2, false},
-                         Row{1.5, -0.6, true}, Row{1.2, 0.25, true}, Row{2.0, -0.7, false},
-                         Row{4.0, 0.3, true}, Row{4.0, 0.3, false}}) {
+  for (const Row& row :
+       {Row{0.5, 0.0, false}, Row{-1.0, 0.1, true}, Row{0.9, 0.2, false}, Row{1.5, -0.6, true},
+        Row{1.2, 0.25, true}, Row{2.0, -0.7, false}, Row{4.0, 0.3, true}, Row{4.0, 0.3, false}}) {
     const RunFiles::State saved = files->save();
     files.reset();
     files.emplace(input, work.path(), true, saved);

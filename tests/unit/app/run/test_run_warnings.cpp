@@ -157,14 +157,29 @@ TEST(RunWarnings, TellRoundOffFromIterationsThatEndedEarly) {
 
 /// Work is summed over load steps; what breaks between them may take more.
 TEST(RunWarnings, SeeEnergyThatNoLoadStepBroughtIn) {
-  EnergyBalance energy;
-  energy.external_work = 2.8;
-  energy.stored = 2.8;
-  EXPECT_THAT(warnings_at_rest(energy), IsEmpty());
-  energy.fractured = 9.2;
-  EXPECT_THAT(warnings_at_rest(energy),
+  ExplicitRecord last;
+  last.energy.external_work = 2.8;
+  last.energy.stored = 2.8;
+  EXPECT_THAT(warnings_at_rest(last), IsEmpty());
+  last.energy.fractured = 9.2;
+  EXPECT_THAT(warnings_at_rest(last),
               ElementsAre(AllOf(HasSubstr("the stored and dissipated energy 12"),
-                                HasSubstr("the work of the load steps 2.8"))));
+                                HasSubstr("the work of the load steps 2.8: it is counted with"))));
+  last.broken_bonds = 3;
+  EXPECT_THAT(warnings_at_rest(last), ElementsAre(HasSubstr("bonds broke at larger loads")));
+}
+
+TEST(RunWarnings, NameARampThatDoesNotEnd) {
+  ExplicitResult result;
+  result.termination = Termination::completed;
+  result.last.load_factor = 0.25;
+  CaseFile input;
+  input.analysis.duration = 1.0;
+  input.analysis.ramp_time = 2.0;
+  EXPECT_THAT(warnings_about(result, run_facts(input, 1.0, 0.0)),
+              ElementsAre(HasSubstr("ends at load factor 0.25: ramp_time is longer")));
+  input.analysis.ramp_time = 1.0;
+  EXPECT_THAT(warnings_about(result, run_facts(input, 1.0, 0.0)), IsEmpty());
 }
 
 TEST(RunWarnings, SeePeaksThatLieBeyondSmallDisplacements) {

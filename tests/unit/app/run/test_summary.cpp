@@ -86,8 +86,8 @@ TEST(Summary, TellsTheTenWidestCracks) {
   EXPECT_EQ(widest["bar"], 2);
   EXPECT_EQ(widest["bar_opening"], 0.125);
   EXPECT_FALSE(summary.json["cracks"][1].contains("bar"));
-  EXPECT_THAT(summary.text, HasSubstr("12; the widest opens by 0.5 at (1.5, 2.5), is 3.5 long, "
-                                      "0.375 wide at the face, 0.125 at bar 2"));
+  EXPECT_THAT(summary.text, HasSubstr("12; the widest is 3.5 long, its opening 0.5 at (1.5, 2.5), "
+                                      "0.375 at the face, 0.125 at bar 2"));
   Summary none;
   tell_cracks(none, {});
   EXPECT_TRUE(none.text.empty());
