@@ -45,6 +45,7 @@ class CaseWriter {
     list("cracks", input_.cracks);
     list("interfaces", input_.interfaces);
     list("random", input_.random);
+    list("graded", input_.graded);
     list("rebar", input_.rebar);
     list("gauges", input_.gauges);
     if (input_.elements) table("elements", *input_.elements);
