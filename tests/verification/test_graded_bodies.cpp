@@ -8,9 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "analysis/quasistatic/elastic_analysis.hpp"
-#include "model/from_case/configure.hpp"
-#include "model/gauges.hpp"
 #include "support/weak_strips.hpp"
 #include "support/whole_run.hpp"
 
@@ -33,10 +30,12 @@ std::string modulus(const std::string& factor) {
 
 /// Values of the gauges of an elastic body at load factor 1.
 std::vector<double> gauges_of(const std::string& text) {
-  const Model model = build_model(parse_case(text, "graded"));
-  const ElasticResult result = run_elastic_analysis(model, {});
-  Csr neighbourhoods;
-  return gauge_values(model, {{}, result.displacement}, neighbourhoods);
+  const test::WholeRun run(text);
+  std::vector<double> values;
+  for (const GaugeSection& gauge : run.input.gauges) {
+    values.push_back(run.history(gauge.name).back());
+  }
+  return values;
 }
 
 /// Kinds of bodies in the plane.
@@ -70,7 +69,7 @@ TEST_P(GradedPlates, BendAsTheContinuum) {
   const std::vector<double> coarse = gauges_of(bent_plate(GetParam(), 0.1));
   const std::vector<double> fine = gauges_of(bent_plate(GetParam(), 0.05));
   const double sag = -2.0, below = -7.0 / 12.0, inside = 2.6 * (0.8 - 7.0 / 12.0);
-  EXPECT_NEAR(coarse[0], sag, 0.02 * std::abs(sag));
+  EXPECT_NEAR(coarse[0], sag, 0.03 * std::abs(sag));
   EXPECT_LT(std::abs(fine[0] - sag), 0.35 * std::abs(coarse[0] - sag) + 1e-4);
   EXPECT_NEAR(fine[1], below, 0.02);
   EXPECT_NEAR(fine[2], inside, 0.01);
@@ -83,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(
         Kind{"hexagonal", "horizon_ratio = 3\npattern = \"hexagonal\"\n", "", ""},
         Kind{"unstructured", "horizon_ratio = 3\npattern = \"unstructured\"\n", "", ""},
         Kind{"frames", "horizon_ratio = 3\nmodel = \"micropolar\"\n", "poissons_ratio = 0.2\n", ""},
-        Kind{"hosts", "horizon_ratio = 3\n", "", "[elements]\nspacings = 2\n"},
+        Kind{"hosts", "horizon_ratio = 3\n", "", "[elements]\nspacings = 4\n"},
         Kind{"elements", "method = \"linear_elements\"\n", "poissons_ratio = 0.3\n", ""}),
     [](const auto& test) { return test.param.name; });
 
@@ -121,7 +120,7 @@ TEST(GradedBars, LengthenByTheIntegralOfTheirCompliance) {
 /// (1 - x)^2 / (1 + x).
 TEST(GradedBeams, BendByTheIntegralOfTheirCompliance) {
   const auto sag = [](double spacing) {
-    return gauges_of(body_of("beam", "horizon_ratio = 3\n", spacing) +
+    return gauges_of(body_of("beam", "thickness = 1\nhorizon_ratio = 3\n", spacing) +
                      region("beam", 0, 1, 0, 0.1, false) + region("left", 0, 0, 0, 0.1, false) +
                      "[[materials]]\nregion = \"beam\"\nyoungs_modulus = 12000\n"
                      "fracture_energy = \"infinite\"\n" +

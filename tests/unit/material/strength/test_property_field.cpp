@@ -8,7 +8,7 @@
 namespace perilink {
 namespace {
 
-constexpr double round_off = 1e-14;
+constexpr double tiny_error = 1e-14;
 
 /// Returns 1 + 2 x + y as a factor.
 PropertyField sloping(VaryingProperty property) {
@@ -23,7 +23,7 @@ TEST(PropertyFields, AreTakenInTheMiddleOfPairs) {
       factors_between(sloping(VaryingProperty::fracture_energy), corners, 2, first, second);
   const std::vector<double> expected = {2.0, 2.0, 3.0, 3.0};
   ASSERT_EQ(factors.size(), expected.size());
-  for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_NEAR(factors[k], expected[k], round_off);
+  for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_NEAR(factors[k], expected[k], tiny_error);
 }
 
 TEST(PropertyFields, OfTheModulusAreMultiplied) {
@@ -34,8 +34,8 @@ TEST(PropertyFields, OfTheModulusAreMultiplied) {
                                              twice};
   const std::vector<double> factors = modulus_between(fields, corners, 2, first, second);
   ASSERT_EQ(factors.size(), 2u);
-  EXPECT_NEAR(factors[0], 4.0, round_off);
-  EXPECT_NEAR(factors[1], 6.0, round_off);
+  EXPECT_NEAR(factors[0], 4.0, tiny_error);
+  EXPECT_NEAR(factors[1], 6.0, tiny_error);
   const std::vector<PropertyField> strength = {sloping(VaryingProperty::tensile_strength)};
   EXPECT_TRUE(modulus_between(strength, corners, 2, first, second).empty());
 }

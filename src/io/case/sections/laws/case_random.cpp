@@ -58,14 +58,22 @@ void check_names(const CaseFile& input, const VaryingSection& section, const std
                    "`tensile_strength`; laws by `softening_stretches` have neither");
 }
 
-/// Refuses strength of bodies without bonds, and Young's modulus of some materials: calibrations
-/// balance joints by the moduli of the materials.
+/// Refuses strength of bodies without bonds. Refuses Young's modulus of some materials, whose joints
+/// calibrations balance by the moduli of the materials, and beside springs with their stiffness.
 void check_property(const CaseFile& input, const VaryingSection& section,
                     const std::string& table) {
   if (section.property != VaryingProperty::youngs_modulus) {
     if (input.body.method == BodyMethod::bonds) return;
     throw InputError(input.where(table), "is given, but linear elements have no bonds",
                      "delete it, or the line method = \"linear_elements\"");
+  }
+  for (std::size_t k = 0; k < input.rebar.size(); ++k) {
+    if (input.rebar[k].bond != RebarBond::concrete) continue;
+    throw InputError(input.where(item_key("rebar", k, "bond")),
+                     fmt::format("is \"concrete\", whose springs have one stiffness, but {} varies "
+                                 "Young's modulus",
+                                 table),
+                     "choose another bond: \"perfect\", \"linear\", \"model_code\", \"curve\"");
   }
   if (section.materials.empty()) return;
   throw InputError(input.where(table + ".materials"),
