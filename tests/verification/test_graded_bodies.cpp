@@ -108,8 +108,8 @@ std::string pulled_bar(const std::string& problem, const std::string& keys, bool
 TEST(GradedBars, LengthenByTheIntegralOfTheirCompliance) {
   const std::string frames = "model = \"micropolar\"\nhorizon_ratio = 3\n";
   const std::vector<double> plane = gauges_of(pulled_bar("plane_stress", frames, false, ""));
-  EXPECT_NEAR(plane[0], 2.0 * std::log(2.0), 2e-3);
-  EXPECT_NEAR(plane[1], 2.0, 5e-3);
+  EXPECT_NEAR(plane[0], 2.0 * std::log(2.0), 4e-3);
+  EXPECT_NEAR(plane[1], 2.0, 1.5e-2);
   const std::string shorter = "model = \"micropolar\"\nhorizon_ratio = 2\n";
   const std::vector<double> space = gauges_of(pulled_bar("three_dimensional", shorter, true, ""));
   EXPECT_NEAR(space[0], 4.0 * std::log(2.0), 5e-3);

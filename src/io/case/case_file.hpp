@@ -180,6 +180,12 @@ struct GradedSection : VaryingSection {
   Expression factor;
 };
 
+/// Properties that vary in space.
+struct VaryingSections {
+  std::vector<RandomSection> random;
+  std::vector<GradedSection> graded;
+};
+
 /// Layout of bars in a box, along an axis and `cover` from its faces: bars along one face, or
 /// stirrups around the axis.
 struct BarLayout {
@@ -322,8 +328,7 @@ struct CaseFile {
   std::vector<SpringSection> springs;
   std::vector<CrackSection> cracks;
   std::vector<InterfaceSection> interfaces;
-  std::vector<RandomSection> random;
-  std::vector<GradedSection> graded;
+  VaryingSections fields;
   std::vector<RebarSection> rebar;
   std::vector<GaugeSection> gauges;
   std::optional<ElementsSection> elements;

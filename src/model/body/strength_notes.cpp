@@ -134,7 +134,7 @@ std::optional<std::string> unnotched_note(const CaseFile& input, const Model& mo
   const Network& network = model.network;
   const bool softens = std::ranges::any_of(
       network.strengths, [](const MaterialStrength& strength) { return strength.segments > 1; });
-  const bool scatters = std::ranges::any_of(input.random, [](const RandomSection& random) {
+  const bool scatters = std::ranges::any_of(input.fields.random, [](const RandomSection& random) {
     return random.property == VaryingProperty::tensile_strength;
   });
   if (!softens || scatters || network.has_crushing() || network.has_sections() ||

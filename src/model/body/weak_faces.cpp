@@ -117,9 +117,10 @@ namespace {
   const auto varies = [&](const PropertyField& field) {
     return field.varies[static_cast<std::size_t>(error.material)] != 0;
   };
-  const auto graded = network.fields.begin() + static_cast<std::ptrdiff_t>(input.random.size());
+  const auto graded =
+      network.fields.begin() + static_cast<std::ptrdiff_t>(input.fields.random.size());
   auto formula = std::find_if(graded, network.fields.end(), varies);
-  if (input.random.empty()) formula = std::min(formula, network.fields.end() - 1);
+  if (input.fields.random.empty()) formula = std::min(formula, network.fields.end() - 1);
   if (formula != network.fields.end()) {
     const std::string key =
         item_key("graded", static_cast<std::size_t>(formula - graded), "factor");
@@ -127,8 +128,8 @@ namespace {
                    dimension_of(network.problem));
   }
   std::size_t k = 0;
-  while (k < input.random.size() && !varies(network.fields[k])) ++k;
-  if (k == input.random.size()) k = 0;
+  while (k < input.fields.random.size() && !varies(network.fields[k])) ++k;
+  if (k == input.fields.random.size()) k = 0;
   const SourceLocation where = input.where(item_key("random", k, "variation"));
   const double variation = network.fields[k].random.variation;
   if (error.share > 1.0) {

@@ -34,12 +34,12 @@ std::function<double(std::span<const double>)> positive_formula(const CaseFile& 
 
 std::vector<PropertyField> property_fields(const CaseFile& input) {
   std::vector<PropertyField> fields;
-  for (const RandomSection& random : input.random) {
+  for (const RandomSection& random : input.fields.random) {
     if (!is_used(input, random)) continue;
     fields.push_back({random.property, random.field, materials_that_vary(input, random)});
   }
-  for (std::size_t k = 0; k < input.graded.size(); ++k) {
-    const GradedSection& graded = input.graded[k];
+  for (std::size_t k = 0; k < input.fields.graded.size(); ++k) {
+    const GradedSection& graded = input.fields.graded[k];
     if (!is_used(input, graded)) continue;
     fields.push_back({graded.property,
                       {},
@@ -68,7 +68,7 @@ std::vector<double> modulus_of_particles(const CaseFile& input, const Network& n
     stiffest = std::max(stiffest, own);
   }
   if (stiffest <= largest_stiffness_ratio * softest) return modulus;
-  const char* table = input.graded.empty() ? "random" : "graded";
+  const char* table = input.fields.graded.empty() ? "random" : "graded";
   throw InputError(
       input.where(item_key(table, 0)),
       fmt::format("makes Young's modulus {:.6g} to {:.6g}: double precision cannot resolve both",

@@ -183,8 +183,7 @@ CaseFile parse_case(const std::string& text, const std::string& path,
   input.springs = each("springs", read_springs, kind);
   input.cracks = each("cracks", read_crack, kind);
   input.interfaces = each("interfaces", read_interface, kind);
-  input.random = each("random", read_random, kind);
-  input.graded = each("graded", read_graded, kind);
+  input.fields = {each("random", read_random, kind), each("graded", read_graded, kind)};
   input.rebar = each("rebar", read_rebar, kind);
   input.gauges = each("gauges", read_gauge, kind);
   input.elements = read_elements(document.table("elements"), kind);

@@ -58,8 +58,8 @@ void check_names(const CaseFile& input, const VaryingSection& section, const std
                    "`tensile_strength`; laws by `softening_stretches` have neither");
 }
 
-/// Refuses strength of bodies without bonds. Refuses Young's modulus of some materials, whose joints
-/// calibrations balance by the moduli of the materials, and beside springs with their stiffness.
+/// Refuses strength of bodies without bonds. Refuses Young's modulus of some materials, as joints are
+/// calibrated by the moduli of the materials, and beside springs with their stiffness.
 void check_property(const CaseFile& input, const VaryingSection& section,
                     const std::string& table) {
   if (section.property != VaryingProperty::youngs_modulus) {
@@ -142,12 +142,13 @@ bool is_used(const CaseFile& input, const VaryingSection& section) {
 
 std::vector<std::string> unused_fields(const CaseFile& input) {
   std::vector<std::string> keys;
-  for (std::size_t k = 0; k < input.random.size(); ++k) {
-    if (!is_used(input, input.random[k])) keys.push_back(item_key("random", k));
-  }
-  for (std::size_t k = 0; k < input.graded.size(); ++k) {
-    if (!is_used(input, input.graded[k])) keys.push_back(item_key("graded", k));
-  }
+  const auto look = [&](const char* name, const auto& sections) {
+    for (std::size_t k = 0; k < sections.size(); ++k) {
+      if (!is_used(input, sections[k])) keys.push_back(item_key(name, k));
+    }
+  };
+  look("random", input.fields.random);
+  look("graded", input.fields.graded);
   return keys;
 }
 
@@ -162,8 +163,8 @@ std::vector<std::uint8_t> materials_that_vary(const CaseFile& input,
 }
 
 void check_fields(const CaseFile& input) {
-  check_list(input, "random", input.random);
-  check_list(input, "graded", input.graded);
+  check_list(input, "random", input.fields.random);
+  check_list(input, "graded", input.fields.graded);
 }
 
 }  // namespace perilink
