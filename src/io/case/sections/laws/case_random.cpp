@@ -58,8 +58,8 @@ void check_names(const CaseFile& input, const VaryingSection& section, const std
                    "`tensile_strength`; laws by `softening_stretches` have neither");
 }
 
-/// Refuses strength of bodies without bonds. Refuses Young's modulus of some materials, as joints are
-/// calibrated by the moduli of the materials, and beside springs with their stiffness.
+/// Refuses strength of bodies without bonds. Refuses Young's modulus of some materials, since
+/// joints are calibrated by the moduli of the materials, and beside springs with that stiffness.
 void check_property(const CaseFile& input, const VaryingSection& section,
                     const std::string& table) {
   if (section.property != VaryingProperty::youngs_modulus) {
@@ -106,8 +106,7 @@ void check_list(const CaseFile& input, const std::string& name,
   }
 }
 
-template <class Section>
-void refuse_no_materials(const CaseTable& table, const Section& section) {
+void refuse_no_materials(const CaseTable& table, const VaryingSection& section) {
   if (table.has("materials") && section.materials.empty()) {
     table.refuse("materials", "is empty", "name materials, or delete the line for all of them");
   }
