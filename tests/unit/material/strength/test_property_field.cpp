@@ -23,7 +23,8 @@ TEST(PropertyFields, AreTakenInTheMiddleOfPairs) {
       factors_between(sloping(VaryingProperty::fracture_energy), corners, 2, first, second);
   const std::vector<double> expected = {2.0, 2.0, 3.0, 3.0};
   ASSERT_EQ(factors.size(), expected.size());
-  for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_NEAR(factors[k], expected[k], tiny_error);
+  for (std::size_t k = 0; k < expected.size(); ++k)
+    EXPECT_NEAR(factors[k], expected[k], tiny_error);
 }
 
 TEST(PropertyFields, OfTheModulusAreMultiplied) {
