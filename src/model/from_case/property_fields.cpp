@@ -30,6 +30,18 @@ std::function<double(std::span<const double>)> positive_formula(const CaseFile& 
   };
 }
 
+/// Returns the key path of the first table that varies Young's modulus, of [[graded]] if possible.
+std::string table_of_modulus(const CaseFile& input) {
+  const auto& [random, graded] = input.fields;
+  const auto place = [](const auto& sections) {
+    const auto found =
+        std::ranges::find(sections, VaryingProperty::youngs_modulus, &VaryingSection::property);
+    return static_cast<std::size_t>(found - sections.begin());
+  };
+  const std::size_t k = place(graded);
+  return k < graded.size() ? item_key("graded", k) : item_key("random", place(random));
+}
+
 }  // namespace
 
 std::vector<PropertyField> property_fields(const CaseFile& input) {
@@ -68,9 +80,8 @@ std::vector<double> modulus_of_particles(const CaseFile& input, const Network& n
     stiffest = std::max(stiffest, own);
   }
   if (stiffest <= largest_stiffness_ratio * softest) return modulus;
-  const char* table = input.fields.graded.empty() ? "random" : "graded";
   throw InputError(
-      input.where(item_key(table, 0)),
+      input.where(table_of_modulus(input)),
       fmt::format("makes Young's modulus {:.6g} to {:.6g}: double precision cannot resolve both",
                   softest, stiffest),
       fmt::format("at most {:.0e} times is possible; a ratio of a thousand is nearly rigid",
