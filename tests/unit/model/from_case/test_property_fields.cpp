@@ -46,7 +46,7 @@ TEST(PropertyFieldsOfCase, NoteTheRangeOfTheirFactors) {
 TEST(PropertyFieldsOfCase, RefuseValuesThatAreNotPositive) {
   expect_refused(graded_case("youngs_modulus", "1 - y / 70", "elastic"), "graded[1].factor",
                  "at the position (");
-  expect_refused(graded_case("fracture_energy", "sqrt(30 - y)"), "graded[1].factor", "nan");
+  expect_refused(graded_case("fracture_energy", "sqrt(33 - y)"), "graded[1].factor", "nan");
 }
 
 TEST(PropertyFieldsOfCase, RefuseModuliThatRoundOffHides) {
