@@ -63,6 +63,7 @@ std::vector<PropertyField> property_fields(const CaseFile& input) {
 
 std::vector<double> modulus_of_particles(const CaseFile& input, const Network& network) {
   const std::vector<PropertyField> fields = property_fields(input);
+  if (fields.empty()) return {};
   const Particles& places = network.places();
   std::vector<Index> solid;
   for (Index i = 0; i < places.size(); ++i) {

@@ -18,6 +18,7 @@ void scale_stiffness(const NetworkInput& input, Network& network) {
 
 void scale_stiffness(std::span<const PropertyField> fields, std::span<const double> positions,
                      LinearElements& elements) {
+  if (fields.empty()) return;
   const int dim = elements.dim();
   std::vector<double> centroids;
   std::vector<Index> numbers(static_cast<std::size_t>(elements.cells.size()));
