@@ -271,13 +271,16 @@ std::vector<Gauge> build_gauges(const CaseFile& input, const Model& model,
 }
 
 StressInput stress_input(const Model& model, const Csr& neighbourhoods, Secants secants) {
+  // The fit at the surface is in equilibrium for one modulus.
+  const bool fits_surface = !model.surface_conditions.empty() && model.modulus.empty();
   return {model.network,
           neighbourhoods,
           model.problem,
           model.hooke,
           model.elements.has_value(),
           secants,
-          model.surface_conditions.empty() ? nullptr : &model.surface_conditions};
+          fits_surface ? &model.surface_conditions : nullptr,
+          model.modulus};
 }
 
 bool measures_reactions(std::span<const Gauge> gauges) {

@@ -60,7 +60,9 @@ struct Model : LoadedNetwork {
   /// Per particle, whether a support or prescribed displacement acts on it. Planes of symmetry do
   /// not count, since cracks may reach them.
   std::vector<std::uint8_t> gripped;
-  std::vector<HookeConstants> hooke;     ///< elastic constants per material
+  std::vector<HookeConstants> hooke;  ///< elastic constants per material
+  std::vector<double> modulus;  ///< Young's modulus over that of the material [-], per particle;
+                                ///< empty: 1
   SurfaceConditions surface_conditions;  ///< for stresses; empty: unknown
   LoadResultant resultant;
   std::vector<std::size_t> entry_of_bar;  ///< in [[rebar]], by Bars::bar

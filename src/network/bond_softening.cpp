@@ -267,11 +267,12 @@ Index count_segments(const BondLaw& law) {
   return count;
 }
 
-TooStrong::TooStrong(Index number, double energy, double random)
+TooStrong::TooStrong(Index number, double energy, double factor, const Vector3& at)
     : std::invalid_argument("the strength of a bond does not fit its fracture energy"),
       material(number),
       share(energy),
-      scatter(random) {}
+      scatter(factor),
+      place(at) {}
 
 MaterialBonds bonds_of_material(const Body& body, const NetworkInput& input,
                                 const SolidMaterial& material, double brittle_stretch) {

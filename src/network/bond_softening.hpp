@@ -25,10 +25,11 @@ Index count_segments(const BondLaw& law);
 /// holds more energy than it may dissipate, or less than 1 / most_softening of it.
 class TooStrong : public std::invalid_argument {
  public:
-  TooStrong(Index material, double share, double scatter = 1.0);
+  TooStrong(Index material, double share, double scatter = 1.0, const Vector3& place = {});
   Index material;  ///< number in NetworkInput::materials, then interfaces
   double share;    ///< energy that the bond may dissipate over the energy that it holds [-]
-  double scatter;  ///< factor of NetworkInput::random on this share [-]
+  double scatter;  ///< factor of NetworkInput::fields on this share [-]
+  Vector3 place;   ///< where the factor is so [length]; not without a factor
 };
 
 /// Law and strength of the bonds of one material.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <numeric>
 #include <span>
 #include <tuple>
@@ -121,28 +122,36 @@ Index material_entered(const NetworkInput& input, const Facets& facets, Index fa
   return first ? inside : outside;
 }
 
-/// Returns the factors on one property. Materials without it have infinite values.
-std::vector<double> factors_on(RandomProperty property, const NetworkInput& input,
-                               const Network& network) {
+/// Returns the value of a property; infinity: the material does not have it.
+double value_of(const SolidMaterial& material, VaryingProperty property) {
+  switch (property) {
+    case VaryingProperty::tensile_strength: return material.softening.tensile_strength;
+    case VaryingProperty::fracture_energy: return material.fracture_energy;
+    default: return material.youngs_modulus;
+  }
+}
+
+}  // namespace
+
+std::vector<double> factors_on(VaryingProperty property, const NetworkInput& input,
+                               std::span<const PropertyField> of_fields, const Network& network) {
   const auto count = static_cast<std::size_t>(network.num_bonds());
   const Bonds& bonds = network.bonds;
-  std::vector<std::vector<double>> fields(input.materials.size());  // per material that scatters
+  std::vector<std::vector<double>> fields(input.materials.size());  // per material that varies
   std::vector<double> values;
   for (const SolidMaterial& material : input.materials) {
-    values.push_back(property == RandomProperty::tensile_strength
-                         ? material.softening.tensile_strength
-                         : material.fracture_energy);
+    values.push_back(value_of(material, property));
   }
-  for (const RandomStrength& random : input.random) {
-    if (random.property != property) continue;
+  for (const PropertyField& field : of_fields) {
+    if (field.property != property) continue;
     const Particles& places = network.places();
-    std::vector<double> field =
-        normal_field(random.field, places.positions, places.dim,
-                     std::span(bonds.first).first(count), std::span(bonds.second).first(count));
-    const UnitMean factor_of(random.field.distribution, random.field.variation);
-    std::ranges::transform(field, field.begin(), factor_of);
+    const std::vector<double> own =
+        factors_between(field, places.positions, places.dim, std::span(bonds.first).first(count),
+                        std::span(bonds.second).first(count));
     for (std::size_t m = 0; m < fields.size(); ++m) {
-      if (random.scatters[m] != 0) fields[m] = field;
+      if (field.varies[m] == 0) continue;
+      fields[m].resize(count, 1.0);
+      std::ranges::transform(fields[m], own, fields[m].begin(), std::multiplies<>());
     }
   }
   std::vector<double> factors;
@@ -157,12 +166,11 @@ std::vector<double> factors_on(RandomProperty property, const NetworkInput& inpu
   return factors;
 }
 
-}  // namespace
-
-BondFactors random_factors(const NetworkInput& input, const Network& network) {
-  if (input.random.empty()) return {};
-  return {factors_on(RandomProperty::tensile_strength, input, network),
-          factors_on(RandomProperty::fracture_energy, input, network)};
+BondFactors property_factors(const NetworkInput& input, const Network& network) {
+  if (input.fields.empty()) return {};
+  return {factors_on(VaryingProperty::tensile_strength, input, input.fields, network),
+          factors_on(VaryingProperty::fracture_energy, input, input.fields, network),
+          factors_on(VaryingProperty::youngs_modulus, input, input.fields, network)};
 }
 
 double energy_between(const SolidMaterial& a, const SolidMaterial& b) {

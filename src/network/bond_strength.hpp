@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "network/lattice_neighbourhoods.hpp"
@@ -35,15 +36,20 @@ inline void add_critical_stretch(const NetworkInput& input, double stretch, Netw
   if (!input.elastic) network.critical_stretch.push_back(stretch);
 }
 
-/// Factors on strength and fracture energy [-], per bond of the solid; empty: nothing scatters.
+/// Factors on properties [-], per bond of the solid; empty: nothing varies.
 struct BondFactors {
   std::vector<double> strength;
   std::vector<double> energy;
+  std::vector<double> modulus;
 };
 
-/// Returns the factors of NetworkInput::random in the middle of each bond. Between two materials
-/// the smaller value of a property applies, as without scatter.
-BondFactors random_factors(const NetworkInput& input, const Network& network);
+/// Returns the factors of some fields on a property in the middle of each bond of the solid.
+/// Between two materials the smaller value of a property applies, as without fields.
+std::vector<double> factors_on(VaryingProperty property, const NetworkInput& input,
+                               std::span<const PropertyField> of_fields, const Network& network);
+
+/// Returns the factors of NetworkInput::fields on all properties.
+BondFactors property_factors(const NetworkInput& input, const Network& network);
 
 /// Sets critical stretches from the neighbourhoods of a lattice, as the mean over all directions of
 /// a crack.

@@ -17,7 +17,7 @@
 #include "material/micromodulus.hpp"
 #include "material/micropolar.hpp"
 #include "material/softening.hpp"
-#include "material/strength/random_field.hpp"
+#include "material/strength/property_field.hpp"
 
 namespace perilink {
 
@@ -73,13 +73,6 @@ struct WeakInterface {
   SofteningMaterial softening = {};
 };
 
-/// A property of materials that scatters in space about the value of the material.
-struct RandomStrength {
-  RandomProperty property = RandomProperty::tensile_strength;
-  RandomField field;
-  std::vector<std::uint8_t> scatters;  ///< nonzero: the material scatters; per material
-};
-
 /// Parameters that turn the particles of a body into a network.
 struct NetworkInput {
   Problem problem = Problem::plane_stress;
@@ -100,7 +93,7 @@ struct NetworkInput {
   /// Pre-cracks; bonds and slip springs do not cross them.
   std::vector<Crack> cracks;
   std::vector<WeakInterface> interfaces;  ///< a later interface takes precedence for common bonds
-  std::vector<RandomStrength> random;     ///< no two have a property of a material in common
+  std::vector<PropertyField> fields;      ///< factors of one property are multiplied
   std::vector<RebarLine> bars;
   std::vector<BarMaterial> bar_materials;  ///< per bar
   CalibrationCalls calibration;

@@ -306,10 +306,12 @@ Face Measure::face() {
 /// Returns the mean Young's moduli behind a face and ahead of it (along its normal)
 /// [force/length^2].
 std::array<double, 2> moduli_beside(const NetworkInput& input, const Network& network,
-                                    std::span<const Index> crossing, const Vector3& axis) {
+                                    const EvenBonds& even, std::span<const Index> crossing,
+                                    const Vector3& axis) {
   std::array<double, 2> moduli{};
-  const double part = 1.0 / static_cast<double>(crossing.size());
   for (const Index e : crossing) {
+    const double part =
+        (even.modulus.empty() ? 1.0 : even.modulus[e]) / static_cast<double>(crossing.size());
     const bool along = cosine_between(axis, direction_of(network, e)) > 0.0;
     const auto [first, second] = materials_at(network, e);
     moduli[along ? 0 : 1] += part * input.materials[first].youngs_modulus;
@@ -320,10 +322,11 @@ std::array<double, 2> moduli_beside(const NetworkInput& input, const Network& ne
 
 /// Returns the law of the bonds at one location.
 MaterialBonds bonds_of(const Body& body, const NetworkInput& input, const Network& network,
-                       const Face& face, const Place& place, std::span<const Index> crossing) {
+                       const EvenBonds& even, const Face& face, const Place& place,
+                       std::span<const Index> crossing) {
   SolidMaterial material = face.material;
   material.youngs_modulus *= place.force;
-  const auto [behind, ahead] = moduli_beside(input, network, crossing, face.axis);
+  const auto [behind, ahead] = moduli_beside(input, network, even, crossing, face.axis);
   const double own = material.youngs_modulus;
   FaceShape shape{std::nullopt, {behind / own, ahead / own}, face.held};
   if (face.plane) shape.normal = face.axis;
@@ -371,7 +374,7 @@ void weaken_interfaces(const Body& body, const NetworkInput& input, const EvenBo
     std::size_t most = 0;
     for (const auto& [place, bonds] : face.places) {
       try {
-        const MaterialBonds made = bonds_of(body, input, network, face, place, bonds);
+        const MaterialBonds made = bonds_of(body, input, network, even, face, place, bonds);
         if (bonds.size() > most) own.strength = made.strength;
         most = std::max(most, bonds.size());
         for (const Index e : bonds) {

@@ -9,11 +9,12 @@
 
 namespace perilink {
 
-/// Stiffnesses of bonds as if all materials had the constants of the first [force/length]. Empty:
-/// bonds keep their own.
+/// Stiffnesses of bonds as if all materials had the constants of the first everywhere
+/// [force/length]. Empty: bonds keep their own.
 struct EvenBonds {
   std::vector<double> stiffness;
   std::vector<double> bending = {};  ///< empty where no bond carries a moment
+  std::vector<double> modulus = {};  ///< Young's modulus over that of the materials [-]; empty: 1
 };
 
 /// Returns the bonds of the solid that cross a weak interface, ascending, without bonds that

@@ -70,6 +70,24 @@ distribution = "normal"
 variation = 0.1
 correlation_length = 30
 """)
+case("strip_graded", "strip", "linear", "yield", """
+[[graded]]
+property = "youngs_modulus"
+factor = "1 + x / 100"
+[[graded]]
+property = "tensile_strength"
+factor = "1 + (y - 40)^2 / 5000"
+""")
+case("strip_graded_elastic", "strip", "micropolar elastic", "", """
+[[graded]]
+property = "youngs_modulus"
+factor = "1 + x * y / 5000"
+[[random]]
+property = "youngs_modulus"
+distribution = "lognormal"
+variation = 0.2
+correlation_length = 30
+""")
 case("strip_steps_driven", "strip", "steps", "broken", """
 -[stop]
 [analysis]

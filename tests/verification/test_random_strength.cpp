@@ -106,7 +106,7 @@ double place_of_crack(const test::WholeRun& run) {
 TEST(RandomStrength, AStripBreaksInItsWeakestPlaceAtItsStrength) {
   for (const int seed : {1, 2, 3, 4, 5, 6}) {
     const test::WholeRun run(random_strip(seed));
-    const Axis axis = strengths_along(run.input.random[0].field);
+    const Axis axis = strengths_along(run.input.fields.random[0].field);
     const double peak = run.summary.json.at("peak_load").get<double>();
     // The crack has the strength of its surroundings within a horizon and the width of the strip,
     // which is more than that of the weakest place of its axis.

@@ -201,6 +201,7 @@ class BondRun final : public MovingBondsRun {
     const double length = longest_side(model_.network.particles);
     RunFacts facts = run_facts(input, length, files().peaks().highest().load);
     facts.loose_pieces = loose_pieces_;
+    if (!model_.modulus.empty()) facts.wave_time /= std::sqrt(std::ranges::max(model_.modulus));
     summary.add_warnings(warnings_about(result_, facts));
     if (!facts.impact) warn_of_size(summary);
   }

@@ -181,7 +181,8 @@ Eigen::Matrix3d StressFinder<Dim>::strain_at(Index particle) {
 
 template <int Dim>
 Stress StressFinder<Dim>::at(Index particle) {
-  const Eigen::Matrix3d strain = strain_at(particle);
+  Eigen::Matrix3d strain = strain_at(particle);
+  if (!input_.modulus.empty()) strain *= input_.modulus[particle];
   const HookeConstants& c = input_.materials[input_.network.particles.material[particle]];
   const Eigen::Matrix3d s =
       c.lambda * strain.trace() * Eigen::Matrix3d::Identity() + 2.0 * c.mu * strain;

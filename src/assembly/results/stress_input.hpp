@@ -23,6 +23,8 @@ struct StressInput {
   bool second_neighbors = false;
   Secants secants = {};                        ///< one per element; empty: undamaged
   const SurfaceConditions* surface = nullptr;  ///< nothing: unknown
+  /// Young's modulus over that of the material [-], per particle; empty: 1.
+  std::span<const double> modulus = {};
 };
 
 }  // namespace perilink

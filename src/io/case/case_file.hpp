@@ -164,11 +164,26 @@ struct InterfaceSection {
   SofteningMaterial softening;
 };
 
-/// [[random]]: a property of materials that scatters in space about their values.
-struct RandomSection {
-  RandomProperty property = RandomProperty::tensile_strength;
+/// Property of materials that varies in space, as a factor on their values.
+struct VaryingSection {
+  VaryingProperty property = VaryingProperty::tensile_strength;
   std::vector<std::string> materials;  ///< names; empty: all that have the property
+};
+
+/// [[random]]: the factor is a random field.
+struct RandomSection : VaryingSection {
   RandomField field;
+};
+
+/// [[graded]]: the factor is a formula of the place.
+struct GradedSection : VaryingSection {
+  Expression factor;
+};
+
+/// Properties that vary in space.
+struct VaryingSections {
+  std::vector<RandomSection> random;
+  std::vector<GradedSection> graded;
 };
 
 /// Layout of bars in a box, along an axis and `cover` from its faces: bars along one face, or
@@ -315,7 +330,7 @@ struct CaseFile {
   std::vector<SpringSection> springs;
   std::vector<CrackSection> cracks;
   std::vector<InterfaceSection> interfaces;
-  std::vector<RandomSection> random;
+  VaryingSections fields;
   std::vector<RebarSection> rebar;
   std::vector<GaugeSection> gauges;
   std::optional<ElementsSection> elements;

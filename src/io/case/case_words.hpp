@@ -121,7 +121,9 @@ constexpr auto words_of(CriticalStretch) { return words("dissipated", "lattice",
 constexpr auto words_of(Softening) {
   return words("brittle", "linear", "bilinear", "exponential", "points", "concrete");
 }
-constexpr auto words_of(RandomProperty) { return words("tensile_strength", "fracture_energy"); }
+constexpr auto words_of(VaryingProperty) {
+  return words("tensile_strength", "fracture_energy", "youngs_modulus");
+}
 constexpr auto words_of(Distribution) { return words("normal", "lognormal", "weibull"); }
 constexpr auto words_of(LatticeRules) { return words("consistent", "2018", "2017"); }
 constexpr auto words_of(AnalysisType) {

@@ -8,12 +8,12 @@
 
 /// \file
 /// Random fields of place with unit mean, for properties that scatter
-/// (docs/theory/softening.md#random-strength).
+/// (docs/theory/softening.md, section 12).
 
 namespace perilink {
 
-/// Properties of a material that may scatter.
-enum class RandomProperty { tensile_strength, fracture_energy };
+/// Properties of a material that may vary in space.
+enum class VaryingProperty { tensile_strength, fracture_energy, youngs_modulus };
 
 /// Distributions of the values at one place.
 enum class Distribution { normal, lognormal, weibull };

@@ -135,8 +135,8 @@ std::optional<std::string> unnotched_note(const CaseFile& input, const Model& mo
   const Network& network = model.network;
   const bool softens = std::ranges::any_of(
       network.strengths, [](const MaterialStrength& strength) { return strength.segments > 1; });
-  const bool scatters = std::ranges::any_of(input.random, [](const RandomSection& random) {
-    return random.property == RandomProperty::tensile_strength;
+  const bool scatters = std::ranges::any_of(input.fields.random, [](const RandomSection& random) {
+    return random.property == VaryingProperty::tensile_strength;
   });
   if (!softens || scatters || network.has_crushing() || network.has_sections() ||
       !input.cracks.empty() || !input.interfaces.empty() || !input.rebar.empty()) {
@@ -186,17 +186,19 @@ std::optional<std::string> joint_note(const NetworkInput& input, const Model& mo
       largest);
 }
 
-std::vector<std::string> random_notes(const NetworkInput& input, const Network& network) {
-  const BondFactors factors = random_factors(input, network);
+std::vector<std::string> field_notes(const NetworkInput& input, const Network& network) {
   std::vector<std::string> notes;
-  for (const RandomStrength& random : input.random) {
-    const bool strength = random.property == RandomProperty::tensile_strength;
+  for (const PropertyField& field : input.fields) {
+    const bool stiffens = field.property == VaryingProperty::youngs_modulus;
+    const std::vector<double> factors = factors_on(field.property, input, {&field, 1}, network);
     double count = 0.0, sum = 0.0, squares = 0.0;
     double least = std::numeric_limits<double>::infinity(), most = 0.0;
     for (Index b = 0; b < network.num_bonds(); ++b) {
       const auto [i, j] = materials_of_bond(network, b);
-      if (!network.has_limit(b) || (random.scatters[i] == 0 && random.scatters[j] == 0)) continue;
-      const double factor = (strength ? factors.strength : factors.energy)[b];
+      if (!(stiffens || network.has_limit(b)) || (field.varies[i] == 0 && field.varies[j] == 0)) {
+        continue;
+      }
+      const double factor = factors[b];
       count += 1.0;
       sum += factor - 1.0;
       squares += (factor - 1.0) * (factor - 1.0);
@@ -204,13 +206,18 @@ std::vector<std::string> random_notes(const NetworkInput& input, const Network& 
       most = std::max(most, factor);
     }
     if (count == 0.0) continue;
+    if (field.factor) {
+      notes.push_back(fmt::format("graded {}: over {} bonds the factor is {:.4g} to {:.4g}",
+                                  word_of(field.property), count, least, most));
+      continue;
+    }
     const double mean = sum / count;
     notes.push_back(fmt::format(
         "random {} with seed {}: over {} bonds the factor has mean {:.4g}, standard deviation "
         "{:.4g}, least {:.4g}, largest {:.4g}{}",
-        word_of(random.property), random.field.seed, count, 1.0 + mean,
+        word_of(field.property), field.random.seed, count, 1.0 + mean,
         std::sqrt(std::max(0.0, squares / count - mean * mean)), least, most,
-        random.field.correlation_length < input.horizon
+        field.random.correlation_length < input.horizon
             ? "; correlation_length is below the horizon, over which bonds average: take at "
               "least one horizon"
             : ""));

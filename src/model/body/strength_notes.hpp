@@ -43,8 +43,9 @@ std::optional<std::string> unnotched_note(const CaseFile& input, const Model& mo
 /// 6).
 std::optional<std::string> joint_note(const NetworkInput& input, const Model& model);
 
-/// Returns the scatter of the factors of each NetworkInput::random over the bonds that it changes.
-std::vector<std::string> random_notes(const NetworkInput& input, const Network& network);
+/// Returns the range of the factors of each NetworkInput::fields over the bonds that it changes, of
+/// random ones also their scatter.
+std::vector<std::string> field_notes(const NetworkInput& input, const Network& network);
 
 /// Returns notes on bars with unusual moduli or yield strengths.
 std::vector<std::string> bar_notes(const CaseFile& input);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "base/error.hpp"
+#include "base/plain_text.hpp"
 #include "io/case/case_schema.hpp"
 #include "io/case/sections/laws/case_softening.hpp"
 #include "model/body/groups/drawn_groups.hpp"
@@ -89,14 +90,48 @@ void refuse_interfaces_without_bonds(const CaseFile& input, const Network& netwo
 
 namespace {
 
-/// Refuses a scatter that gives some bonds a strength that does not fit their fracture energy.
-[[noreturn]] void refuse_scatter(const CaseFile& input, const NetworkInput& network,
-                                 const TooStrong& error) {
-  std::size_t k = 0;  // the bond may lie between this material and another one that scatters
-  while (k < network.random.size() && network.random[k].scatters[error.material] == 0) ++k;
-  if (k == network.random.size()) k = 0;
+/// Refuses a formula that gives some bonds a strength that does not fit their fracture energy.
+[[noreturn]] void refuse_formula(const SourceLocation& where, const PropertyField& field,
+                                 double horizon, const TooStrong& error, int dim) {
+  const std::span<const double> place = std::span(error.place).first(static_cast<std::size_t>(dim));
+  const bool weak = error.share > 1.0;
+  throw InputError(
+      where,
+      fmt::format("is {:.6g} at the position ({}), where bonds with a horizon of {:.6g} {} {:.3g} "
+                  "times the energy that they {}",
+                  field.factor(place), joined(place), horizon,
+                  weak ? "would dissipate" : "would store at their strength",
+                  weak ? error.share : 1.0 / error.share,
+                  weak ? fmt::format("store at their strength; at most {:g} times are possible",
+                                     most_softening)
+                       : "may dissipate"),
+      "the strength squared over modulus times fracture energy must fit the horizon everywhere: "
+      "grade another property too, or take another horizon");
+}
+
+/// Refuses a field that gives some bonds a strength that does not fit their fracture energy.
+[[noreturn]] void refuse_field(const CaseFile& input, const NetworkInput& network,
+                               const TooStrong& error) {
+  // The bond may lie between this material and another one that varies. Fields of [[random]] come
+  // first.
+  const auto varies = [&](const PropertyField& field) {
+    return field.varies[static_cast<std::size_t>(error.material)] != 0;
+  };
+  const auto graded =
+      network.fields.begin() + static_cast<std::ptrdiff_t>(input.fields.random.size());
+  auto formula = std::find_if(graded, network.fields.end(), varies);
+  if (input.fields.random.empty()) formula = std::min(formula, network.fields.end() - 1);
+  if (formula != network.fields.end()) {
+    const std::string key =
+        item_key("graded", static_cast<std::size_t>(formula - graded), "factor");
+    refuse_formula(input.where(key), *formula, network.horizon, error,
+                   dimension_of(network.problem));
+  }
+  std::size_t k = 0;
+  while (k < input.fields.random.size() && !varies(network.fields[k])) ++k;
+  if (k == input.fields.random.size()) k = 0;
   const SourceLocation where = input.where(item_key("random", k, "variation"));
-  const double variation = network.random[k].field.variation;
+  const double variation = network.fields[k].random.variation;
   if (error.share > 1.0) {
     throw InputError(where,
                      fmt::format("is {:g}, which makes bonds so weak that they dissipate {:.3g} "
@@ -117,7 +152,7 @@ namespace {
 
 void refuse_unfit_strength(const CaseFile& input, const NetworkInput& network,
                            const TooStrong& error) {
-  if (error.scatter != 1.0) refuse_scatter(input, network, error);
+  if (error.scatter != 1.0) refuse_field(input, network, error);
   const auto count = static_cast<Index>(network.materials.size());
   const bool is_face = error.material >= count;
   const auto k = static_cast<std::size_t>(is_face ? error.material - count : error.material);

@@ -11,7 +11,6 @@
 #include "discretization/mesh_faces.hpp"
 #include "discretization/meshes/mesh_conformity.hpp"
 #include "io/case/sections/case_kinds.hpp"
-#include "io/case/sections/laws/case_random.hpp"
 #include "io/case/sections/laws/case_softening.hpp"
 #include "model/body/bar_layout.hpp"
 #include "model/body/fracture_rule.hpp"
@@ -23,6 +22,7 @@
 #include "model/body/strength_notes.hpp"
 #include "model/body/weak_faces.hpp"
 #include "model/conditions/boundary_conditions.hpp"
+#include "model/from_case/property_fields.hpp"
 #include "model/gauges.hpp"
 #include "network/bond_softening.hpp"
 #include "network/builder/network_builder.hpp"
@@ -89,11 +89,7 @@ NetworkInput network_input(const CaseFile& input, const Model& model, const Laid
     network.materials.back().softening.closes = material.softening.closes;
   }
   network.cracks = model.cracks;
-  for (const RandomSection& random : input.random) {
-    if (network.elastic) break;
-    network.random.push_back(
-        {random.property, random.field, materials_that_scatter(input, random)});
-  }
+  network.fields = property_fields(input);
   network.bars = bars.lines;
   network.bar_materials = bars.materials;
   return network;
@@ -219,7 +215,7 @@ void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, 
     if (text) model.notes.push_back(*text);
   }
   for (const std::string& text : strength_notes(input, model)) model.notes.push_back(text);
-  for (const std::string& text : random_notes(network, model.network)) model.notes.push_back(text);
+  for (const std::string& text : field_notes(network, model.network)) model.notes.push_back(text);
   for (const std::string& text : bar_notes(input)) model.notes.push_back(text);
   body.facets =
       std::move(model.network.facets);  // with the nodal area fractions that balance the bonds

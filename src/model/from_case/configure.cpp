@@ -20,9 +20,11 @@
 #include "model/body/solid_boxes.hpp"
 #include "model/conditions/boundary_conditions.hpp"
 #include "model/from_case/case_bonds.hpp"
+#include "model/from_case/property_fields.hpp"
 #include "model/from_case/unstructured_body.hpp"
 #include "model/gauges.hpp"
 #include "model/surface_of_case.hpp"
+#include "network/builder/graded_stiffness.hpp"
 
 namespace perilink {
 namespace {
@@ -182,6 +184,7 @@ Model build_bodies_model(const CaseFile& input, const BondOptions& options) {
     build_particles(input, body, model);
   } else {
     build_elements(input, body, model);
+    scale_stiffness(property_fields(input), body.particles.positions, *model.elements);
   }
   model.facets = std::move(body.facets);
   model.cells = std::move(body.cells);
@@ -200,6 +203,7 @@ Model build_model_with(const CaseFile& input, const BondOptions& options) {
         hooke_constants(model.problem, material.youngs_modulus,
                         material.poissons_ratio.value_or(bond_poissons_ratio(model.problem))));
   }
+  model.modulus = modulus_of_particles(input, model.network);
   model.surface_conditions = surface_of_case(input, model);
   if (is_quasistatic(input.analysis.type)) carry_particles(input, model);
   return model;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "network/bond_strength.hpp"
+#include "network/builder/graded_stiffness.hpp"
 #include "network/builder/softened_bonds.hpp"
 
 namespace perilink {
@@ -83,6 +84,7 @@ Network make_beam(const Body& body, const NetworkInput& input) {
   }
   network.first_slip_spring = network.first_embedded_slip_spring = network.first_bar_element =
       network.bonds.size();
+  scale_stiffness(input, network);
   if (!input.elastic) soften_bonds(body, input, network);
   return network;
 }

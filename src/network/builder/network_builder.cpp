@@ -19,6 +19,7 @@
 #include "network/builder/bar_elements.hpp"
 #include "network/builder/beam_bonds.hpp"
 #include "network/builder/crack_contacts.hpp"
+#include "network/builder/graded_stiffness.hpp"
 #include "network/builder/repeated_box.hpp"
 #include "network/builder/shell_bonds.hpp"
 #include "network/builder/softened_bonds.hpp"
@@ -244,6 +245,7 @@ Network build_bonds(const Body& body, const NetworkInput& input, const PairConst
   std::optional<Network> repeated = repeat_smaller_box(body, input, make);
   if (repeated) set_stretches(body, input, constants, *repeated);
   Network network = repeated ? std::move(*repeated) : make(body, input);
+  scale_stiffness(input, network);
   if (!input.cracks.empty()) {
     // After the calibration: crack faces must not balance uniform stresses as surfaces do.
     closing = cut_bonds(body, input, network);
@@ -266,8 +268,19 @@ Network build_bonds_and_cells(const Body& body, const NetworkInput& input,
   return network;
 }
 
-/// Returns the bonds as if all materials had equal constants; empty without interfaces or with
-/// materials of one stiffness. Calibrating a body of several materials gives bonds near joints
+/// Returns the bonds without the factors on Young's modulus; empty without factors.
+EvenBonds unscaled(const Network& network, std::vector<double> modulus) {
+  EvenBonds bonds;
+  for (std::size_t b = 0; b < modulus.size(); ++b) {
+    bonds.stiffness.push_back(network.stiffness[b] / modulus[b]);
+    if (network.carries_moments()) bonds.bending.push_back(network.bending[b] / modulus[b]);
+  }
+  bonds.modulus = std::move(modulus);
+  return bonds;
+}
+
+/// Returns the bonds as if all materials had equal constants everywhere; empty without interfaces
+/// or with one stiffness. Calibrating a body of several materials gives bonds near joints
 /// stiffnesses between the values of the materials, or outside this range.
 EvenBonds even_bonds(const Body& body, const NetworkInput& input, const Network& network) {
   NetworkInput even = input;
@@ -278,14 +291,21 @@ EvenBonds even_bonds(const Body& body, const NetworkInput& input, const Network&
     material.youngs_modulus = first.youngs_modulus;
     material.poissons_ratio = first.poissons_ratio;
   }
-  if (input.interfaces.empty() || !unlike) return {};
+  if (input.interfaces.empty()) return {};
+  const std::size_t num_bonds = static_cast<std::size_t>(network.num_bonds());
+  std::vector<double> modulus =
+      modulus_between(input.fields, network.particles.positions, network.dim(),
+                      std::span(network.bonds.first).first(num_bonds),
+                      std::span(network.bonds.second).first(num_bonds));
+  if (!unlike) return unscaled(network, std::move(modulus));
+  even.fields.clear();
   even.interfaces.clear();
   even.cracks.clear();
   even.calibration.on_search = {};
   const PairConstants constants(body, even);
   ClosingCracks none;
   const Network whole = build_bonds_and_cells(body, even, constants, none);
-  EvenBonds bonds{std::vector<double>(static_cast<std::size_t>(network.num_bonds()), 0.0)};
+  EvenBonds bonds{std::vector<double>(num_bonds, 0.0), {}, std::move(modulus)};
   if (!whole.bending.empty()) bonds.bending = bonds.stiffness;
   const auto ends = [](const Bonds& all, Index b) {
     return std::pair(all.first[b], all.second[b]);

@@ -40,8 +40,8 @@ SolidMaterial mean_of(const SolidMaterial& a, const SolidMaterial& b) {
   return mean;
 }
 
-/// Width of the classes of laws of random strength: difference of the logarithm of the fracture
-/// energy over the square of the strength, which determines the shape of a law.
+/// Width of the classes of laws where properties vary: difference of the logarithm of the fracture
+/// energy times the modulus over the square of the strength, which determines the shape of a law.
 constexpr double width_of_class = 0.02;
 
 double energy_of_class(int number) { return std::exp(width_of_class * number); }
@@ -49,7 +49,7 @@ double energy_of_class(int number) { return std::exp(width_of_class * number); }
 /// Bonds with one law.
 struct LawKind {
   std::pair<Index, Index> materials;
-  int energy_class = 0;  ///< with NetworkInput::random
+  int energy_class = 0;  ///< with NetworkInput::fields
   /// The stretch where bonds of the same materials have different energies: in beams near ends, and
   /// in layers at joints. Slip springs have no such stretch.
   double stretch = 0.0;
@@ -60,21 +60,31 @@ struct LawKind {
 class LawKinds {
  public:
   LawKinds(const NetworkInput& input, const Network& network)
-      : input_(input), network_(network), factors_(random_factors(input, network)) {}
+      : input_(input), network_(network), factors_(property_factors(input, network)) {}
 
   LawKind of(Index element) const;
   bool softens(const LawKind& kind) const {
     return can_soften(input_.materials[kind.materials.first]) &&
            can_soften(input_.materials[kind.materials.second]);
   }
-  bool scatter() const { return !factors_.strength.empty(); }
-  /// Returns the factor on the reference stretch of an element's law.
+  bool vary() const { return !factors_.strength.empty(); }
+  /// Returns the factor on the reference stretch of an element's law: stretch is stress over
+  /// modulus.
   double factor(Index element, const LawKind& kind) const {
-    if (element >= static_cast<Index>(factors_.strength.size())) return 1.0;
-    return softens(kind) ? factors_.strength[element] : std::sqrt(factors_.energy[element]);
+    if (!varies(element, kind)) return 1.0;
+    const double modulus = factors_.modulus[element];
+    return softens(kind) ? factors_.strength[element] / modulus
+                         : std::sqrt(factors_.energy[element] / modulus);
   }
 
  private:
+  /// Returns whether the law follows the factors; laws by stretches do not.
+  bool varies(Index element, const LawKind& kind) const {
+    return element < static_cast<Index>(factors_.strength.size()) &&
+           input_.materials[kind.materials.first].softening.stretches[0] == 0.0 &&
+           input_.materials[kind.materials.second].softening.stretches[0] == 0.0;
+  }
+
   const NetworkInput& input_;
   const Network& network_;
   BondFactors factors_;
@@ -95,15 +105,25 @@ LawKind LawKinds::of(Index element) const {
     kind.materials = std::minmax(own, solid ? material[j] : own);
     if (network_.is_beam()) kind.stretch = network_.critical_stretch[element];
   }
-  if (element < static_cast<Index>(factors_.strength.size()) && softens(kind)) {
+  if (varies(element, kind) && softens(kind)) {
     const double strength = factors_.strength[element];
-    kind.energy_class = static_cast<int>(
-        std::lround(std::log(factors_.energy[element] / (strength * strength)) / width_of_class));
+    const double energy = factors_.energy[element] * factors_.modulus[element];
+    kind.energy_class =
+        static_cast<int>(std::lround(std::log(energy / (strength * strength)) / width_of_class));
   }
   return kind;
 }
 
-/// Returns the laws of all bonds, and those without scatter.
+Vector3 middle_of(const Network& network, Index element) {
+  const Particles& places = network.places();
+  Vector3 middle{};
+  for (const Index i : {network.bonds.first[element], network.bonds.second[element]}) {
+    for (int a = 0; a < places.dim; ++a) middle[a] += 0.5 * places.position(i)[a];
+  }
+  return middle;
+}
+
+/// Returns the laws of all bonds, and those with the values of the materials.
 std::map<LawKind, MaterialBonds> laws_of(const Body& body, const NetworkInput& input,
                                          const LawKinds& kinds, const Network& network) {
   std::map<LawKind, MaterialBonds> laws;
@@ -124,7 +144,7 @@ std::map<LawKind, MaterialBonds> laws_of(const Body& body, const NetworkInput& i
         laws.insert({kind, bonds_of_material(body, input, own,
                                              network.critical_stretch[e] * std::sqrt(energy))});
       } catch (const TooStrong& error) {
-        throw TooStrong(a, error.share, energy);
+        throw TooStrong(a, error.share, energy, middle_of(network, e));
       }
     }
   }
@@ -147,7 +167,7 @@ void soften_bonds(const Body& body, const NetworkInput& input, Network& network)
     network.laws.push_back(bonds.law);
   }
   if (!number.empty()) network.law_of.resize(network.stiffness.size(), 0);
-  if (number.empty() && !kinds.scatter()) return;
+  if (number.empty() && !kinds.vary()) return;
   for (Index e = 0; e < network.first_bar_element; ++e) {
     if (!network.has_limit(e)) continue;
     const LawKind kind = kinds.of(e);

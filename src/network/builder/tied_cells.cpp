@@ -8,6 +8,7 @@
 
 #include "discretization/lattices/triangulate.hpp"
 #include "discretization/meshes/mesh_body.hpp"
+#include "network/builder/graded_stiffness.hpp"
 #include "network/element_columns.hpp"
 
 namespace perilink {
@@ -115,6 +116,7 @@ void join_cells(const Body& whole, const BondedPart& part, const NetworkInput& i
   copy_shares(network.facets, part.whole_of, facets);
   network.facets = std::move(facets);
   LinearElements cells = elements_of(cells_of(whole, true), whole.particles, input);
+  scale_stiffness(input.fields, whole.particles.positions, cells);
   const Bonds edges = edges_of(cells.cells, whole.particles);
   cells.num_edges = edges.size();
   append_edges(edges, input.elastic, network);

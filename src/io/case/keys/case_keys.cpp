@@ -10,11 +10,12 @@ namespace perilink {
 
 const std::vector<TableSchema>& case_schema() {
   static const std::vector<TableSchema> schema = {
-      top_table(),          body_table(),     region_table(), material_table(),  support_table(),
-      displacement_table(), velocity_table(), load_table(),   traction_table(),  point_load_table(),
-      symmetry_table(),     spring_table(),   crack_table(),  interface_table(), random_table(),
-      rebar_table(),        element_table(),  gauge_table(),  analysis_table(),  stop_table(),
-      stage_table(),        output_table()};
+      top_table(),      body_table(),         region_table(),   material_table(),
+      support_table(),  displacement_table(), velocity_table(), load_table(),
+      traction_table(), point_load_table(),   symmetry_table(), spring_table(),
+      crack_table(),    interface_table(),    random_table(),   graded_table(),
+      rebar_table(),    element_table(),      gauge_table(),    analysis_table(),
+      stop_table(),     stage_table(),        output_table()};
   return schema;
 }
 

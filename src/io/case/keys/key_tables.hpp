@@ -25,6 +25,7 @@ TableSchema spring_table();
 TableSchema crack_table();
 TableSchema interface_table();
 TableSchema random_table();
+TableSchema graded_table();
 TableSchema rebar_table();
 TableSchema element_table();
 TableSchema gauge_table();

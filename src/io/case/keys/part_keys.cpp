@@ -1,4 +1,4 @@
-// Keys of cracks, interfaces, scatter, bars, elements and gauges.
+// Keys of cracks, interfaces, fields of properties, bars, elements and gauges.
 
 #include "io/case/keys/key_tables.hpp"
 #include "io/case/sections/case_gauges.hpp"
@@ -25,8 +25,7 @@ const Without no_interfaces = {
     {elements, "is \"linear_elements\", but the case has [[interfaces]], which need bonds",
      "delete one of the two", "body.method"},
     {elastic, {}, {}}};
-const Without no_random = {
-    {states, no_such_table, another_model}, {elements, no_bonds, bonds_instead}, {elastic, {}, {}}};
+const Without no_fields = {{states, no_such_table, another_model}};
 const Without no_rebar = {
     {beam, no_beam, flat_instead},
     {shell, "is given, but shells cannot have rebar", flat_instead},
@@ -44,6 +43,9 @@ const Without release_strains = {
     {beam, "is given, but the mean strain of a bent beam leaves out the strain at its faces",
      "give `alert`"}};
 constexpr const char* a_line = "give the `points` of a line: [[0, 1], [2, 1]]";
+
+constexpr const char* what_varies =
+    "what varies: \"tensile_strength\", \"fracture_energy\" or \"youngs_modulus\"";
 
 template <class Section>
 void write_place(TomlWriter& out, const Section& section, Kinds kind) {
@@ -186,9 +188,8 @@ TableSchema random_table() {
   };
   return {"random",
           true,
-          {key("property", &RandomSection::property)
-               .needed("what scatters: \"tensile_strength\" or \"fracture_energy\""),
-           key("materials", &RandomSection::materials),
+          {key<RandomSection>("property", &VaryingSection::property).needed(what_varies),
+           key<RandomSection>("materials", &VaryingSection::materials),
            key<RandomSection>("distribution", in_field(&RandomField::distribution))
                .needed("\"normal\", \"lognormal\" or \"weibull\""),
            key<RandomSection>("variation", in_field(&RandomField::variation), from(1e-3, 1.0))
@@ -197,7 +198,17 @@ TableSchema random_table() {
                               positive)
                .needed("the distance l of the correlation exp(-(r/l)^2) [length]"),
            key<RandomSection>("seed", in_field(&RandomField::seed), from(0, largest))},
-          no_random};
+          no_fields};
+}
+
+TableSchema graded_table() {
+  return {"graded",
+          true,
+          {key<GradedSection>("property", &VaryingSection::property).needed(what_varies),
+           key<GradedSection>("materials", &VaryingSection::materials),
+           key("factor", &GradedSection::factor)
+               .needed("a formula of the place: factor = \"1 + x / 400\"")},
+          no_fields};
 }
 
 TableSchema rebar_table() {

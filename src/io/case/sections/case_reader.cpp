@@ -183,11 +183,12 @@ CaseFile parse_case(const std::string& text, const std::string& path,
   input.springs = each("springs", read_springs, kind);
   input.cracks = each("cracks", read_crack, kind);
   input.interfaces = each("interfaces", read_interface, kind);
-  input.random = each("random", read_random, kind);
+  input.fields = {each("random", read_random, kind), each("graded", read_graded, kind)};
   input.rebar = each("rebar", read_rebar, kind);
   input.gauges = each("gauges", read_gauge, kind);
   input.elements = read_elements(document.table("elements"), kind);
   input.analysis = read_analysis(document.table("analysis"), kind);
+  for (std::string& key : unused_fields(input)) input.unused.push_back(std::move(key));
   input.stop = read_stop(document.table("stop"), kind);
   input.stages = each("stages", read_stage, kind);
   input.output = read_section<OutputSection>("output", document.table("output"), kind);

@@ -44,7 +44,8 @@ class CaseWriter {
     list("springs", input_.springs);
     list("cracks", input_.cracks);
     list("interfaces", input_.interfaces);
-    list("random", input_.random);
+    list("random", input_.fields.random);
+    list("graded", input_.fields.graded);
     list("rebar", input_.rebar);
     list("gauges", input_.gauges);
     if (input_.elements) table("elements", *input_.elements);

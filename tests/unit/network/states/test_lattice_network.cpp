@@ -17,7 +17,7 @@ namespace {
 
 using namespace testing_support;
 
-constexpr double youngs_modulus = 25e9;  // that of elastic_concrete()
+constexpr double concrete_modulus = 25e9;  // that of elastic_concrete()
 
 class LatticeNetworkOf : public testing::TestWithParam<StateLatticeCase> {
  protected:
@@ -59,7 +59,7 @@ TEST_P(LatticeNetworkOf, HasTheParticlesAndBondsOfTheRows) {
 /// Hooke's energy per volume of a strain.
 double energy_density(const StateLatticeCase& lattice, const std::array<Vector3, 3>& strain) {
   const HookeConstants hooke =
-      hooke_constants(lattice.problem, youngs_modulus, lattice.poissons_ratio);
+      hooke_constants(lattice.problem, concrete_modulus, lattice.poissons_ratio);
   double trace = 0.0, squares = 0.0;
   for (int a = 0; a < 3; ++a) {
     trace += strain[a][a];
