@@ -6,13 +6,16 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <random>
 #include <system_error>
+#include <thread>
 #include <utility>
+#include <vector>
 
 #include "base/memory.hpp"
 
@@ -120,14 +123,34 @@ void write_whole_file(const std::string& path, std::string_view bytes, bool sync
   fail_to_write(path, fault);
 }
 
+/// A disk needs nearly the same time for one file as for several at once.
 void sync_files(const std::string& directory) {
+  constexpr std::size_t most_at_once = 8;
+  std::vector<std::string> paths;
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(directory, ignored)) {
     if (entry.is_symlink(ignored) || !entry.is_regular_file(ignored)) continue;
-    const std::string path = entry.path().string();
-    Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
-    if (file.number() < 0) continue;  // not a file of this process
-    if (const int fault = sync_file(file.number()); fault != 0) fail_to_write(path, fault);
+    paths.push_back(entry.path().string());
+  }
+  std::vector<int> faults(paths.size(), 0);
+  std::atomic<std::size_t> next = 0;
+  const auto sync_some = [&] {
+    for (std::size_t k = next++; k < paths.size(); k = next++) {
+      Descriptor file(::open(paths[k].c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
+      if (file.number() >= 0) faults[k] = sync_file(file.number());  // else of another process
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    try {
+      while (others.size() + 1 < std::min(paths.size(), most_at_once))
+        others.emplace_back(sync_some);
+    } catch (const std::system_error&) {  // fewer threads do the same
+    }
+    sync_some();
+  }
+  for (std::size_t k = 0; k < paths.size(); ++k) {
+    if (faults[k] != 0) fail_to_write(paths[k], faults[k]);
   }
 }
 

@@ -14,6 +14,13 @@ Eigen::Matrix3d matrix_of(const SymmetricTensor& t) {
 
 }  // namespace
 
+void add_square(SymmetricTensor& tensor, double factor, const Vector3& v) {
+  for (int a = 0; a < 3; ++a) {
+    tensor[a] += factor * v[a] * v[a];
+    tensor[3 + a] += factor * v[a] * v[(a + 1) % 3];
+  }
+}
+
 PrincipalValues principal_values(const SymmetricTensor& tensor, int dim) {
   if (dim == 2) {
     const double mean = 0.5 * (tensor[0] + tensor[1]), half = 0.5 * (tensor[0] - tensor[1]);

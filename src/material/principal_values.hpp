@@ -5,6 +5,9 @@
 
 namespace perilink {
 
+/// tensor += factor v v'
+void add_square(SymmetricTensor& tensor, double factor, const Vector3& v);
+
 /// Eigenvalues of a symmetric tensor, largest first.
 struct PrincipalValues {
   double first = 0.0, middle = 0.0, last = 0.0;

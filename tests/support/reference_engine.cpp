@@ -1,7 +1,6 @@
 #include "support/reference_engine.hpp"
 
 #include <cmath>
-#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -201,10 +200,8 @@ void ReferenceEngine::set_closed_ratios(const std::vector<Index>& broken,
   for (Index e = 0; e < network_.num_elements(); ++e) {
     if (secants_[e] == 0.0 && faces.concerns(e)) faces.set_broken(e, true);
   }
-  std::set<Index> bonds = faces.broken_around(broken);
-  for (const Index e : opened) {
-    if (secants_[e] == 0.0 && faces.concerns(e)) bonds.insert(e);
-  }
+  std::vector<Index> bonds = faces.broken_around(broken);
+  bonds.insert(bonds.end(), opened.begin(), opened.end());
   const Eigen::VectorXd motion = displacement_at(load_factor_);
   for (const auto& [e, ratio] : faces.ratios_of(bonds)) {
     if (!is_closed(e) && !(extension(e, motion) < 0.0)) closed_[e] = ratio;

@@ -39,14 +39,6 @@ Vector3 padded(std::span<const double> values) {
   return result;
 }
 
-/// Adds weight times v v'.
-void add_square(SymmetricTensor& sum, const Vector3& v, double weight) {
-  for (int a = 0; a < 3; ++a) {
-    sum[a] += weight * v[a] * v[a];
-    sum[3 + a] += weight * v[a] * v[(a + 1) % 3];
-  }
-}
-
 /// Lists the cracks of one state.
 class CrackLister {
  public:
@@ -219,7 +211,7 @@ class CrackLister {
     crack.mean_opening = weight / crack.bonds;
     SymmetricTensor spread{}, opposite{};
     for_each_bond(keys, [&](const Vector3& at, double opening) {
-      add_square(spread, {at[0] - middle[0], at[1] - middle[1], at[2] - middle[2]}, opening);
+      add_square(spread, opening, {at[0] - middle[0], at[1] - middle[1], at[2] - middle[2]});
     });
     for (std::size_t c = 0; c < spread.size(); ++c) opposite[c] = -spread[c];
     const int dim = network_.dim();

@@ -19,11 +19,7 @@ SymmetricTensor lost_at(const Network& network, const Csr& neighbourhoods, Secan
     const auto direction = network.bonds.direction(e);
     Vector3 n{};
     std::copy(direction.begin(), direction.end(), n.begin());
-    const double lost = 1.0 - secants.axial(e);
-    for (int a = 0; a < 3; ++a) {
-      sum[a] += lost * n[a] * n[a];
-      sum[3 + a] += lost * n[a] * n[(a + 1) % 3];
-    }
+    add_square(sum, 1.0 - secants.axial(e), n);
   }
   return sum;
 }

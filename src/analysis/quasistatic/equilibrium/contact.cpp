@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "base/error.hpp"
@@ -104,6 +105,28 @@ auto Contact::next_change(double distance) const -> Change {
     if (std::abs(change) < std::abs(next.distance)) next = {element, change};
   });
   return next;
+}
+
+Index Contact::first_closed_by(std::span<const double> motion) const {
+  constexpr double least_shortening = 1e-3;  // over the largest motion
+  const double least = least_shortening * body_.largest_of(motion);
+  Index first = no_index;
+  double shortest = std::numeric_limits<double>::infinity();
+  for_each({}, [&](Index element, const Extension& extension) {
+    if (body_.is_closed(element) || body_.is_grounded(element)) return;
+    const UnilateralElement ends = body_.ends_of(element);
+    double shortening = 0.0;
+    for (int a = 0; a < body_.network().dim(); ++a) {
+      shortening -= ends.n[a] * (motion[ends.second + a] - motion[ends.first + a]);
+    }
+    if (!(shortening > least)) return;
+    const double way = std::max(extension.now, 0.0) / shortening;
+    if (way < shortest) {
+      shortest = way;
+      first = element;
+    }
+  });
+  return first;
 }
 
 double Contact::round_off_of(std::span<const double> motion) const {

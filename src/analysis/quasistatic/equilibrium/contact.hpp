@@ -40,6 +40,9 @@ class Contact {
   /// \param distance  largest change of the load factor, with its sign; may be infinite
   Change next_change(double distance) const;
 
+  /// Returns the open element that a motion of all particles closes first; no_index: none closes.
+  Index first_closed_by(std::span<const double> motion) const;
+
   /// Returns the motion of all particles that decides the contact states. It is the present one, or
   /// the one of growing loads if only elements with zero extension may change.
   std::vector<double> deciding_motion(const Reading& reading) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "base/error.hpp"
@@ -21,33 +22,58 @@ void ContactChanges::settle(EventOutcome& outcome, double direction) {
   begin();
   follow_broken();
   ContactRounds rounds(contact_, direction);
-  while (!outcome.mechanism) {
-    const std::vector<Index> wrong = rounds.next();
-    if (wrong.empty()) {
-      set_closed_ratios(opened());
-      return;
+  std::vector<Index> wrong = rounds.next();
+  while (!wrong.empty() && !outcome.mechanism) {
+    if (!follow(wrong, outcome)) {
+      // Only round-off violates elements that alone hold a part without load.
+      wrong = contact_.violated(
+          {direction, contact_.round_off_of(contact_.deciding_motion({direction, 0.0}))});
+      if (wrong.empty()) break;
+      const std::vector<Index> others = take_over(wrong);
+      outcome.mechanism = others.empty() || !follow(others, outcome);
     }
-    outcome.mechanism = !follow(wrong, outcome);
+    wrong = rounds.next();
   }
+  if (!outcome.mechanism) set_closed_ratios(opened());
 }
 
 /// Returns the elements that were closed before the last call of settle() and are open now.
-std::set<Index> ContactChanges::opened() const {
+std::vector<Index> ContactChanges::opened() const {
   std::set<Index> opened;
   for (const Index element : changed_) {
     if (!opened.erase(element)) opened.insert(element);
   }
   std::erase_if(opened, [&](Index element) { return body_.is_closed(element); });
-  return opened;
+  return {opened.begin(), opened.end()};
 }
 
 /// Sets the closed stiffness of broken bonds. Bonds that carry pressure, or would at once, keep
 /// theirs, so that no energy appears.
-void ContactChanges::set_closed_ratios(const std::set<Index>& bonds) {
+void ContactChanges::set_closed_ratios(std::span<const Index> bonds) {
   for (const auto& [bond, ratio] : body_.faces().ratios_of(bonds)) {
     if (body_.is_closed(bond) || contact_.extension_of(bond).now < 0.0) continue;
     ratios_before_.emplace_back(bond, body_.faces().set_closed_ratio(bond, ratio));
   }
+}
+
+/// Finds an open element that can hold what a violated closed element alone holds. Once the closed
+/// one is open, nothing resists the motion K^-1 x that stretches it, and the energy falls along
+/// this motion until another element closes. If none does, the body separates.
+/// \return the element that closes and the one that opens; empty if no element closes
+std::vector<Index> ContactChanges::take_over(const std::vector<Index>& wrong) {
+  const Unknowns& unknowns = body_.unknowns();
+  for (const Index element : wrong) {
+    if (!body_.is_closed(element)) continue;
+    const SparseVector x = body_.one_sided_removal(element).x[0];
+    std::vector<double> values(body_.num_unknowns(), 0.0);
+    for (int k = 0; k < x.size(); ++k) values[x.rows[k]] = x.values[k];
+    solution_.update().inverse().solve(values, values);
+    std::vector<double> motion = unknowns.expand(values);
+    for (std::size_t k = 0; k < motion.size(); ++k) motion[k] -= unknowns.prescribed[k];
+    const Index other = contact_.first_closed_by(motion);
+    if (other != no_index) return {other, element};
+  }
+  return {};
 }
 
 void ContactChanges::turn(const std::vector<Index>& elements) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <set>
+#include <span>
 #include <vector>
 
 #include "analysis/quasistatic/equilibrium/body/event_outcome.hpp"
@@ -45,13 +45,14 @@ class ContactChanges {
  private:
   bool follow(const std::vector<Index>& wrong, EventOutcome& outcome);
   bool search(const std::vector<Index>& wrong);
+  std::vector<Index> take_over(const std::vector<Index>& wrong);
   std::vector<Index> change(std::vector<Index> wrong);
   bool change_together(const std::vector<Index>& wrong);
   bool holds_apart(const std::vector<Index>& opened);
   void close(Index element);
   void turn(const std::vector<Index>& elements);
-  std::set<Index> opened() const;
-  void set_closed_ratios(const std::set<Index>& bonds);
+  std::vector<Index> opened() const;
+  void set_closed_ratios(std::span<const Index> bonds);
   void add_growth(Index element, const Extension& before, EventOutcome& outcome) const;
 
   DamagedBody& body_;

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 
 #include "discretization/bonds.hpp"
 #include "discretization/mesh_faces.hpp"
-#include "material/principal_values.hpp"
 
 namespace perilink {
 namespace {
@@ -24,14 +23,6 @@ constexpr double unit_of_distances = 0.3;
 /// up to half of their stiffness under pressure if they slide freely.
 constexpr double most_scatter = 0.85;
 
-/// tensor += factor x x'
-void add_product(SymmetricTensor& tensor, double factor, const Vector3& x) {
-  for (int a = 0; a < 3; ++a) {
-    tensor[a] += factor * x[a] * x[a];
-    tensor[3 + a] += factor * x[a] * x[(a + 1) % 3];
-  }
-}
-
 /// Returns n' tensor n.
 double along(const SymmetricTensor& tensor, const Vector3& n) {
   double sum = 0.0;
@@ -41,48 +32,113 @@ double along(const SymmetricTensor& tensor, const Vector3& n) {
   return sum;
 }
 
+/// Sorts numbers and leaves each once.
+void sort_out_repeated(std::vector<Index>& numbers) {
+  std::ranges::sort(numbers);
+  const auto repeated = std::ranges::unique(numbers);
+  numbers.erase(repeated.begin(), repeated.end());
+}
+
 }  // namespace
 
 CrackFaces::CrackFaces(const Network& network) : network_(network) {
-  closed_.assign(static_cast<std::size_t>(network.num_elements()), 1.0);
-  if (!network.has_closing() || network.has_sections()) return;
-  neighbourhoods_ = bonds_of_particles(network.bonds, network.particles.size());
-  broken_.assign(static_cast<std::size_t>(network.num_bonds()), 0);
-  planes_.resize(static_cast<std::size_t>(network.particles.size()));
-  for (Index e = 0; e < network.num_bonds(); ++e) {
-    unit_ = std::max(unit_, unit_of_distances * network.bonds.length(e));
+  if (network.has_closing()) closed_.assign(static_cast<std::size_t>(network.num_elements()), 1.0);
+}
+
+bool CrackFaces::is_broken(Index element) const {
+  if (!concerns(element) || sites_.empty()) return false;
+  const auto& site = sites_[network_.bonds.first[element]];
+  return site != nullptr && std::ranges::binary_search(site->broken, element);
+}
+
+/// Gets ready for the first broken bond.
+void CrackFaces::begin() {
+  neighbourhoods_ = bonds_of_particles(network_.bonds, network_.particles.size());
+  sites_.resize(static_cast<std::size_t>(network_.particles.size()));
+  for (Index e = 0; e < network_.num_bonds(); ++e) {
+    unit_ = std::max(unit_, unit_of_distances * network_.bonds.length(e));
   }
 }
 
-template <class Visit>
-void CrackFaces::for_each_broken(Index particle, Visit visit) const {
-  for (const Index e : neighbourhoods_.row(particle)) {
-    if (e < network_.num_bonds() && broken_[e] != 0) visit(e);
+/// Returns the particles at the ends of bonds and their neighbours, where bonds have broken,
+/// ascending.
+std::vector<Index> CrackFaces::particles_around(std::span<const Index> bonds) const {
+  std::vector<Index> around;
+  const auto add = [&](Index particle) {
+    if (sites_[particle] != nullptr) around.push_back(particle);
+  };
+  for (const Index bond : sites_.empty() ? std::span<const Index>() : bonds) {
+    for (const Index end : {network_.bonds.first[bond], network_.bonds.second[bond]}) {
+      add(end);
+      for (const Index e : neighbourhoods_.row(end)) add(network_.bonds.other_end(e, end));
+    }
   }
-}
-
-/// Returns the particles at the ends of bonds, ascending.
-std::vector<Index> CrackFaces::particles_of(std::span<const Index> bonds) const {
-  std::vector<Index> particles;
-  for (const Index e : bonds) {
-    particles.insert(particles.end(), {network_.bonds.first[e], network_.bonds.second[e]});
-  }
-  std::ranges::sort(particles);
-  const auto repeated = std::ranges::unique(particles);
-  particles.erase(repeated.begin(), repeated.end());
-  return particles;
+  sort_out_repeated(around);
+  return around;
 }
 
 void CrackFaces::set_broken(Index bond, bool broken) {
-  broken_[bond] = broken ? 1 : 0;
+  if (sites_.empty()) begin();
   if (broken) {
     newly_broken_.push_back(bond);
   } else {
     std::erase(newly_broken_, bond);
   }
   for (const Index end : {network_.bonds.first[bond], network_.bonds.second[bond]}) {
-    for (const Index i : particles_of(neighbourhoods_.row(end))) planes_[i].reset();
+    if (sites_[end] == nullptr) sites_[end] = std::make_unique<Site>();
+    std::vector<Index>& own = sites_[end]->broken;
+    const auto at = std::ranges::lower_bound(own, bond);
+    if (broken) {
+      own.insert(at, bond);
+    } else {
+      own.erase(at);
+    }
+    sum(end);
   }
+  for (const Index i : particles_around({&bond, 1})) {
+    sites_[i]->plane.reset();
+    for (const Index e : sites_[i]->broken) {
+      for (const Index end : {network_.bonds.first[e], network_.bonds.second[e]}) {
+        sites_[end]->cosines.clear();
+      }
+    }
+  }
+}
+
+/// Sums over the broken bonds of a particle.
+void CrackFaces::sum(Index particle) {
+  Site& site = *sites_[particle];
+  if (site.broken.empty()) return sites_[particle].reset();
+  site.sums = {};
+  for (const Index e : site.broken) {
+    const double length = network_.bonds.length(e), weight = std::pow(unit_ / length, 2);
+    const double sign = network_.bonds.first[e] == particle ? 1.0 : -1.0;
+    Vector3 n{};
+    std::ranges::copy(network_.bonds.direction(e), n.begin());
+    site.sums.weight += weight;
+    for (int a = 0; a < 3; ++a) site.sums.first[a] += 0.5 * sign * unit_ / length * n[a];
+    add_square(site.sums.places, 0.25, n);
+    add_square(site.sums.directions, weight, n);
+    add_square(site.sums.squares, 1.0, n);
+  }
+}
+
+/// Adds the sums of a particle at a distance, over the unit of distances.
+void CrackFaces::add_sums(Index particle, const Vector3& shift, Sums& sums) const {
+  const Sums& own = sites_[particle]->sums;
+  Vector3 first = own.first;
+  for (int a = 0; a < 3; ++a) {
+    first[a] += own.weight * shift[a];
+    sums.first[a] += first[a];
+  }
+  sums.weight += own.weight;
+  for (std::size_t c = 0; c < own.places.size(); ++c) {
+    sums.places[c] += own.places[c];
+    sums.directions[c] += own.directions[c];
+    sums.squares[c] += own.squares[c];
+  }
+  add_square(sums.places, 1.0 / own.weight, first);
+  add_square(sums.places, -1.0 / own.weight, own.first);
 }
 
 /// Finds the plane that fits the middles of the broken bonds of a particle and its neighbours best;
@@ -94,37 +150,25 @@ void CrackFaces::set_broken(Index bond, bool broken) {
 /// Bonds that one plane cuts anywhere have middles up to n'e xi / 2 from it, with the mean square
 /// (n'e xi)^2 / 12. Middles that scatter more are of a rough crack, whose faces interlock.
 auto CrackFaces::plane_at(Index particle) -> const Plane& {
-  std::optional<Plane>& plane = planes_[particle];
+  std::optional<Plane>& plane = sites_[particle]->plane;
   if (plane) return *plane;
-  const int dim = network_.dim();
-  const Vector3 origin = point_of(network_.particles.positions, dim, particle);
-  double sum = 0.0;
-  Vector3 first{};
-  SymmetricTensor places{}, directions{}, lengths{};
-  for (const Index i : particles_of(neighbourhoods_.row(particle))) {
-    for_each_broken(i, [&](Index e) {
-      const auto direction = network_.bonds.direction(e);
-      const double square = std::pow(network_.bonds.length(e) / unit_, 2), weight = 1.0 / square;
-      Vector3 x{}, n{};
-      for (int a = 0; a < dim; ++a) {
-        const auto at = [&](Index end) { return network_.particles.position(end)[a]; };
-        x[a] = (0.5 * (at(network_.bonds.first[e]) + at(network_.bonds.second[e])) - origin[a]) /
-               unit_;
-        n[a] = direction[a];
-        first[a] += weight * x[a];
-      }
-      sum += weight;
-      add_product(places, weight, x);
-      add_product(directions, weight, n);
-      add_product(lengths, 1.0, n);
-    });
+  Sums sums = sites_[particle]->sums;
+  const auto origin = network_.particles.position(particle);
+  for (const Index e : neighbourhoods_.row(particle)) {
+    const Index other = network_.bonds.other_end(e, particle);
+    if (sites_[other] == nullptr) continue;
+    Vector3 shift{};
+    for (std::size_t a = 0; a < origin.size(); ++a) {
+      shift[a] = (network_.particles.position(other)[a] - origin[a]) / unit_;
+    }
+    add_sums(other, shift, sums);
   }
-  add_product(places, -1.0 / sum, first);
-  SymmetricTensor tensor = directions;
-  for (std::size_t c = 0; c < tensor.size(); ++c) tensor[c] -= places[c];
-  const Vector3 normal = principal_direction(tensor, dim);
+  add_square(sums.places, -1.0 / sums.weight, sums.first);
+  SymmetricTensor tensor = sums.directions;
+  for (std::size_t c = 0; c < tensor.size(); ++c) tensor[c] -= sums.places[c];
+  const Vector3 n = principal_direction(tensor, network_.dim());
   return plane.emplace(
-      Plane{normal, along(places, normal) <= most_scatter / 12.0 * along(lengths, normal)});
+      Plane{n, along(sums.places, n) <= most_scatter / 12.0 * along(sums.squares, n)});
 }
 
 /// Returns the cosine of the angle between a bond and the mean normal at its ends.
@@ -158,14 +202,19 @@ double CrackFaces::pressure_of(Index bond, double cosine) const {
   return length * length * square * (stiffness * (square - nu * rest) + shear * (1.0 + nu) * rest);
 }
 
-/// Returns whether a particle has a broken bond near the normal.
+/// Returns a particle with the cosines of its broken bonds.
+auto CrackFaces::with_cosines(Index particle) -> const Site& {
+  Site& site = *sites_[particle];
+  if (!site.cosines.empty()) return site;
+  for (const Index e : site.broken) site.cosines.push_back(cosine_of(e));
+  site.largest_cosine = std::ranges::max(site.cosines);
+  return site;
+}
+
+/// Returns whether a particle has a broken bond near the normal. At a rough crack all bonds are
+/// struts.
 bool CrackFaces::has_strut(Index particle) {
-  const auto [has, is_new] = has_strut_.try_emplace(particle, false);
-  if (!is_new) return has->second;
-  has->second = !plane_at(particle).flat;
-  for_each_broken(particle,
-                  [&](Index e) { has->second = has->second || cosine_of(e) >= near_normal; });
-  return has->second;
+  return !plane_at(particle).flat || with_cosines(particle).largest_cosine >= near_normal;
 }
 
 /// A particle without bonds near the normal leaves its half of the pressure to the other ends. If
@@ -173,44 +222,36 @@ bool CrackFaces::has_strut(Index particle) {
 /// bonds are.
 CrackFaces::Face CrackFaces::face_of(Index particle) {
   if (!plane_at(particle).flat) return {0.0, 0.5};
+  constexpr double round_off = 1e-9;
   const bool has = has_strut(particle);
-  Face face{near_normal, 0.0};
-  if (!has) {
-    face.least_angle_cosine = 0.0;
-    for_each_broken(particle, [&](Index e) {
-      constexpr double round_off = 1e-9;
-      face.least_angle_cosine = std::max(face.least_angle_cosine, cosine_of(e) - round_off);
-    });
-  }
+  const Site& site = with_cosines(particle);
+  Face face{has ? near_normal : site.largest_cosine - round_off, 0.0};
   double taken = 0.0, carried = 0.0;
-  for_each_broken(particle, [&](Index e) {
-    const bool is_first = network_.bonds.first[e] == particle;
-    const Index other = is_first ? network_.bonds.second[e] : network_.bonds.first[e];
-    const double cosine = cosine_of(e), pressure = pressure_of(e, cosine);
-    const bool other_has = has_strut(other);
+  for (std::size_t k = 0; k < site.broken.size(); ++k) {
+    const Index e = site.broken[k];
+    const double pressure = pressure_of(e, site.cosines[k]);
+    const bool other_has = has_strut(network_.bonds.other_end(e, particle));
     taken += has == other_has ? 0.5 * pressure : has ? pressure : 0.0;
-    if (cosine >= face.least_angle_cosine) carried += pressure;
-  });
+    if (site.cosines[k] >= face.least_angle_cosine) carried += pressure;
+  }
   if (taken > 0.0 && carried > 0.0) face.scale = taken / carried;
   return face;
 }
 
-std::set<Index> CrackFaces::broken_around(std::span<const Index> bonds) const {
-  std::set<Index> around;
-  for (const Index end : particles_of(bonds)) {
-    for (const Index i : particles_of(neighbourhoods_.row(end))) {
-      for_each_broken(i, [&](Index e) { around.insert(e); });
-    }
+std::vector<Index> CrackFaces::broken_around(std::span<const Index> bonds) const {
+  std::vector<Index> around;
+  for (const Index i : particles_around(bonds)) {
+    around.insert(around.end(), sites_[i]->broken.begin(), sites_[i]->broken.end());
   }
+  sort_out_repeated(around);
   return around;
 }
 
-auto CrackFaces::ratios_of(const std::set<Index>& elements) -> std::vector<Ratio> {
-  has_strut_.clear();
+auto CrackFaces::ratios_of(std::span<const Index> elements) -> std::vector<Ratio> {
   std::map<Index, Face> faces;
   std::vector<Ratio> ratios;
   for (const Index e : elements) {
-    if (!concerns(e) || broken_[e] == 0) continue;
+    if (!is_broken(e)) continue;
     const double cosine = cosine_of(e);
     double ratio = 0.0;
     for (const Index end : {network_.bonds.first[e], network_.bonds.second[e]}) {

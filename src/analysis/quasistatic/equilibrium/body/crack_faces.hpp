@@ -1,13 +1,13 @@
 #pragma once
 
-#include <map>
+#include <memory>
 #include <optional>
-#include <set>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "base/csr.hpp"
+#include "material/principal_values.hpp"
 #include "network/network.hpp"
 
 namespace perilink {
@@ -36,15 +36,17 @@ class CrackFaces {
   double set_closed_ratio(Index element, double ratio) {
     return std::exchange(closed_[element], ratio);
   }
-  /// Returns the broken bonds around those that broke since the last call, with these.
-  std::set<Index> take_around_broken() { return broken_around(std::exchange(newly_broken_, {})); }
+  /// Returns the broken bonds around those that broke since the last call, with these, ascending.
+  std::vector<Index> take_around_broken() {
+    return broken_around(std::exchange(newly_broken_, {}));
+  }
 
   /// Stiffness of a closed bond over that of the intact bond.
   using Ratio = std::pair<Index, double>;
-  /// Returns the ratios of the broken bonds among elements by all broken bonds, in ascending order.
-  std::vector<Ratio> ratios_of(const std::set<Index>& elements);
-  /// Returns the broken bonds whose ratios change as given ones break, with these.
-  std::set<Index> broken_around(std::span<const Index> bonds) const;
+  /// Returns the ratios of the broken bonds among elements by all broken bonds.
+  std::vector<Ratio> ratios_of(std::span<const Index> elements);
+  /// Returns the broken bonds whose ratios change as given ones break, with these, ascending.
+  std::vector<Index> broken_around(std::span<const Index> bonds) const;
 
  private:
   /// Pressure that a particle takes over from its broken bonds.
@@ -57,23 +59,41 @@ class CrackFaces {
     Vector3 normal;
     bool flat;  ///< whether the crack is nearly plane there
   };
-  template <class Visit>
-  void for_each_broken(Index particle, Visit visit) const;
-  std::vector<Index> particles_of(std::span<const Index> bonds) const;
+  /// Sums over broken bonds. l is the unit of distances, w = (l / length)^2, n the direction of a
+  /// bond, and x its middle over l.
+  struct Sums {
+    double weight = 0.0;           ///< of w
+    Vector3 first{};               ///< of w x
+    SymmetricTensor places{};      ///< of w x x'
+    SymmetricTensor directions{};  ///< of w n n'
+    SymmetricTensor squares{};     ///< of n n'
+  };
+  /// A particle with broken bonds.
+  struct Site {
+    std::vector<Index> broken;     ///< its broken bonds, ascending
+    Sums sums;                     ///< over these, with x from the particle
+    std::optional<Plane> plane;    ///< if it is known
+    std::vector<double> cosines;   ///< cosine_of() each broken bond; empty if they are not known
+    double largest_cosine = -1.0;  ///< of these
+  };
+  void begin();
+  bool is_broken(Index element) const;
+  std::vector<Index> particles_around(std::span<const Index> bonds) const;
+  void sum(Index particle);
+  void add_sums(Index particle, const Vector3& shift, Sums& sums) const;
   const Plane& plane_at(Index particle);
   double cosine_of(Index bond);
   double pressure_of(Index bond, double cosine) const;
+  const Site& with_cosines(Index particle);
   bool has_strut(Index particle);
   Face face_of(Index particle);
 
   const Network& network_;
-  Csr neighbourhoods_;  ///< bonds of each particle; without rows if there is no closing bond
-  double unit_ = 0.0;   ///< of distances in the search for normals [length]
-  std::vector<double> closed_;                ///< closed_ratio(), per element
-  std::vector<std::uint8_t> broken_;          ///< per bond
+  std::vector<double> closed_;  ///< closed_ratio(), per element; empty if none closes
+  double unit_ = 0.0;           ///< of distances in the search for normals [length]
+  Csr neighbourhoods_;          ///< bonds of each particle; without rows until a bond has broken
+  std::vector<std::unique_ptr<Site>> sites_;  ///< per particle; null without broken bonds
   std::vector<Index> newly_broken_;           ///< bonds without new ratios around them
-  std::vector<std::optional<Plane>> planes_;  ///< per particle, where they are known
-  std::map<Index, bool> has_strut_;           ///< per particle, where it is known
 };
 
 }  // namespace perilink

@@ -102,5 +102,22 @@ TEST(CrackFaces, BondsAlongTheNormalCarryThePressureOfAll) {
   }
 }
 
+/// Ratios depend on the broken bonds only, not on the order in which they broke.
+TEST(CrackFaces, ABondThatIsWholeAgainLeavesTheRatiosAsBefore) {
+  const Network network = lattice(6, 0.3);
+  std::vector<Index> some;
+  for (Index e = 0; e + 1 < network.num_elements(); e += 7) some.push_back(e);
+  CrackFaces faces(network), others(network);
+  for (const Index e : some) faces.set_broken(e, true);
+  for (auto e = some.rbegin(); e != some.rend(); ++e) {
+    others.set_broken(*e, true);
+    others.set_broken(*e + 1, true);
+  }
+  EXPECT_NE(faces.ratios_of(some), others.ratios_of(some));
+  for (const Index e : some) others.set_broken(e + 1, false);
+  EXPECT_EQ(faces.ratios_of(some), others.ratios_of(some));
+  EXPECT_EQ(faces.take_around_broken(), others.take_around_broken());
+}
+
 }  // namespace
 }  // namespace perilink
