@@ -92,6 +92,19 @@ std::vector<CurvePoint> equivalent_curve(std::span<const StepRecord> rows) {
   return points;
 }
 
+/// Returns the number of rows of a stage before residual strength. Beside small loads before, the
+/// loads of the stage over the displacements that they alone would cause show a loss of strength
+/// with the loss of stiffness.
+std::size_t rows_of_stage_before_residual(std::span<const StepRecord> rows, bool goes_on) {
+  std::vector<CurvePoint> alone;
+  for (const StepRecord& row : rows) {
+    const double square = row.equivalent_load * row.equivalent_load, load = std::abs(row.load);
+    alone.push_back({square > 0.0 ? 2.0 * row.strain_energy / square * load : 0.0, load});
+  }
+  return std::min(rows_before_residual(equivalent_curve(rows), goes_on),
+                  rows_before_residual(alone, true));
+}
+
 }  // namespace
 
 std::size_t rows_before_through_crack(const Network& network, std::span<const StepRecord> rows) {
@@ -128,9 +141,9 @@ void find_peaks(const Network& network, std::span<const StepRecord> rows, Damage
   // brittle bonds may lose its outer bonds before its section fails.
   const bool goes_on =
       bars || network.has_crushing() || std::ranges::all_of(network.laws, &BondLaw::is_brittle);
-  const std::vector<CurvePoint> curve = stages ? equivalent_curve(rows) : path;
-  std::size_t before = rows_before_residual(curve, goes_on);
-  if (before == curve.size()) before = rows.size();
+  std::size_t before =
+      stages ? rows_of_stage_before_residual(rows, goes_on) : rows_before_residual(path, goes_on);
+  if (before == path.size()) before = rows.size();
   if (!goes_on && !rows.empty()) {
     const std::size_t through = rows_before_through_crack(network, rows);
     const double first = std::abs(highest(rows.first(through)).load);

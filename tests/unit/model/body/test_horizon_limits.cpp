@@ -121,7 +121,7 @@ TEST(HorizonLimits, NoteThinBodies) {
     return thin_body_note(input, draft_model(input)).value_or("");
   };
   EXPECT_THAT(note(20.0, BodyModel::bond_based), AllOf(HasSubstr("along x"), HasSubstr("17 %")));
-  EXPECT_THAT(note(20.0, BodyModel::micropolar), HasSubstr("37 %"));
+  EXPECT_THAT(note(20.0, BodyModel::micropolar), HasSubstr("36 %"));
   EXPECT_THAT(note(40.0, BodyModel::micropolar), AllOf(HasSubstr("40 wide"), HasSubstr("13 %")));
   EXPECT_EQ(note(40.0, BodyModel::bond_based), "");
   EXPECT_EQ(note(70.0, BodyModel::micropolar), "");
