@@ -34,8 +34,8 @@ std::vector<CurvePoint> event_path(std::span<const StepRecord> records);
 /// Returns a smooth curve through the saw-teeth of an event path that dissipates the same energy.
 /// It has one point for every `window` events or slightly more. The event from (u, P) to (u', P')
 /// dissipates (P u' − P' u) / 2, a batch also CurvePoint::beyond. In a window that dissipates D,
-/// u / P grows by dC and P / u falls by dK. Its point has load² = 2 D / dC and displacement² = 2 D /
-/// dK, means of the window. Windows whose u / P grows by round-off only have no point.
+/// u / P grows by dC and P / u falls by dK. Its point has load² = 2 D / dC and displacement² = 2 D
+/// / dK, means of the window. Windows whose u / P grows by round-off only have no point.
 std::vector<CurvePoint> smooth_envelope(std::span<const CurvePoint> path, std::size_t window);
 
 /// Returns the number of events per window that gives about 120 points, at least 10.
