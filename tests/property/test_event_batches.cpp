@@ -39,16 +39,21 @@ struct RunResults {
   CsvTable table;
 };
 
-/// Checks that rows count their events and that work equals stored plus dissipated energy.
+/// Checks that rows count their events and that work equals stored plus dissipated energy in each.
 void expect_consistent_rows(const RunResults& run) {
   EXPECT_LT(run.told("energy_error"), 1e-9);
   const auto events = run.history("events"), broken = run.history("broken_bonds"),
              softened = run.history("yield_events"), residual = run.history("residual"),
-             element = run.history("element");
+             element = run.history("element"), work = run.history("external_work"),
+             stored = run.history("strain_energy"), lost = run.history("dissipated_energy");
+  const bool hosts = run.table.column("freed_energy") >= 0;
+  const auto freed = hosts ? run.history("freed_energy") : std::vector<double>(work.size());
+  const double most = *std::ranges::max_element(work);
   double largest = 0.0;
   for (std::size_t k = 0; k + 1 < events.size(); ++k) {
     const double before = broken[k] + softened[k], after = broken[k + 1] + softened[k + 1];
     EXPECT_LE(residual[k], 1e-10);
+    EXPECT_NEAR(work[k], stored[k] + lost[k] + freed[k], 1e-9 * most) << "row " << k + 1;
     if (element[k] < 0.0) continue;  // end of a stage
     EXPECT_EQ(before + events[k], after) << "row " << k + 1;
     largest = std::max(largest, events[k]);
@@ -99,7 +104,7 @@ std::vector<ToleratedCase> tolerated_cases() {
   staged.weight = 3.0;
   return {{"driven", {}},
           {"forced", forced, 0.02, 4.5},
-          {"micropolar", micropolar, 0.005, 2.0},  // snap-back: 0.02 gives an error of a tenth
+          {"micropolar", micropolar, 0.005, 2.0},  // snap-back: 0.02 dissipates 6 % less
           {"carried", embedded},
           {"reinforced", reinforced},
           {"staged", staged}};

@@ -83,6 +83,11 @@ bool has_broken_enough(PathState& path, const StopRules& stop) {
 void measure_permanent(PathState& path, const ReferenceLoad& load, const LoadWork& work,
                        StepRecord& row) {
   const double growing = row.load_factor * work.forces + work.constant.growing_forces;
+  const double alone = work.forces + work.supports;  // twice its energy at load factor 1
+  if (alone > 0.0) {
+    row.equivalent_load = std::sqrt(std::max(0.0, 2.0 * row.strain_energy / alone)) *
+                          (load.driven ? std::abs(work.supports) / load.value : load.value);
+  }
   if (load.driven) {
     row.load += (work.constant.growing_supports - work.constant.forces_on_clamps) / load.value;
   } else {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "analysis/quasistatic/path_energy.hpp"
+
 namespace perilink {
 namespace {
 
@@ -28,6 +30,15 @@ bool axes_hold_all_energy(const StepRecord& record) {
 
 double compliance(const CurvePoint& point) { return point.displacement / point.load; }
 
+/// Returns what a batch of a path dissipates beyond the line between its last two points.
+double energy_beyond(std::span<const CurvePoint> path, const StepRecord& row,
+                     const StepRecord& next) {
+  const CurvePoint &from = path[path.size() - 2], &to = path.back();
+  const double half = 0.5 * from.load * (compliance(to) - compliance(from));
+  return energy_beyond_line(static_cast<double>(row.events), half * to.load,
+                            next.released_energy - row.released_energy, half * from.load);
+}
+
 using Window = std::span<const CurvePoint>;  // successive rows; neighbours share one row
 
 /// Splits a path into windows of about `events` events; none for a path without events.
@@ -48,7 +59,7 @@ std::optional<CurvePoint> smooth_point(Window rows) {
   for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
     const double softer = std::max(0.0, compliance(rows[k + 1]) - compliance(rows[k]));
     growth += softer;
-    squares += rows[k].load * rows[k + 1].load * softer;
+    squares += rows[k].load * rows[k + 1].load * softer + 2.0 * rows[k].beyond;
   }
   const double before = compliance(rows.front()), after = compliance(rows.back());
   if (!(growth > factor_round_off * after)) return std::nullopt;
@@ -101,6 +112,7 @@ std::vector<CurvePoint> event_path(std::span<const StepRecord> records) {
       freed += 2.0 * energy / (records[k - 1].load * record.load);
     }
     path.push_back({record.displacement - freed * record.load, record.load});
+    if (k > 0) path[k - 1].beyond = energy_beyond(path, records[k - 1], record);
   }
   return path;
 }
@@ -117,17 +129,22 @@ std::size_t envelope_window(std::size_t events) { return std::max<std::size_t>(1
 
 std::vector<CurvePoint> stage_path(std::span<const StepRecord> records) {
   std::vector<CurvePoint> path;
-  double compliance = 0.0, dissipated = 0.0;
+  double compliance = 0.0, dissipated = 0.0, at_row = 0.0;
   for (const StepRecord& record : records) {
     if (path.empty()) {
       compliance = std::abs(record.displacement / record.load);
     } else {
-      const double work = path.back().load * record.load;
-      if (work > 0.0) {
-        compliance += 2.0 * std::max(0.0, record.dissipated_energy - dissipated) / work;
+      CurvePoint& last = path.back();
+      const double mean = record.load + at_row * (last.load - record.load);
+      const double energy = std::max(0.0, record.dissipated_energy - dissipated);
+      if (last.load * mean > 0.0) {
+        const double softer = 2.0 * energy / (last.load * mean);
+        compliance += softer;
+        if (at_row > 0.0) last.beyond = energy - 0.5 * last.load * record.load * softer;
       }
     }
     dissipated = record.dissipated_energy;
+    at_row = part_at_constant_load(static_cast<double>(record.events));
     path.push_back({compliance * record.load, record.load});
   }
   return path;

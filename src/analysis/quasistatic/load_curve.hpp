@@ -16,6 +16,8 @@ namespace perilink {
 struct CurvePoint {
   double displacement = 0.0;
   double load = 0.0;
+  /// Energy that a batch at a row dissipates beyond the line to the next point; not archived.
+  double beyond = 0.0;
 
   template <class Archive>
   void serialize(Archive& archive) {
@@ -31,17 +33,17 @@ std::vector<CurvePoint> event_path(std::span<const StepRecord> records);
 
 /// Returns a smooth curve through the saw-teeth of an event path that dissipates the same energy.
 /// It has one point for every `window` events or slightly more. The event from (u, P) to (u', P')
-/// dissipates (P u' − P' u) / 2. In a window that dissipates D, u / P grows by dC and P / u falls
-/// by dK. Its point has load² = 2 D / dC and displacement² = 2 D / dK. Both are means of the window
-/// and lie within its range. Windows whose u / P grows by round-off only have no point.
+/// dissipates (P u' − P' u) / 2, a batch also CurvePoint::beyond. In a window that dissipates D,
+/// u / P grows by dC and P / u falls by dK. Its point has load² = 2 D / dC and displacement² = 2 D
+/// / dK, means of the window. Windows whose u / P grows by round-off only have no point.
 std::vector<CurvePoint> smooth_envelope(std::span<const CurvePoint> path, std::size_t window);
 
 /// Returns the number of events per window that gives about 120 points, at least 10.
 std::size_t envelope_window(std::size_t events);
 
 /// Returns the rows of one stage, with constant and growing loads, as a path of events. An event
-/// that dissipates D between nonzero loads P and P' adds the compliance 2 D / (P P'). The
-/// displacements are equivalent ones, for smooth_envelope() only.
+/// that dissipates D between nonzero loads P and P' adds the compliance 2 D / (P P'), a batch with
+/// the mean load of its elements for P'. Displacements are equivalent ones, for smooth_envelope().
 std::vector<CurvePoint> stage_path(std::span<const StepRecord> records);
 
 /// Returns the largest load of the envelope, with its sign [force]. It is absent for fewer than two

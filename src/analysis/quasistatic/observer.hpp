@@ -21,7 +21,7 @@ struct StepRecord {
   double load = 0.0;               ///< load factor times the reference load [force]
   double displacement = 0.0;       ///< work-conjugate to `load`: twice the energy over it [length]
   double strain_energy = 0.0;      ///< [force length]
-  double dissipated_energy = 0.0;  ///< sum of lambda_k lambda_(k+1) (C_(k+1) - C_k) / 2
+  double dissipated_energy = 0.0;  ///< along the path, see PathEnergy
   double external_work = 0.0;      ///< trapezoids under the path of loads and displacements
   double released_energy = 0.0;    ///< sum of the energies of elements when they failed
   double residual = 0.0;           ///< |f - K u| / |f| when last measured
@@ -34,16 +34,25 @@ struct StepRecord {
   Index side_change = 0;           ///< 1: bonds change their contact state and no element fails
   Index elements = 0;              ///< active hosts in this equilibrium
   double constraint_energy = 0.0;  ///< PathEnergy::freed() so far [force length]
-  double seconds = 0.0;            ///< wall time of this step; in timing.csv only
+  /// With stages: |load| of the growing load case alone that stores the strain energy [force]; not
+  /// in history.csv.
+  double equivalent_load = 0.0;
+  double seconds = 0.0;  ///< wall time of this step; in timing.csv only
 
   template <class Archive>
   void serialize(Archive& archive) {
     archive(step, broken_bonds, yield_events, load_factor, load, displacement, strain_energy,
             dissipated_energy, external_work, released_energy, residual, factorizations, element,
             events, others, stage, at_constant_load, side_change, elements, constraint_energy,
-            seconds);
+            equivalent_load, seconds);
   }
 };
+
+/// Returns the part of the elements of a batch that fail at about the load of its row: all but the
+/// last one, which leads to the next row as a single event does.
+inline double part_at_constant_load(double events) {
+  return events > 1.0 ? 1.0 - 1.0 / events : 0.0;
+}
 
 /// State for observers, valid during the call only.
 struct StepState {

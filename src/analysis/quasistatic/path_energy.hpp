@@ -1,19 +1,37 @@
 #pragma once
 
+#include <algorithm>
+
 #include "analysis/quasistatic/equilibrium/equilibrium.hpp"
+#include "analysis/quasistatic/observer.hpp"
 
 namespace perilink {
+
+/// Returns the energy that a batch dissipates beyond the straight line between two rows. The load
+/// on its way lies between that of the row and the lower one at which the weakened elements are
+/// strained as they were when they failed. Where the line leaves this range, all elements but the
+/// last follow its nearest end.
+/// \param events  elements of the batch; single events follow the line
+/// \param line    energy along the line [force length]
+/// \param held    energy that the elements held when they failed [force length]
+/// \param at_row  energy if the load stayed that of the row [force length]
+inline double energy_beyond_line(double events, double line, double held, double at_row) {
+  const double part = part_at_constant_load(events);
+  return part > 0.0 ? part * (std::clamp(line, std::min(held, at_row), at_row) - line) : 0.0;
+}
 
 /// Energies along straight lines between the rows of a history. Between load factors lambda_k and
 /// lambda_(k+1) the work of the loads is a sum of trapezoids. The event between them dissipates
 /// lambda_k lambda_(k+1) (C_(k+1) - C_k) / 2, where C is the compliance f'u - R'd at load factor 1.
-/// Then work = stored + dissipated holds exactly. C also grows without an event when new unknowns
-/// make particles freer. The stored energy then falls by the constraint energy, an error of the
-/// former unknowns. It is kept apart: work = stored + dissipated + freed.
+/// Then work = stored + dissipated holds exactly. A batch leaves the line, with the same addition
+/// to both (energy_beyond_line()). C also grows without an event when new unknowns make particles
+/// freer. The stored energy then falls by the constraint energy, an error of the former unknowns.
+/// It is kept apart: work = stored + dissipated + freed.
 class PathEnergy {
  public:
   /// Moves along the path to the next row.
   void advance(double load_factor, const LoadWork& work) {
+    const double beyond = beyond_line(load_factor);
     external_ += 0.5 * (load_factor_ + load_factor) *
                      (load_factor * work.forces - load_factor_ * work_.forces) +
                  0.5 * (load_factor_ * work_.supports + load_factor * work.supports) *
@@ -21,7 +39,9 @@ class PathEnergy {
     dissipated_ += 0.5 * load_factor_ * load_factor * growth_;
     freed_ += 0.5 * load_factor_ * load_factor * freedom_.growth;
     advance_permanent(load_factor, work.constant);
-    growth_ = 0.0;
+    external_ += beyond;
+    dissipated_ += beyond;
+    growth_ = events_ = held_ = 0.0;
     freedom_ = {};
     load_factor_ = load_factor;
     work_ = work;
@@ -40,8 +60,12 @@ class PathEnergy {
   void add_event(const EventOutcome& outcome) {
     growth_ += outcome.compliance_growth;
     permanent_growth_ += outcome.permanent_growth;
-    released_ += load_factor_ * load_factor_ * outcome.released;
-    released_ += outcome.released_by_permanent.at(load_factor_);
+    events_ += outcome.broken + outcome.yielded;
+    const double by_growing = load_factor_ * load_factor_ * outcome.released;
+    const double by_permanent = outcome.released_by_permanent.at(load_factor_);
+    held_ += by_growing + by_permanent;
+    released_ += by_growing;
+    released_ += by_permanent;
   }
 
   /// Adds the growth of the compliance at the present row as particles became freer.
@@ -64,11 +88,19 @@ class PathEnergy {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(load_factor_, work_, growth_, freedom_, permanent_growth_, external_, dissipated_,
-            freed_, released_);
+    archive(load_factor_, work_, growth_, events_, held_, freedom_, permanent_growth_, external_,
+            dissipated_, freed_, released_);
   }
 
  private:
+  /// Returns what the events since the present row dissipate beyond the line to a load factor.
+  double beyond_line(double load_factor) const {
+    const auto energy = [&](double next) {
+      return 0.5 *
+             (load_factor_ * next * growth_ + permanent_growth_.at(0.5 * (load_factor_ + next)));
+    };
+    return energy_beyond_line(events_, energy(load_factor), held_, energy(load_factor_));
+  }
   /// Adds the contribution of permanent loads: their work, and the work of growing loads
   /// on the displacements they cause.
   void advance_permanent(double load_factor, const ConstantWork& after) {
@@ -87,6 +119,8 @@ class PathEnergy {
   double load_factor_ = 0.0;
   LoadWork work_;
   double growth_ = 0.0;  ///< growth of the compliance since the present row
+  double events_ = 0.0;  ///< elements that failed since the present row
+  double held_ = 0.0;    ///< energy that they held [force length]
   Freedom freedom_;  ///< growth of the compliance since the present row, as particles became freer
   Beside permanent_growth_;
   double external_ = 0.0;

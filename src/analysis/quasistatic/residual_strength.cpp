@@ -80,19 +80,29 @@ CurvePoint highest(std::span<const StepRecord> rows) {
   return {row->displacement, row->load};
 }
 
-std::vector<CurvePoint> points_of(std::span<const StepRecord> rows) {
+/// Returns the curve of the growing load case alone at the strain energy of each row. The load of
+/// a stage is what the body carries beside permanent loads: near their capacity it jumps about zero
+/// while the body has lost nothing.
+std::vector<CurvePoint> equivalent_curve(std::span<const StepRecord> rows) {
   std::vector<CurvePoint> points;
-  for (const StepRecord& row : rows) points.push_back({row.displacement, row.load});
+  for (const StepRecord& row : rows) {
+    const double load = row.equivalent_load;
+    points.push_back({load > 0.0 ? 2.0 * row.strain_energy / load : 0.0, load});
+  }
   return points;
 }
 
-/// Returns the number of rows before the load of a stage reaches a twentieth of its largest.
-/// Permanent loads of earlier stages cause most of the damage of these rows.
-std::size_t early_rows(std::span<const StepRecord> rows, double largest) {
-  constexpr double small = 0.05;
-  const auto first = std::ranges::find_if(
-      rows, [&](const StepRecord& row) { return std::abs(row.load) >= small * std::abs(largest); });
-  return static_cast<std::size_t>(first - rows.begin());
+/// Returns the number of rows of a stage before residual strength. Beside small loads before, the
+/// loads of the stage over the displacements that they alone would cause show a loss of strength
+/// with the loss of stiffness.
+std::size_t rows_of_stage_before_residual(std::span<const StepRecord> rows, bool goes_on) {
+  std::vector<CurvePoint> alone;
+  for (const StepRecord& row : rows) {
+    const double square = row.equivalent_load * row.equivalent_load, load = std::abs(row.load);
+    alone.push_back({square > 0.0 ? 2.0 * row.strain_energy / square * load : 0.0, load});
+  }
+  return std::min(rows_before_residual(equivalent_curve(rows), goes_on),
+                  rows_before_residual(alone, true));
 }
 
 }  // namespace
@@ -123,14 +133,17 @@ void find_peaks(const Network& network, std::span<const StepRecord> rows, Damage
   const bool stages = !rows.empty() && rows.front().stage > 0;
   const std::vector<CurvePoint> path = stages ? stage_path(rows) : event_path(rows);
   PeakWatch& peaks = result.peaks;
+  if (stages) {
+    peaks = {};
+    for (const StepRecord& row : rows) peaks.add({row.displacement, row.load}, true);
+  }
   // Bars carry the load after the solid cracks, and crushing bonds after others split. A beam of
   // brittle bonds may lose its outer bonds before its section fails.
   const bool goes_on =
       bars || network.has_crushing() || std::ranges::all_of(network.laws, &BondLaw::is_brittle);
-  const std::size_t early = stages ? early_rows(rows, peaks.highest().load) : 0;
-  const std::vector<CurvePoint> late = stages ? points_of(rows.subspan(early)) : path;
-  std::size_t before = early + rows_before_residual(late, goes_on);
-  if (before == early + late.size()) before = rows.size();
+  std::size_t before =
+      stages ? rows_of_stage_before_residual(rows, goes_on) : rows_before_residual(path, goes_on);
+  if (before == path.size()) before = rows.size();
   if (!goes_on && !rows.empty()) {
     const std::size_t through = rows_before_through_crack(network, rows);
     const double first = std::abs(highest(rows.first(through)).load);

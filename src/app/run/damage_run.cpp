@@ -204,13 +204,6 @@ void DamageRun::tell_stresses(Summary& summary, Equilibria& found) const {
   const bool short_horizon = std::ranges::any_of(
       model_.network.strengths,
       [&](const MaterialStrength& strength) { return is_short_horizon(model_.horizon, strength); });
-  const bool batches = options_.engine.event_tolerance > 0.0 && options_.load_factors.empty();
-  const StepRecord& last = result_.last;
-  if (auto warning = batches
-                         ? warning_about_lost_energy(last.dissipated_energy, last.released_energy)
-                         : std::nullopt) {
-    found.warnings.push_back(std::move(*warning));
-  }
   for (auto& warning : {warning_about_compression(compression_at(result_.peaks.highest())),
                         warning_about_diffuse_softening(softened_, short_horizon)}) {
     if (warning) found.warnings.push_back(*warning);

@@ -222,17 +222,6 @@ std::optional<std::string> warning_about_diffuse_softening(const SoftenedEnergy&
       short_horizon ? std::string(horizon_advice) + ", or " : "");
 }
 
-std::optional<std::string> warning_about_lost_energy(double dissipated, double released) {
-  constexpr double most = 0.1;
-  if (released <= (1.0 + most) * dissipated) return std::nullopt;
-  return fmt::format(
-      "the failed elements held {:.4g} (released_energy), but the path dissipates only {:.4g} "
-      "(dissipated_energy): the load falls far behind large batches of events, and the line to "
-      "the next row misses their energy; give event_tolerance = 0 in [analysis] for energies and "
-      "work, or use released_energy",
-      released, dissipated);
-}
-
 std::vector<std::string> warnings_of_balance(double energy_error, double largest_residual,
                                              double unsolved) {
   // Results are printed with six digits; round-off leaves ten digits of an equilibrium.

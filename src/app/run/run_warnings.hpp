@@ -102,10 +102,6 @@ SoftenedEnergy softened_energy(const Network& network, Secants secants);
 std::optional<std::string> warning_about_diffuse_softening(const SoftenedEnergy& energy,
                                                            bool short_horizon);
 
-/// Returns a warning about a path of batches that dissipates less, by over a tenth, than its
-/// elements held when they failed.
-std::optional<std::string> warning_about_lost_energy(double dissipated, double released);
-
 /// Returns a warning about the largest load of a run with bonds compressed beyond small strains.
 std::string warning_about_crushing(const CurvePoint& largest);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/plain_text.hpp"
@@ -28,30 +29,38 @@ constexpr const char* usual = "two to four spacings are usual: horizon_ratio = 3
 /// Width of the thin part of a body along an axis.
 struct ThinPart {
   double width = 0.0;   ///< mean over its particles [length]
-  Index particles = 0;  ///< that see both faces within their horizon
+  Index particles = 0;  ///< along the axis, their lines of bonds are short
 };
 
-/// Returns the parts along one axis: from their middle, both faces are nearer than the horizon.
-ThinPart thin_part(const Model& model, std::size_t axis) {
+/// Returns the parts of a body that are narrow along one axis. Lines of bonds measure the distances
+/// to both faces.
+/// \param most  largest number of spacings of a narrow part
+ThinPart thin_part(const Model& model, std::size_t axis, double most) {
   constexpr double along = 0.8;  // cosine of bonds that measure the width
   const Network& network = model.network;
   const auto count = static_cast<std::size_t>(network.num_particles());
   std::vector<double> up(count), down(count);
-  for (Index b = 0; b < network.num_bonds() && b < network.first_contact(); ++b) {
-    const Index first = network.bonds.first[b], second = network.bonds.second[b];
-    const double apart =
-        network.particles.position(second)[axis] - network.particles.position(first)[axis];
-    if (std::abs(apart) < along * network.bonds.length(b)) continue;
-    double& of_first = (apart > 0.0 ? up : down)[first];
-    double& of_second = (apart > 0.0 ? down : up)[second];
-    of_first = std::max(of_first, std::abs(apart));
-    of_second = std::max(of_second, std::abs(apart));
+  // Lines from a face of a wide body must reach beyond `most`.
+  const double reach = std::floor(model.horizon / model.lattice.spacing + 0.1);
+  for (double hops = 1.0 + std::ceil(most / reach); hops > 0.0; hops -= 1.0) {
+    const std::vector<double> above = up, below = down;
+    for (Index b = 0; b < network.num_bonds() && b < network.first_contact(); ++b) {
+      Index lower = network.bonds.first[b], upper = network.bonds.second[b];
+      double apart =
+          network.particles.position(upper)[axis] - network.particles.position(lower)[axis];
+      if (std::abs(apart) < along * network.bonds.length(b)) continue;
+      if (apart < 0.0) std::swap(lower, upper);
+      apart = std::abs(apart);
+      up[lower] = std::max(up[lower], apart + above[upper]);
+      down[upper] = std::max(down[upper], apart + below[lower]);
+    }
   }
-  const double seen = model.horizon - 0.5 * model.lattice.spacing;
   ThinPart part;
   for (std::size_t i = 0; i < count; ++i) {
-    if (network.particles.material[i] == no_index || std::max(up[i], down[i]) >= seen) continue;
-    part.width += up[i] + down[i];
+    const double width = up[i] + down[i];
+    const bool wide = width >= (most + 0.1) * model.lattice.spacing;
+    if (network.particles.material[i] == no_index || wide) continue;
+    part.width += width;
     ++part.particles;
   }
   if (part.particles > 0) part.width /= static_cast<double>(part.particles);
@@ -172,16 +181,17 @@ void refuse_shearing_lattice(const CaseFile& input, const Lattice& lattice, doub
 }
 
 std::optional<std::string> thin_body_note(const CaseFile& input, const Model& model) {
-  constexpr double fewest = 0.1, most_error = 0.1;
+  constexpr double fewest = 0.25, most_error = 0.1;
   if (is_shell(input.body) || is_beam(input.body) || input.elements || !input.symmetry.empty()) {
     return std::nullopt;
   }
   const double ratio = model.horizon / model.lattice.spacing;
   const bool turns = input.body.model == BodyModel::micropolar;
   // Measured on cantilevers: the bending stiffness is 1 + excess / steps^2 of a beam's.
-  const double excess = turns ? 0.75 * ratio : 2.5 / ratio;
+  const double excess = turns ? 0.9 + 0.45 * ratio : 2.5 / ratio;
+  const double most = std::sqrt(excess * (1.0 / most_error - 1.0));  // steps
   for (int axis = 0; axis < model.network.dim(); ++axis) {
-    const ThinPart part = thin_part(model, static_cast<std::size_t>(axis));
+    const ThinPart part = thin_part(model, static_cast<std::size_t>(axis), most);
     const double steps = std::floor(part.width / model.lattice.spacing + 0.1);
     const double error = excess / (steps * steps + excess);
     if (part.particles < fewest * model.network.num_particles() || steps < 1.0) continue;

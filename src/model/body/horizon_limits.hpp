@@ -36,7 +36,7 @@ void refuse_impossible_horizon(const CaseFile& input, const HorizonReach& reach)
 /// \throws InputError
 void refuse_shearing_lattice(const CaseFile& input, const Lattice& lattice, double horizon);
 
-/// Returns a note on a body, or a tenth of its particles, so thin that bonds make it too stiff in
+/// Returns a note on a body, or a quarter of its particles, so thin that bonds make it too stiff in
 /// bending by more than 10 %. Bodies on elements or symmetry planes, shells and beams have none.
 std::optional<std::string> thin_body_note(const CaseFile& input, const Model& model);
 

@@ -95,6 +95,30 @@ TEST(Envelope, DissipatesWhatTheEventsDissipateInEveryWindow) {
   }
 }
 
+/// Batches of four held nine tenths of what they dissipate at the load of their row.
+TEST(Envelope, DissipatesWhatBatchesDissipate) {
+  std::vector<StepRecord> rows = make_path(41, false);
+  double lost = 0.0, held = 0.0;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    rows[k].events = 4;
+    rows[k].broken_bonds = static_cast<Index>(4 * k);
+    rows[k].dissipated_energy = lost;
+    rows[k].released_energy = held;
+    if (k + 1 == rows.size()) break;
+    const double line = dissipated(rows, k, k + 1);
+    const double at_row = line * rows[k].load / rows[k + 1].load;
+    held += 0.9 * at_row;
+    lost += 0.25 * line + 0.75 * std::clamp(line, 0.9 * at_row, at_row);
+  }
+  for (const auto& path : {event_path(rows), stage_path(rows)}) {
+    const std::vector<CurvePoint> curve = smooth_envelope(path, 40);
+    ASSERT_EQ(curve.size(), 1u);
+    const double softer =
+        path.back().displacement / path.back().load - path.front().displacement / path.front().load;
+    EXPECT_NEAR(0.5 * std::pow(curve[0].load, 2) * softer, lost, 1e-10 * lost);
+  }
+}
+
 /// Under prescribed displacements and under forces the curve ends at the last row reached.
 TEST(Envelope, LiesNowhereBeyondTheRowsOfItsWindow) {
   for (const bool driven : {false, true}) {

@@ -76,6 +76,66 @@ TEST(PathEnergy, EventsAtOneLoadFactor) {
   EXPECT_DOUBLE_EQ(energy.dissipated(), 1.5);
 }
 
+/// Products of a body beside permanent loads, with no special values, as a part of a batch has
+/// failed. The batch held an energy of 1.5 at load factor 2.
+LoadWork work_within(double part) {
+  return {
+      0.7 + 0.4 * part,
+      0.3 - 0.1 * part,
+      false,
+      {2.0 + 0.6 * part, 0.5 + 0.3 * part, 0.9 - 0.2 * part, 0.5 + 0.2 * part, 0.4 - 0.1 * part}};
+}
+EventOutcome part_of_batch(double from, double to, Index events) {
+  const LoadWork before = work_within(from), after = work_within(to);
+  EventOutcome outcome = event(after.compliance() - before.compliance(), 0.25 * (to - from));
+  outcome.permanent_growth = permanent_growth(before.constant, after.constant);
+  outcome.released_by_permanent = {0.2 * (to - from), 0.1 * (to - from)};
+  outcome.yielded = events;
+  return outcome;
+}
+
+/// Goes to load factor 2, where elements fail in some steps, and on to the next row.
+PathEnergy path_of(int steps, Index events_each, double next) {
+  PathEnergy energy;
+  energy.begin_stage(0.0, work_within(0.0));
+  energy.advance(2.0, work_within(0.0));
+  for (int k = 0; k < steps; ++k) {
+    const double to = (k + 1.0) / steps;
+    energy.add_event(part_of_batch(static_cast<double>(k) / steps, to, events_each));
+    energy.add_freedom({0.3 / steps, {0.2 / steps, 0.1 / steps}});
+    energy.advance(k + 1 < steps ? 2.0 : next, work_within(to));
+  }
+  return energy;
+}
+
+/// Where the load rises, four of five elements fail at the load of their row.
+TEST(PathEnergy, ABatchDissipatesNoMoreThanAtOneLoad) {
+  const PathEnergy batch = path_of(1, 5, 3.0), single = path_of(5, 1, 3.0);
+  EXPECT_NEAR(batch.dissipated(), single.dissipated(), 1e-14);
+  EXPECT_LT(batch.dissipated(), path_of(1, 1, 3.0).dissipated() - 0.1) << "the line";
+}
+
+/// Where the load falls, four of five elements dissipate what they held.
+TEST(PathEnergy, ABatchDissipatesNoLessThanItHeld) {
+  for (const double next : {0.5, 0.0, -1.0}) {
+    const double line = path_of(1, 1, next).dissipated();
+    EXPECT_NEAR(path_of(1, 5, next).dissipated(), 0.2 * line + 0.8 * 1.5, 1e-14) << next;
+  }
+}
+
+/// The work changes as the dissipated energy: both balance as along the line.
+TEST(PathEnergy, ABatchKeepsTheBalance) {
+  for (const double next : {3.0, 2.0, 1.9, 0.5, -1.0}) {
+    const PathEnergy batch = path_of(1, 5, next), line = path_of(1, 1, next);
+    const auto lost = [](const PathEnergy& energy) {
+      return energy.external_work() - energy.stored() - energy.dissipated() - energy.freed();
+    };
+    EXPECT_NEAR(lost(batch), lost(line), 1e-13) << next;
+    EXPECT_NEAR(lost(batch), lost(path_of(5, 1, 2.0)), 1e-13) << next;
+    EXPECT_EQ(batch.released(), line.released());
+  }
+}
+
 TEST(PathEnergy, ForcesAndDisplacementsTogether) {
   PathEnergy energy;
   energy.advance(1.5, {0.7, 0.2});

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "support/strip_case.hpp"
@@ -86,31 +87,53 @@ TEST(Peaks, EndWithTheCrackThroughTheBody) {
   EXPECT_EQ(result_of(11.0).peak_load, 11.0) << "by less than a tenth";
 }
 
-/// A constant shear force damages the body while the tension of the next stage is still near zero,
-/// and its load swings.
-TEST(Peaks, AreNotFoundWhereTheLoadOfAStageIsStillSmall) {
-  Network network = build_model(test::strip_case()).network;
-  network.laws.push_back(BondLaw::plateau());
-  std::vector<StepRecord> rows;
-  DamageResult result;
-  const auto add = [&](double displacement, double load, double dissipated) {
-    StepRecord& row = rows.emplace_back();
+/// A stage beside permanent loads that store as much as its load case at `held`.
+class StageBeside {
+ public:
+  explicit StageBeside(double held) : held_(held) { network_.laws.push_back(BondLaw::plateau()); }
+  void add(double load, double compliance) {
+    StepRecord& row = rows_.emplace_back();
     row.element = no_index;
     row.stage = 2;
-    row.displacement = displacement;
     row.load = load;
-    row.dissipated_energy = dissipated;
-    result.peaks.add({displacement, load});
-  };
-  add(7e-5, 95.0, 2.81);
-  add(-1.5e-4, -223.0, 2.98);
-  add(6.4e-5, 62.0, 3.03);
-  add(2.7e-4, 339.0, 3.08);
-  for (int k = 1; k <= 40; ++k) add(2.5e-4 * k, 300.0 * k, 3.1 + 0.01 * k * k);
-  for (int k = 1; k <= 40; ++k) add(0.01 + 2.5e-4 * k, 12000.0 - 250.0 * k, 19.1 + 2.0 * k);
-  find_peaks(network, rows, result);
-  EXPECT_EQ(result.peak_load, 12000.0);
-  EXPECT_FALSE(result.peaks.climbed_again());
+    row.displacement = compliance * load;
+    row.equivalent_load = std::hypot(load, held_);
+    row.strain_energy = 0.5 * compliance * row.equivalent_load * row.equivalent_load;
+    result_.peaks.add({row.displacement, row.load});
+  }
+  const DamageResult& result() {
+    find_peaks(network_, rows_, result_);
+    return result_;
+  }
+
+ private:
+  Network network_ = build_model(test::strip_case()).network;
+  double held_;
+  std::vector<StepRecord> rows_;
+  DamageResult result_;
+};
+
+/// A constant shear force damages the body while the tension of the next stage is still near zero,
+/// and its load swings.
+TEST(Peaks, AreNoSwingsOfAStageBesideLargerLoads) {
+  StageBeside stage(5000.0);
+  for (const double load : {95.0, -223.0, 62.0, 339.0}) stage.add(load, 1e-6);
+  for (int k = 1; k <= 40; ++k) stage.add(300.0 * k, 1e-6 + 1e-9 * k);
+  for (int k = 1; k <= 40; ++k) stage.add(12000.0 - 250.0 * k, 1.1e-6 + 1e-7 * k);
+  EXPECT_EQ(stage.result().peak_load, 12000.0);
+  EXPECT_FALSE(stage.result().peaks.climbed_again());
+}
+
+/// The body loses most of its stiffness at 12; the pieces carry 30 beside the loads before.
+TEST(Peaks, AreFoundBesideSmallerLoads) {
+  for (const double held : {0.0, 3.0}) {
+    StageBeside stage(held);
+    for (int k = 1; k <= 12; ++k) stage.add(k, 1.0);
+    for (int k = 1; k <= 9; ++k) stage.add(12.0 - k, 1.0 + 0.5 * k);
+    for (int k = 1; k <= 30; ++k) stage.add(k, 6.0);
+    EXPECT_EQ(stage.result().peak_load, 12.0);
+    EXPECT_EQ(stage.result().peaks.highest().load, 30.0);
+  }
 }
 
 }  // namespace

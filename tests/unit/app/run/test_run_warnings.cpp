@@ -204,16 +204,6 @@ TEST(RunWarnings, SeeMotionThatIsNotSmall) {
   EXPECT_THAT(*warning, HasSubstr("25 % of the body is stretched or rotated by more than a tenth"));
 }
 
-TEST(RunWarnings, SeePathsThatMissTheEnergyOfBatches) {
-  EXPECT_EQ(warning_about_lost_energy(8.0, 8.7), std::nullopt);
-  EXPECT_EQ(warning_about_lost_energy(8.0, 4.0), std::nullopt);
-  EXPECT_EQ(warning_about_lost_energy(0.0, 0.0), std::nullopt);
-  const auto warning = warning_about_lost_energy(8.0, 9.0);
-  ASSERT_TRUE(warning);
-  EXPECT_THAT(*warning, HasSubstr("held 9 (released_energy), but the path dissipates only 8"));
-  EXPECT_THAT(*warning, HasSubstr("event_tolerance = 0"));
-}
-
 TEST(RunWarnings, NameWhatIsNotANumber) {
   EXPECT_THAT(warnings_of_balance(NAN, 0.0), ElementsAre(HasSubstr("out of balance")));
 }

@@ -110,19 +110,27 @@ TEST(HorizonLimits, RefuseBondsAlongRowsOnly) {
 }
 
 /// Columns 10 apart within a horizon of 31: bending is too stiff by 0.8 / n^2 for bonds and by
-/// 2.3 / n^2 for micropolar ones, with n steps across.
+/// 2.3 / n^2 for micropolar ones, with n steps across. Within a horizon of 20 the latter are too
+/// stiff by 1.8 / n^2: bodies wider than one horizon each way count, too.
 TEST(HorizonLimits, NoteThinBodies) {
-  const auto note = [](double width, BodyModel kind) {
+  const auto note = [](double width, BodyModel kind, double horizon = 31.0) {
     CaseFile input = strip_case();
+    input.body.horizon = horizon;
     for (Region& region : input.regions) region.box.upper[0] = width;
     input.body.model = kind;
     return thin_body_note(input, draft_model(input)).value_or("");
   };
   EXPECT_THAT(note(20.0, BodyModel::bond_based), AllOf(HasSubstr("along x"), HasSubstr("17 %")));
-  EXPECT_THAT(note(20.0, BodyModel::micropolar), HasSubstr("37 %"));
+  EXPECT_THAT(note(20.0, BodyModel::micropolar), HasSubstr("36 %"));
   EXPECT_THAT(note(40.0, BodyModel::micropolar), AllOf(HasSubstr("40 wide"), HasSubstr("13 %")));
   EXPECT_EQ(note(40.0, BodyModel::bond_based), "");
   EXPECT_EQ(note(70.0, BodyModel::micropolar), "");
+  EXPECT_THAT(note(30.0, BodyModel::micropolar, 20.0), HasSubstr("30 wide, 1.5 horizons"));
+  EXPECT_THAT(note(30.0, BodyModel::bond_based, 20.0), HasSubstr("12 %"));
+  for (const double horizon : {15.0, 20.0, 31.0, 40.0}) {
+    EXPECT_EQ(note(70.0, BodyModel::micropolar, horizon), "") << horizon;
+    EXPECT_EQ(note(50.0, BodyModel::bond_based, horizon), "") << horizon;
+  }
 }
 
 }  // namespace
