@@ -100,12 +100,34 @@ bool fit_gradient(std::span<const double> offsets, std::span<const double> /*mar
 }
 
 bool is_damaged(const StressInput& input, Index particle) {
+  if (input.secants.size() == 0) return false;
   return std::ranges::any_of(input.neighbourhoods.row(particle), [&](Index e) {
     return e < input.network.first_contact() && input.secants.least(e) < 1.0;
   });
 }
 
-/// Returns, per particle, whether one of its bonds is damaged; empty where all bonds are intact.
+/// Leaves out neighbours behind a crack: those with more than half of their bonds to the particle
+/// and its other neighbours cracked. An intact bond along a crack may join its two faces, whose
+/// displacements fit no polynomial.
+/// \param found  neighbours, ascending
+void leave_out_neighbors_across(const StressInput& input, Index particle,
+                                std::vector<Index>& found) {
+  constexpr double cracked = 0.5;
+  const std::vector<Index> all = found;
+  std::erase_if(found, [&](Index j) {
+    int bonds = 0, lost = 0;
+    for (const Index e : input.neighbourhoods.row(j)) {
+      if (e >= input.network.first_contact()) continue;
+      const Index other = input.network.bonds.other_end(e, j);
+      if (other != particle && !std::ranges::binary_search(all, other)) continue;
+      ++bonds;
+      lost += input.secants.least(e) < cracked ? 1 : 0;
+    }
+    return 2 * lost > bonds;
+  });
+}
+
+/// Returns is_damaged() of all particles; empty where all bonds are intact.
 std::vector<std::uint8_t> damaged_particles(const StressInput& input) {
   std::vector<std::uint8_t> damaged;
   if (input.secants.size() == 0) return damaged;
@@ -121,7 +143,7 @@ std::vector<std::uint8_t> damaged_particles(const StressInput& input) {
 template <int Dim>
 class StressFinder {
  public:
-  /// \param damaged  damaged_particles(); null: they are looked for where they matter
+  /// \param damaged  damaged_particles(); null: looked for where it matters
   StressFinder(const StressInput& input, std::span<const double> motion,
                const std::vector<std::uint8_t>* damaged = nullptr)
       : input_(input),
@@ -134,7 +156,10 @@ class StressFinder {
   Stress at(Index particle);
 
  private:
-  bool is_continuous(Index particle) const;
+  bool has_damage(Index particle) const {
+    if (damaged_ == nullptr) return is_damaged(input_, particle);
+    return !damaged_->empty() && (*damaged_)[particle] != 0;
+  }
   Eigen::Matrix3d strain_at(Index particle);
 
   const StressInput& input_;
@@ -145,31 +170,19 @@ class StressFinder {
   std::vector<double> marks_;
 };
 
-/// Returns whether the displacements near a particle are those of one continuous body: it has no
-/// damaged bond, and none of its neighbours has one. Intact bonds along a crack may join its faces.
-template <int Dim>
-bool StressFinder<Dim>::is_continuous(Index particle) const {
-  if (input_.secants.size() == 0 || (damaged_ != nullptr && damaged_->empty())) return true;
-  const auto is_whole = [&](Index i) {
-    return damaged_ != nullptr ? (*damaged_)[i] == 0 : !is_damaged(input_, i);
-  };
-  return is_whole(particle) &&
-         std::ranges::all_of(input_.neighbourhoods.row(particle), [&](Index e) {
-           return e >= input_.network.first_contact() ||
-                  is_whole(input_.network.bonds.other_end(e, particle));
-         });
-}
-
 template <int Dim>
 Eigen::Matrix3d StressFinder<Dim>::strain_at(Index particle) {
   Eigen::Matrix3d strain = Eigen::Matrix3d::Zero();
-  if (!is_continuous(particle)) {
+  if (has_damage(particle)) {
     const SymmetricTensor e =
         bond_strain(input_.network, input_.neighbourhoods, input_.secants, motion_, particle);
     strain << e[0], e[3], e[5], e[3], e[1], e[4], e[5], e[4], e[2];
     return strain;
   }
   find_neighbors(input_, particle, neighbors_);
+  if (std::ranges::any_of(neighbors_, [&](Index j) { return has_damage(j); })) {
+    leave_out_neighbors_across(input_, particle, neighbors_);
+  }
   Eigen::Matrix<double, Dim, Dim> gradient;
   if ((collect_surface_marks(input_, particle, neighbors_, marks_) &&
        surface_gradients_.find(particle, neighbors_, gradient, marks_)) ||
