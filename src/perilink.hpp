@@ -5,7 +5,9 @@
 
 #include "analysis/quasistatic/event_run.hpp"
 #include "app/process/threads.hpp"
+#include "app/run/bond_run.hpp"
 #include "app/run/quasistatic.hpp"
+#include "app/run/relaxation_run.hpp"
 #include "app/run/run_case.hpp"
 #include "app/scan/calibration_files.hpp"
 #include "assembly/fields.hpp"
@@ -37,6 +39,9 @@
 ///     const DamageOptions options = damage_options(input, 1);
 ///     EventRun run(model, options);                           // event by event
 ///     while (const StepRecord* row = run.next()) ...          // run.state(), run.save()
+///
+///     const BondRunCase moving = build_bond_run(input, model);        // explicit
+///     run_explicit_bonds(model, moving.inertia, moving.rules, moving.options, observer);
 ///
 /// set_threads() sets the number of threads of all later work. Errors are exceptions: InputError,
 /// FileError and SolverError. Functions may not be called from several threads at once.

@@ -9,8 +9,6 @@
 #include <thread>
 #include <utility>
 
-#include "app/run/bond_run.hpp"
-#include "app/run/relaxation_run.hpp"
 #include "perilink.hpp"
 #include "python/bindings.hpp"
 #include "python/python_caller.hpp"

@@ -69,6 +69,7 @@ const std::map<std::string, std::string>& tested_elsewhere() {
       {"python/module.cpp", "tests/python"},
       {"python/problems.cpp", "tests/python"},
       {"python/runs.cpp", "tests/python"},
+      {"python/time_runs.cpp", "tests/python"},
       {"solver/cholmod_support.cpp", "what the routes share: test_factor_routes.cpp runs them"},
       {"solver/cholmod_updown_factor.cpp", "a route: test_factor_routes.cpp runs every route"},
       {"solver/factor.cpp", "what routes share: test_factor_routes.cpp runs every route"},

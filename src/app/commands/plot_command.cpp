@@ -269,7 +269,8 @@ void plot_series(const PlottedRun& run, const PlotOptions& options, Index last,
   }
 }
 
-/// Whether a column is not zero in the undeformed state, or has no value there (reports: curves.js).
+/// Whether a column is not zero in the undeformed state, or has no value there. Reports have the
+/// list too (curves.js).
 bool begins_at_first_row(const std::string& column) {
   constexpr std::array<std::string_view, 9> others = {"residual",    "factorizations", "element",
                                                       "events",      "stage",          "avalanche",

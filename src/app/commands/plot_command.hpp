@@ -21,7 +21,7 @@ struct PlotOptions {
   bool animation = false;  ///< only the body, as PNG at one scale, joined as animation.png
 };
 
-/// Draws history.csv as load_displacement.svg and every file of fields.pvd as fields_<row>.svg, with six digits.
+/// Draws history.csv as load_displacement.svg and every file of fields.pvd as fields_<row>.svg.
 /// With columns, draws only their curve, Y_over_X.svg; with a row, field or range only the body.
 /// Title and units come from summary.json where it exists.
 /// \returns the exit status

@@ -38,9 +38,9 @@ std::optional<std::string> path_note(const CaseFile& input, const Model& model);
 /// 6). Bodies with random strength, bars, interfaces or sections have no note.
 std::optional<std::string> unnotched_note(const CaseFile& input, const Model& model);
 
-/// Returns a note on joints of materials with other stiffnesses, where a crack along them dissipates
-/// too little: bodies that are not layers, without interfaces (docs/theory/calibration.md, section
-/// 6).
+/// Returns a note on joints of materials with other stiffnesses, where a crack along them
+/// dissipates too little: bodies that are not layers, without interfaces
+/// (docs/theory/calibration.md, section 6).
 std::optional<std::string> joint_note(const NetworkInput& input, const Model& model);
 
 /// Returns the range of the factors of each NetworkInput::fields over the bonds that it changes, of

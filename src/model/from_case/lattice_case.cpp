@@ -107,13 +107,7 @@ void choose_steps(const CaseFile& input, double critical_time_step, ExplicitOpti
                      "give a smaller one, or delete the key: `safety` then sets the "
                      "fraction of the critical time step");
   }
-  if (analysis.duration < options.time_step) {
-    throw InputError(input.where("analysis.duration"),
-                     fmt::format("is {:.6g}, shorter than one time step, {:.6g}", analysis.duration,
-                                 options.time_step),
-                     "give a longer duration or a smaller `time_step`; are modulus, density and "
-                     "time in units of one system?");
-  }
+  options.time_step = std::min(options.time_step, analysis.duration);
   const double steps = std::ceil(analysis.duration / options.time_step);
   if (steps <= most_steps) return;
   throw InputError(input.where("analysis.duration"),

@@ -23,7 +23,7 @@ PropertyField sloping_modulus() {
 /// A linear factor and a uniform strain give each interior particle the divergence of the stress of
 /// the continuum, (S-11).
 TEST(GradedStiffness, GivesInteriorParticlesTheBodyForceOfTheContinuum) {
-  LatticeInput lattice = body_input(rectangular, 9);
+  LatticeInput lattice = body_input(rectangular, 15);
   lattice.surface = Surface::calibrated;
   lattice.horizon = 3.0 * lattice.spacing;
   NetworkInput input = network_input(lattice);
@@ -36,7 +36,7 @@ TEST(GradedStiffness, GivesInteriorParticlesTheBodyForceOfTheContinuum) {
   const double trace = lame.lambda * (xx + yy);
   const double x = 2.0 * (trace + 2.0 * lame.mu * xx) + 2.0 * lame.mu * xy;
   const double y = 2.0 * 2.0 * lame.mu * xy + trace + 2.0 * lame.mu * yy;
-  const double middle = 4.5 * lattice.spacing;
+  const double middle = 7.5 * lattice.spacing;
   int interior = 0;
   for (Index i = 0; i < network.particles.size(); ++i) {
     const auto at = network.particles.position(i);

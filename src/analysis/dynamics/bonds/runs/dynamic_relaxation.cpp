@@ -19,9 +19,7 @@
 
 namespace perilink {
 namespace {
-
 constexpr Index iterations_between_checks = 200;
-
 /// Iterations with one number of threads.
 constexpr int iterations_of_a_round = 4;
 
@@ -169,10 +167,9 @@ class Relaxation {
     // slower than the damped one.
     const bool moves = all.push > 0.0 && !separation_.is_unstrained();
     result_.error = moves ? std::sqrt(all.push / all.size) / square_ : 0.0;
-    // Beside the forces in the bonds, loads and reactions may be round-off; the residual is then.
-    const bool is_round_off = moves && result_.error <= 1e-6 * options_.tolerance;
-    next_.at_rest = !gave_way && result_.error <= options_.tolerance &&
-                    (result_.residual <= options_.tolerance || is_round_off);
+    const double residual =  // of loads and reactions that may be round-off themselves
+        moves && result_.error <= 1e-6 * options_.tolerance ? 0.0 : result_.residual;
+    next_.at_rest = !gave_way && std::max(residual, result_.error) <= options_.tolerance;
     if (!next_.at_rest) look(all, rest);
   }
 
@@ -233,8 +230,7 @@ class Relaxation {
         fmt::format("load step {} (load factor {}): {}", step_ + 1, factor_, how));
   }
 
-  /// Ends the run with the results so far when an observer throws. Exceptions must not leave a
-  /// parallel region.
+  /// Ends the run when an observer throws: exceptions must not leave a parallel region.
   template <class Action>
   void observe(const Action& action) {
     try {
