@@ -144,7 +144,8 @@ void MovingBondsRun::on_end(const ExplicitRecord& last, const BondRunState& stat
 }
 
 void MovingBondsRun::warn_of_size(Summary& summary) const {
-  if (input.analysis.strain == Strain::green || input.supports.empty()) return;
+  const bool is_free = input.supports.empty() && input.displacements.empty();
+  if (input.analysis.strain == Strain::green || is_free) return;
   if (auto warning =
           warning_about_size(files().peaks().highest(), longest_side(model_.network.particles))) {
     summary.add_warnings({std::move(*warning)});

@@ -167,9 +167,9 @@ class Relaxation {
     // slower than the damped one.
     const bool moves = all.push > 0.0 && !separation_.is_unstrained();
     result_.error = moves ? std::sqrt(all.push / all.size) / square_ : 0.0;
-    const double residual =  // of loads and reactions that may be round-off themselves
-        moves && result_.error <= 1e-6 * options_.tolerance ? 0.0 : result_.residual;
-    next_.at_rest = !gave_way && std::max(residual, result_.error) <= options_.tolerance;
+    // Loads and reactions are round-off beside the forces in the bonds, and so is the residual.
+    if (moves && result_.error <= 1e-6 * options_.tolerance) result_.residual = 0.0;
+    next_.at_rest = !gave_way && std::max(result_.residual, result_.error) <= options_.tolerance;
     if (!next_.at_rest) look(all, rest);
   }
 
