@@ -34,13 +34,27 @@ struct ThinPart {
 
 /// Returns the parts of a body that are narrow along one axis. Lines of bonds measure the distances
 /// to both faces.
-/// \param most  largest number of spacings of a narrow part
-ThinPart thin_part(const Model& model, std::size_t axis, double most) {
+/// \param most    largest number of spacings of a narrow part
+/// \param fewest  number of particles below which a part does not matter
+ThinPart thin_part(const Model& model, std::size_t axis, double most, double fewest) {
   constexpr double along = 0.8;  // cosine of bonds that measure the width
   const Network& network = model.network;
   const auto count = static_cast<std::size_t>(network.num_particles());
   std::vector<double> up(count), down(count);
-  // Lines from a face of a wide body must reach beyond `most`.
+  ThinPart part;
+  const auto measure = [&] {
+    part = {};
+    for (std::size_t i = 0; i < count; ++i) {
+      const double width = up[i] + down[i];
+      const bool wide = width >= (most + 0.1) * model.lattice.spacing;
+      if (network.particles.material[i] == no_index || wide) continue;
+      part.width += width;
+      ++part.particles;
+    }
+    return part.particles >= fewest;
+  };
+  // Lines from a face of a wide body must reach beyond `most`. They only grow: most bodies are wide
+  // after the first step.
   const double reach = std::floor(model.horizon / model.lattice.spacing + 0.1);
   for (double hops = 1.0 + std::ceil(most / reach); hops > 0.0; hops -= 1.0) {
     const std::vector<double> above = up, below = down;
@@ -54,14 +68,7 @@ ThinPart thin_part(const Model& model, std::size_t axis, double most) {
       up[lower] = std::max(up[lower], apart + above[upper]);
       down[upper] = std::max(down[upper], apart + below[lower]);
     }
-  }
-  ThinPart part;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double width = up[i] + down[i];
-    const bool wide = width >= (most + 0.1) * model.lattice.spacing;
-    if (network.particles.material[i] == no_index || wide) continue;
-    part.width += width;
-    ++part.particles;
+    if (!measure()) break;
   }
   if (part.particles > 0) part.width /= static_cast<double>(part.particles);
   return part;
@@ -191,10 +198,11 @@ std::optional<std::string> thin_body_note(const CaseFile& input, const Model& mo
   const double excess = turns ? 0.9 + 0.45 * ratio : 2.5 / ratio;
   const double most = std::sqrt(excess * (1.0 / most_error - 1.0));  // steps
   for (int axis = 0; axis < model.network.dim(); ++axis) {
-    const ThinPart part = thin_part(model, static_cast<std::size_t>(axis), most);
+    const double few = fewest * model.network.num_particles();
+    const ThinPart part = thin_part(model, static_cast<std::size_t>(axis), most, few);
     const double steps = std::floor(part.width / model.lattice.spacing + 0.1);
     const double error = excess / (steps * steps + excess);
-    if (part.particles < fewest * model.network.num_particles() || steps < 1.0) continue;
+    if (part.particles < few || steps < 1.0) continue;
     if (error <= most_error) continue;
     return fmt::format(
         "thin body: along {} it is {:.4g} wide, {:.2g} horizons, at {}: if it bends there, its "

@@ -160,9 +160,7 @@ std::optional<std::string> joint_note(const NetworkInput& input, const Model& mo
   const Network& network = model.network;
   if (input.elastic || !input.interfaces.empty() || !network.calibration) return std::nullopt;
   if (network.has_sections()) return std::nullopt;
-  std::vector<LameConstants> constants;
-  for (const SolidMaterial& m : input.materials) constants.push_back(lame_constants(input, m));
-  constexpr double alike = 1.05;
+  constexpr double negligible = 1.05;
   double largest = 1.0;
   const Facets& facets = network.facets;
   for (Index f = 0; f < facets.size(); ++f) {
@@ -173,11 +171,12 @@ std::optional<std::string> joint_note(const NetworkInput& input, const Model& mo
     const auto [least, most] = std::minmax(one.youngs_modulus, other.youngs_modulus);
     largest = std::max(largest, most / least);
   }
-  const bool is_layered =
-      input.draft
-          ? find_joint(facets, network.particles, constants, model.lattice.spacing).has_value()
-          : network.calibration->layered;
-  if (largest <= alike || is_layered) return std::nullopt;
+  if (largest <= negligible || network.calibration->layered) return std::nullopt;
+  std::vector<LameConstants> constants;
+  for (const SolidMaterial& m : input.materials) constants.push_back(lame_constants(input, m));
+  if (input.draft && find_joint(facets, network.particles, constants, model.lattice.spacing)) {
+    return std::nullopt;
+  }
   return fmt::format(
       "materials of unlike stiffness (moduli 1 and {:.3g}) meet, but not in parallel layers: a "
       "crack along their joint dissipates less than the smaller fracture energy, 0.4 of it at "

@@ -19,7 +19,9 @@
 
 namespace perilink {
 namespace {
+
 constexpr Index iterations_between_checks = 200;
+
 /// Iterations with one number of threads.
 constexpr int iterations_of_a_round = 4;
 
@@ -147,7 +149,8 @@ class Relaxation {
     RestSums all;
     for (const RestSums& block : rest_) all += block;
     judge(all);
-    if (next_.examines) examine();
+    if (next_.examines) observe([&] { examine_pieces(); });
+    next_.examines = false;
     ++iteration_;
     ++result_.iterations;
   }
@@ -217,10 +220,6 @@ class Relaxation {
     return static_cast<Index>(most / body_.unknowns.width);
   }
 
-  void examine() {
-    next_.examines = false;
-    observe([&] { examine_pieces(); });
-  }
   void examine_pieces() {
     const auto pulled = separation_.examine(body_.bonds->secants(), fractured_, factor_ != 0.0);
     if (!pulled.empty()) collapse(pulled);
