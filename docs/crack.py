@@ -50,23 +50,24 @@ def draw(reader, view):
     kinds = reader.CellData["element"].GetRange()[1]
     spacing = pv.servermanager.Fetch(reader).GetFieldData().GetArray("spacing").GetValue(0)
 
+    is_solid = min(sides) > 1.5 * spacing
+    in_space = is_solid or any(reader.PointData["displacement"].GetRange(2))
+    if in_space:
+        view.ApplyIsometricView()
+    dots = {"GaussianRadius": 0.55 * spacing,
+            "ShaderPreset": "Sphere" if in_space else "Plain circle"}
     solid = part(moved, "kind", 0, 0)
     if kinds >= 5:  # [output] body_cells = true: a surface, in which cracks are gaps
         body, look, properties = part(solid, "element", 5, 5, "CELLS"), "Surface", {}
     else:
-        body, look = part(solid, "element", 0, 0, "CELLS"), "Point Gaussian"
-        properties = {"GaussianRadius": 0.55 * spacing, "ShaderPreset": "Plain circle"}
-    is_solid = min(sides) > 1.5 * spacing
-    if is_solid:
-        view.ApplyIsometricView()
+        body, look, properties = part(solid, "element", 0, 0, "CELLS"), "Point Gaussian", dots
     names = reader.PointData.keys()
     damage = reader.PointData["damage"].GetRange()[1] if "damage" in names else 0.0
     hides = is_solid and damage >= CRACKED  # the crack, which lies inside
     drawn = [shown(body, view, look, Opacity=0.15 if hides else 1.0, **properties)]
     if hides:
         faces = part(part(solid, "element", 0, 0, "CELLS"), "damage", CRACKED, 1.0)
-        drawn.append(shown(faces, view, "Point Gaussian", GaussianRadius=0.55 * spacing,
-                           ShaderPreset="Sphere"))
+        drawn.append(shown(faces, view, "Point Gaussian", **dots))
     field = FIELD if FIELD in names and (FIELD != "damage" or damage > 0.0) else "displacement"
     for display in drawn:
         pv.ColorBy(display, ("POINTS", field))
