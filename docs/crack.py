@@ -41,8 +41,7 @@ def automatic_factor(reader, size):
 
 def draw(reader, view):
     """Draws solid and bars; broken bonds and points of bars are left out."""
-    rows = reader.TimestepValues
-    reader.UpdatePipeline(rows[-1] if rows else 0.0)
+    reader.UpdatePipeline(reader.TimestepValues[-1])
     bounds = reader.GetDataInformation().GetBounds()
     sides = [bounds[2 * k + 1] - bounds[2 * k] for k in range(3)]
     factor = FACTOR or automatic_factor(reader, sum(side**2 for side in sides) ** 0.5)
@@ -82,6 +81,7 @@ def draw(reader, view):
         bars = shown(part(moved, "element", 2, 2, "CELLS"), view, "Surface", LineWidth=3.0)
         bars.ColorArrayName = ["POINTS", ""]
         bars.DiffuseColor = bars.AmbientColor = [0.2, 0.2, 0.2]
+        bars.Position = [0.0, 0.0, 0.0 if in_space else spacing]  # before the particles
     print(f"displacements times {factor:.3g}, coloured by {field}")
 
 
@@ -95,9 +95,10 @@ def main(arguments):
     pv.HideAll(view)
     if len(arguments) > 1:
         view.ViewSize = [1200, 800]
-    draw(reader, view)
-    time = float(arguments[2]) if len(arguments) > 2 else reader.TimestepValues[-1]
+    rows = list(reader.TimestepValues)
+    time = min(rows, key=lambda row: abs(row - float(arguments[2]))) if arguments[2:] else rows[-1]
     pv.GetAnimationScene().AnimationTime = view.ViewTime = time
+    draw(reader, view)
     pv.ResetCamera(view)
     pv.Render(view)
     if len(arguments) > 1:

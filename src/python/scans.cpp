@@ -4,9 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "app/program.hpp"
-#include "app/scan/scan_run.hpp"
-#include "app/scan/scan_table.hpp"
 #include "perilink.hpp"
 #include "python/bindings.hpp"
 #include "python/python_caller.hpp"
