@@ -51,7 +51,8 @@ class Scans(unittest.TestCase):
             "scan.csv", "scan.svg", "0001/history.csv", "0003/history.csv", "0003/case.toml"])
         changed = perilink.scan(strip(), ENERGIES, out=self.folder / "changed")
         self.assertTrue((changed.path / "scan_case.toml").exists(), "there is no other file of it")
-        self.assert_same_files(changed.path, scan.path, ["scan.csv", "scan.svg", "0004/history.csv"])
+        self.assert_same_files(changed.path, scan.path,
+                               ["scan.csv", "scan.svg", "0004/history.csv"])
 
         self.assertEqual(list(scan.table["member"]), [1, 2, 3, 4])
         self.assertEqual(list(scan.table["stop.broken_bonds"]), [10, 20, 10, 20])
@@ -144,7 +145,7 @@ class Scans(unittest.TestCase):
         ended = []
         scan = perilink.scan(strip(), ENERGIES, out=self.folder / "out", jobs=1,
                              progress=lambda member: ended.append(member) or len(ended) < 2)
-        self.assertEqual([(m.member, m.status, m.done, m.count) for m in ended[:2]],
+        self.assertEqual([(m.member, m.status, m.done, m.members) for m in ended[:2]],
                          [(1, "completed", 1, 4), (2, "completed", 2, 4)])
         self.assertIn("stop.broken_bonds = 10", ended[0].values)
         self.assertIn("not run", scan.table["status"])
@@ -205,6 +206,11 @@ class Scans(unittest.TestCase):
         self.assertTrue(np.isnan(scan.table["body.spacing"][1]), "it keeps that of the case")
         with self.assertRaises(perilink.FileError):
             scan.members[0]
+        case = strip()
+        case["body"].update(spacing=1e-7, pattern="unstructured")
+        scan = perilink.scan(case, seeds=2)
+        self.assertEqual(list(scan.table["status"]), ["failed"] * 2)
+        self.assertEqual(len(scan.seeds["mean"]), 0)
 
     def test_tables_are_frames_where_pandas_is_there(self):
         try:

@@ -90,9 +90,14 @@ std::vector<std::string> words_of_member(const ScanRun& run, std::size_t member)
 
 void write_scan_table(const ScanRun& run) {
   const fs::path& directory = run.settings.directory;
+  const fs::path seeds = directory / "scan_seeds.csv";
   write_whole_file((directory / "scan.csv").string(), scan_table(run.scan, run.results));
-  if (run.scan.seeds.empty()) return;
-  write_whole_file((directory / "scan_seeds.csv").string(), seed_table(run.scan, run.results));
+  std::error_code ignored;
+  if (run.scan.seeds.empty()) {
+    fs::remove(seeds, ignored);  // of an earlier scan
+  } else {
+    write_whole_file(seeds.string(), seed_table(run.scan, run.results));
+  }
 }
 
 void run_members(ScanRun& run) {

@@ -42,7 +42,7 @@ class ScanProgress(NamedTuple):
     status: str  #: completed, collapsed, nothing_breaks, interrupted or failed
     seconds: float  #: run time [s]
     done: int  #: members that have ended, with this one
-    count: int  #: members that this scan runs
+    members: int  #: members that this scan runs
 
 
 class ScanMembers(Sequence[Result]):
@@ -205,7 +205,7 @@ def _scan(
     except InputError as error:  # lines of these texts mean nothing to the user
         message = str(error)
         for name in [_NAME] if text is None else [_NAME, case.path]:
-            message = re.sub(rf"(?<!\S){re.escape(name)}:\d+:", lambda _, n=name: f"{n}:", message)
+            message = re.sub(rf"(?<!\S)({re.escape(name)}):\d+:", r"\1:", message)
         raise InputError(message, error.path, 0, error.key) from None
 
 
@@ -259,8 +259,7 @@ def _listed(values: Any) -> Any:
 def _read_table(path: Path) -> Table:
     with path.open(newline="", encoding="utf-8") as file:
         header, *rows = csv.reader(file)
-    return {name: _column(name, texts) for name, texts
-            in zip(header, zip(*rows, strict=True), strict=True)}
+    return {name: _column(name, [row[k] for row in rows]) for k, name in enumerate(header)}
 
 
 def _column(name: str, texts: Sequence[str]) -> NDArray[Any]:
