@@ -85,8 +85,11 @@ class Scans(unittest.TestCase):
         np.testing.assert_allclose(scan.seeds["mean"][of_peaks], peaks.mean(axis=1), rtol=1e-12)
         np.testing.assert_allclose(scan.seeds["standard_deviation"][of_peaks],
                                    peaks.std(axis=1, ddof=1), rtol=1e-12)
-        one = perilink.scan(case, runs=[{"body.horizon": 31.0}], seeds=np.array([2]))
+        out = self.folder / "out"
+        one = perilink.scan(case, runs=[{"body.horizon": 31.0}], seeds=np.array([2]), out=out)
         self.assertEqual(one.table["peak_load"][0], peaks[1, 1])
+        other = perilink.scan(case, runs=[{"body.horizon": 31.0}], out=out, force=True)
+        self.assertEqual(other.seeds, {}, "those of the earlier scan are gone")
 
     def test_temporary_results_go_with_their_scan(self):
         scan = perilink.scan(strip(), {"stop.broken_bonds": range(5, 7)})

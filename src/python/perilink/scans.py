@@ -206,7 +206,8 @@ def _scan(
         message = str(error)
         for name in [_NAME] if text is None else [_NAME, case.path]:
             message = re.sub(rf"(?<!\S)({re.escape(name)}):\d+:", r"\1:", message)
-        raise InputError(message, error.path, 0, error.key) from None
+        line = error.line if text is None and error.path != _NAME else 0
+        raise InputError(message, error.path, line, error.key) from None
 
 
 def _is_file(case: Case) -> bool:
