@@ -5,11 +5,13 @@
 
 #include "analysis/quasistatic/event_run.hpp"
 #include "app/process/threads.hpp"
+#include "app/program.hpp"
 #include "app/run/bond_run.hpp"
 #include "app/run/quasistatic.hpp"
 #include "app/run/relaxation_run.hpp"
 #include "app/run/run_case.hpp"
 #include "app/scan/calibration_files.hpp"
+#include "app/scan/scan_run.hpp"
 #include "assembly/fields.hpp"
 #include "base/build_info.hpp"
 #include "base/error.hpp"
@@ -42,6 +44,12 @@
 ///
 ///     const BondRunCase moving = build_bond_run(input, model);        // explicit
 ///     run_explicit_bonds(model, moving.inertia, moving.rules, moving.options, observer);
+///
+///     ScanFile scan = read_scan_file("scan.toml");            // as `perilink scan`
+///     const std::vector<CaseFile> cases = read_members(scan, {});
+///     ScanSettings settings{"results/scan"};
+///     settings.program = "/usr/bin/perilink";                 // of the members
+///     run_scan(scan, cases, settings);
 ///
 /// set_threads() sets the number of threads of all later work. Errors are exceptions: InputError,
 /// FileError and SolverError. Functions may not be called from several threads at once.

@@ -21,6 +21,8 @@ struct BuiltCase {
 
 /// Adds the functions that run cases and read results.
 void bind_runs(pybind11::module_& module);
+/// Adds the functions that run scans.
+void bind_scans(pybind11::module_& module);
 /// Adds the class Problem and the elastic solution.
 void bind_problems(pybind11::module_& module);
 

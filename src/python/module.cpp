@@ -68,6 +68,7 @@ PYBIND11_MODULE(_core, module) {
   module.def("case_json_schema", case_json_schema);
   module.def("case_reference", case_reference);
   bind_runs(module);
+  bind_scans(module);
   bind_problems(module);
   bind_events(module);
   bind_time_runs(module);

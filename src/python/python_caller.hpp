@@ -42,10 +42,15 @@ class PythonCaller {
   }
 
   void on_row(const RowProgress& row) {
-    if (stop_ || progress_.is_none() || !rows_.is_due()) return;
+    if (!stop_ && rows_.is_due()) call(row);
+  }
+  /// Calls the progress function.
+  template <class... Arguments>
+  void call(const Arguments&... arguments) {
+    if (stop_ || progress_.is_none()) return;
     const pybind11::gil_scoped_acquire lock;
     try {
-      if (progress_(row).is(pybind11::handle(Py_False))) stop_ = true;
+      if (progress_(arguments...).is(pybind11::handle(Py_False))) stop_ = true;
     } catch (pybind11::error_already_set& error) {
       error.restore();
       keep_error();

@@ -25,6 +25,7 @@ class Docs(unittest.TestCase):
             self.assertTrue(Path("results/fine/history.csv").exists())
         peaks = names["peaks"]
         self.assertLess(peaks[2.0], peaks[4.0])
+        self.assertEqual(names["scan"].table["peak_load"][3], peaks[3.0])
         self.assertEqual(len(names["problem"].regions["lower edge"]), 21)
         self.assertEqual(names["row"].step, 1)
         self.assertGreater(names["row"].load, 0.0)

@@ -58,8 +58,8 @@ ProcessPool::~ProcessPool() {
 }
 
 void ProcessPool::start(std::size_t number, const std::vector<std::string>& arguments) {
-  std::vector<std::string> copies = arguments;
-  copies.insert(copies.begin(), "perilink");
+  std::vector<std::string> copies = words_;
+  copies.insert(copies.end(), arguments.begin(), arguments.end());
   std::vector<char*> words;
   for (std::string& copy : copies) words.push_back(copy.data());
   words.push_back(nullptr);

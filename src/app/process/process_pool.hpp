@@ -21,7 +21,9 @@ struct FinishedProcess {
 class ProcessPool {
  public:
   /// \param program  path; "/proc/self/exe": this program
-  ProcessPool(std::string program, std::size_t most) : program_(std::move(program)), most_(most) {}
+  /// \param words    begin of each command line, with the name of the program
+  ProcessPool(std::string program, std::size_t most, std::vector<std::string> words = {"perilink"})
+      : program_(std::move(program)), words_(std::move(words)), most_(most) {}
   /// Kills processes that still run.
   ~ProcessPool();
   ProcessPool(const ProcessPool&) = delete;
@@ -45,6 +47,7 @@ class ProcessPool {
   };
 
   std::string program_;
+  std::vector<std::string> words_;
   std::size_t most_;
   std::vector<Child> children_;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,8 +26,9 @@ struct ScanMember {
 struct ScanFile {
   std::string path;
   std::string title;
-  std::string case_path;          ///< relative to the working directory
-  std::vector<std::string> keys;  ///< as written, in the order of the file
+  std::string case_path;  ///< relative to the working directory; without a file a name
+  std::optional<std::string> case_text = {};  ///< of a case without a file
+  std::vector<std::string> keys;              ///< as written, in the order of the file
   std::vector<ScanMember> members;
   std::vector<int> seeds;  ///< of the case's [[random]] and [body]; empty: of the case
   int seeds_line = 0;      ///< in the scan file

@@ -7,9 +7,9 @@
     result = perilink.run(case, "results/fine")
     print(result.summary["peak_load"], result.history["load"].max())
 
-`Case` describes the case, `run` runs it, `EventRun` and `TimeRun` advance it row by row, `build`
-and `solve` give its particles, bonds and elastic solution as arrays of numpy. Docs: docs/python.md,
-docs/case_file.md.
+`Case` describes the case, `run` runs it, `scan` runs it with lists of values, `EventRun` and
+`TimeRun` advance it row by row, `build` and `solve` give its particles, bonds and elastic solution
+as arrays of numpy. Docs: docs/python.md, docs/case_file.md.
 """
 
 from ._core import Problem, Row, __version__, build_summary
@@ -19,6 +19,7 @@ from .events import DamageState, EventRow, EventRun
 from .mesh import Mesh
 from .problem import ElasticSolution, build, solve
 from .result import Result, read_result, run
+from .scans import ScanProgress, ScanResult, read_scan, scan
 from .summary import Summary
 from .time_run import TimeRow, TimeRun
 
@@ -35,6 +36,8 @@ __all__ = [
     "Problem",
     "Result",
     "Row",
+    "ScanProgress",
+    "ScanResult",
     "SolverError",
     "Summary",
     "TimeRow",
@@ -46,6 +49,8 @@ __all__ = [
     "parse_case",
     "read_case",
     "read_result",
+    "read_scan",
     "run",
+    "scan",
     "solve",
 ]

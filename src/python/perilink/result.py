@@ -37,6 +37,7 @@ class Result:
         _core.require_result(fspath(self.directory))
         self.text: str = ""  #: the lines that ``perilink run`` prints
         self._history: Arrays | None = None
+        self._owner: object = None  # of a temporary directory
 
     @property
     def summary(self) -> Summary:
