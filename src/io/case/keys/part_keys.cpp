@@ -206,9 +206,18 @@ TableSchema graded_table() {
           true,
           {key<GradedSection>("property", &VaryingSection::property).needed(what_varies),
            key<GradedSection>("materials", &VaryingSection::materials),
-           key("factor", &GradedSection::factor)
-               .needed("a formula of the place: factor = \"1 + x / 400\"")},
-          no_fields};
+           key("factor", &GradedSection::factor).written_if(+[](const GradedSection& graded) {
+             return !graded.file;
+           }),
+           KeySchema("file", Kind::text)
+               .written_by(+[](TomlWriter& out, const GradedSection& graded, Kinds) {
+                 out.write("file", graded.file);
+               }),
+           key("column", &GradedSection::column)
+               .beside("file")
+               .written_if(+[](const GradedSection& graded) { return graded.file.has_value(); })},
+          no_fields,
+          {{"factor", "file"}}};
 }
 
 TableSchema rebar_table() {
