@@ -19,6 +19,7 @@ namespace {
 
 constexpr double memory_per_table_byte = 4.0;  // of the points and their search, beside the text
 constexpr double largest_in_table = 1e50;      // as in a case
+constexpr std::size_t longest_shown = 80;      // characters of a text in messages
 constexpr std::string_view utf8_mark = "\xef\xbb\xbf";
 
 /// Places of the needed columns in a row.
@@ -62,10 +63,11 @@ void read_point_header(std::string_view line, PointColumns& columns, const Sourc
   for (const std::string& name : columns.needed) {
     const auto found = std::ranges::find(names, name);
     if (found == names.end()) {
-      throw InputError(
-          where, fmt::format("has the header '{}' without the column {}", printable(line), name),
-          fmt::format("the first line names the columns, separated by commas: {}",
-                      example_of(columns)));
+      throw InputError(where,
+                       fmt::format("has the header '{}' without the column {}",
+                                   printable(line.substr(0, longest_shown)), name),
+                       fmt::format("the first line names the columns, separated by commas: {}",
+                                   example_of(columns)));
     }
     if (is_named(name) > 1) {
       throw InputError(where, fmt::format("has {} columns with the name {}", is_named(name), name),
@@ -88,9 +90,10 @@ void read_point_header(std::string_view line, PointColumns& columns, const Sourc
   double ignored = 0.0;
   const auto [end, status] = std::from_chars(field.data(), field.data() + field.size(), ignored);
   const bool is_number = end == field.data() + field.size();
-  throw InputError(
-      where, fmt::format("is '{}'{}", printable(field), is_number ? "" : ", which is not a number"),
-      allowed);
+  throw InputError(where,
+                   fmt::format("is '{}'{}", printable(field.substr(0, longest_shown)),
+                               is_number ? "" : ", which is not a number"),
+                   allowed);
 }
 
 /// Appends the numbers of a row. \throws InputError

@@ -103,16 +103,16 @@ TEST_F(FieldFile, NotesHowFarParticlesLieOutside) {
 
 TEST_F(FieldFile, RefusesPointsFarFromTheBody) {
   write("0,0,1\n1,0,2\n0,1000,1\n1,1000,3\n");
-  EXPECT_THAT(build_model(of_file("youngs_modulus")).notes, Contains(HasSubstr("40 at +x")));
+  EXPECT_THAT(build_model(of_file("youngs_modulus")).notes, Contains(HasSubstr("39 at +x")));
   write("100,0,1\n200,0,2\n100,80,1\n200,80,3\n");
   EXPECT_THAT(refusal(of_file("youngs_modulus")),
-              HasSubstr("strip.toml:50: graded[1].file: names field.csv, whose points have x = 100 "
+              HasSubstr("strip.toml:44: graded[1].file: names field.csv, whose points have x = 100 "
                         "to 200, y = 0 to 80; no particle of the body lies there, but at x = 0 to "
                         "40, y = 0 to 80"));
 }
 
 TEST_F(FieldFile, IsRefusedWithTheLineAtFault) {
-  EXPECT_THAT(refusal(of_file("youngs_modulus")), HasSubstr("strip.toml:50: graded[1].file: "));
+  EXPECT_THAT(refusal(of_file("youngs_modulus")), HasSubstr("strip.toml:44: graded[1].file: "));
   EXPECT_EQ(refusal(of_file("fracture_energy")), "accepted") << "elastic bodies need no energy";
   write("0,0,1\n1,0,-2\n");
   EXPECT_THAT(refusal(of_file("youngs_modulus")), HasSubstr("field.csv:3: factor: is '-2'"));
@@ -140,8 +140,9 @@ TEST_F(FieldFile, OfSpaceHasThreeCoordinates) {
     points += fmt::format("{},{},{},{}\n", x, y, z, 1.0 + x / 40.0 + y / 80.0 + z / 10.0);
   }
   write_whole_file(path("field.csv"), "x,y,z,factor\n" + points);
-  std::string text = replaced(std::string(strip_text),
-                              "problem = \"plane_stress\"\nthickness = 2.0", "problem = \"3d\"");
+  std::string text =
+      replaced(std::string(strip_text), "problem = \"plane_stress\"\nthickness = 2.0",
+               "problem = \"three_dimensional\"");
   for (const char* line : {"y = [0, 80]\n", "y = [0, 20]\n", "y = [60, 80]\n"}) {
     text = replaced(text, line, std::string(line) + "z = [0, 20]\n");
   }
