@@ -5,7 +5,7 @@
 #include <string>
 
 #include "discretization/particles.hpp"
-#include "discretization/point_field.hpp"
+#include "discretization/points/point_field.hpp"
 #include "io/case/case_file.hpp"
 
 namespace perilink {

@@ -1,4 +1,4 @@
-#include "discretization/point_field.hpp"
+#include "discretization/points/point_field.hpp"
 
 #include <algorithm>
 #include <cmath>
