@@ -66,8 +66,11 @@ void read_point_header(std::string_view line, PointColumns& columns, const Sourc
       throw InputError(where,
                        fmt::format("has the header '{}' without the column {}",
                                    printable(line.substr(0, longest_shown)), name),
-                       fmt::format("the first line names the columns, separated by commas: {}",
-                                   example_of(columns)));
+                       fmt::format("the first line names the columns, separated by commas: {}{}",
+                                   example_of(columns),
+                                   name == columns.needed.back()
+                                       ? "; `column` in the case names another one for the factors"
+                                       : ""));
     }
     if (is_named(name) > 1) {
       throw InputError(where, fmt::format("has {} columns with the name {}", is_named(name), name),

@@ -63,6 +63,7 @@ TEST_F(PointFile, IsRefusedAtItsHeader) {
   refuses("\xef\xbb\xbf\n\n", 0, "", "is empty");
   refuses("0,0,1\n1,1,2\n", 1, "", "has the header '0,0,1' without the column x");
   refuses("\nx,y,strength\n", 2, "", "without the column factor");
+  refuses("\nx,y,strength\n", 2, "", "; `column` in the case names another one");
   refuses("x;y;factor\n", 1, "", "separated by commas: x,y,factor");
   refuses("x,y,x,factor\n", 1, "", "has 2 columns with the name x");
   refuses("x,y,factor\n0,0,1\n1,1,2\n", 1, "", "without the column z", 3);
