@@ -91,6 +91,13 @@ class Cases(unittest.TestCase):
         self.assertEqual(case["body"]["spacing"], 10.0)
         self.assertEqual(case.toml(), STRIP)
 
+    def test_a_file_may_be_changed_by_an_array(self):
+        case = perilink.parse_case(STRIP)
+        case["regions"][0]["x"] = np.array([0, 40])
+        self.assertEqual(case.toml(), STRIP)
+        case["regions"][0]["x"] = np.array([0, 50])
+        self.assertEqual(case.check()["regions"][0]["x"], [0, 50])
+
     def test_points_of_a_field_are_an_array(self):
         points = np.array([[0, 0, 1], [40, 0, 1], [0, 80, 4], [40, 80, 4]])
         case = perilink.parse_case(STRIP)

@@ -100,9 +100,11 @@ class Case(dict[str, Any]):
 
     def _unchanged(self) -> str | None:
         """Returns the text that the case was read from, if nothing has changed since."""
-        if self._source is not None and tomllib.loads(self._source) == self:
-            return self._source
-        return None
+        if self._source is None:
+            return None
+        # Texts are compared: arrays of numpy have no single answer to ==.
+        same = _toml(tomllib.loads(self._source), {}) == _toml(self, self._names())
+        return self._source if same else None
 
     def _parts(self) -> list[tuple[str, Any, Callable[[], str]]]:
         """Returns meshes and points of fields: name of the file, value of the key, text."""
