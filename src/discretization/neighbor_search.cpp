@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <nanoflann.hpp>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace perilink {
@@ -162,6 +164,41 @@ std::vector<double> distances_of_nearest(std::span<const double> positions, int 
   if (dim == 2) return nearest<2>(positions, count);
   if (dim == 3) return nearest<3>(positions, count);
   refuse_dimension(dim);
+}
+
+namespace {
+
+/// Points with the tree that finds the nearest of them.
+template <int Dim>
+struct PointTree {
+  explicit PointTree(std::vector<double> of_points) : positions(std::move(of_points)) {}
+
+  std::vector<double> positions;
+  PointCloud points{positions, Dim};
+  Tree<Dim> tree{Dim, points, tree_parameters};
+};
+
+template <int Dim>
+auto search_in(std::vector<double> positions) {
+  const auto points = std::make_shared<const PointTree<Dim>>(std::move(positions));
+  return [points](std::span<const double> place) {
+    Index found = no_index;
+    double square = 0.0;
+    points->tree.knnSearch(place.data(), 1, &found, &square);
+    return found;
+  };
+}
+
+}  // namespace
+
+NearestPoint::NearestPoint(std::vector<double> positions, int dim) {
+  if (dim == 2) {
+    search_ = search_in<2>(std::move(positions));
+  } else if (dim == 3) {
+    search_ = search_in<3>(std::move(positions));
+  } else {
+    refuse_dimension(dim);
+  }
 }
 
 }  // namespace perilink

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -32,5 +33,19 @@ Csr find_neighbors_within(std::span<const double> points, std::span<const double
 /// \param positions  shape (n, dim)
 /// \throws std::invalid_argument for a dimension other than 2 or 3
 std::vector<double> distances_of_nearest(std::span<const double> positions, int dim, int count);
+
+/// Finds the point that is nearest to a place.
+class NearestPoint {
+ public:
+  /// \param positions  shape (n, dim), n > 0 [length]
+  /// \throws std::invalid_argument for a dimension other than 2 or 3
+  NearestPoint(std::vector<double> positions, int dim);
+
+  /// \param place  size dim [length]
+  Index at(std::span<const double> place) const { return search_(place); }
+
+ private:
+  std::function<Index(std::span<const double>)> search_;
+};
 
 }  // namespace perilink

@@ -118,6 +118,24 @@ TEST_F(Scan, ResultsDoNotDependOnJobs) {
   EXPECT_EQ(file("one/scan.svg"), file("many/scan.svg"));
 }
 
+/// Fields of a generator are members like any values. A member whose file has changed runs again.
+TEST_F(Scan, TakesAFileOfAFieldPerMember) {
+  write_text(work() / "block.toml",
+             std::string(small_ghost_case) +
+                 "[[graded]]\nproperty = \"fracture_energy\"\nfile = \"one.csv\"\n");
+  write_text(work() / "one.csv", "x,y,factor\n0,0,1\n0,200,1\n");
+  write_text(work() / "four.csv", "x,y,factor\n0,0,4\n0,200,4\n");
+  const std::string text =
+      "case = \"block.toml\"\n[values]\n\"graded[1].file\" = [\"one.csv\", \"four.csv\"]\n";
+  const ProcessEnd end = scan(text);
+  ASSERT_EQ(end.exit_status, 0) << end.err;
+  // Loads of a brittle body are proportional to the root of its fracture energy.
+  EXPECT_NEAR(number("results/scan", 2, 3) / number("results/scan", 1, 3), 2.0, 1e-9);
+  EXPECT_THAT(scan(text).out, HasSubstr("kept"));
+  write_text(work() / "four.csv", "x,y,factor\n0,0,9\n0,200,9\n");
+  EXPECT_THAT(scan(text).err, HasSubstr("0002: holds the results of another case"));
+}
+
 TEST_F(Scan, FinishedMembersAreKept) {
   ASSERT_EQ(scan(grid_scan).exit_status, 0);
   const std::string table = file("results/scan/scan.csv"), log = file("results/scan/0002/log.txt");

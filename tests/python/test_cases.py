@@ -91,6 +91,38 @@ class Cases(unittest.TestCase):
         self.assertEqual(case["body"]["spacing"], 10.0)
         self.assertEqual(case.toml(), STRIP)
 
+    def test_a_file_may_be_changed_by_an_array(self):
+        case = perilink.parse_case(STRIP)
+        case["regions"][0]["x"] = np.array([0, 40])
+        self.assertEqual(case.toml(), STRIP)
+        case["regions"][0]["x"] = np.array([0, 50])
+        self.assertEqual(case.check()["regions"][0]["x"], [0, 50])
+
+    def test_points_of_a_field_are_an_array(self):
+        points = np.array([[0, 0, 1], [40, 0, 1], [0, 80, 4], [40, 80, 4]])
+        case = perilink.parse_case(STRIP)
+        case["graded"] = [{"property": "fracture_energy", "file": points}]
+        self.assertEqual(case.check()["graded"][0]["file"], "graded_1.csv")
+        graded = perilink.build(case).critical_stretch
+        case["graded"][0] = {"property": "fracture_energy", "factor": "1 + 3 * y / 80"}
+        formula = perilink.build(case).critical_stretch
+        np.testing.assert_allclose(graded, formula, rtol=1e-12)
+        with tempfile.TemporaryDirectory() as folder:
+            case["graded"][0] = {"property": "fracture_energy", "file": points,
+                                 "column": "energy"}
+            case.write(Path(folder) / "strip.toml")
+            self.assertEqual((Path(folder) / "graded_1.csv").read_text().splitlines()[:2],
+                             ["x,y,energy", "0.0,0.0,1.0"])
+            again = perilink.read_case(Path(folder) / "strip.toml")
+            np.testing.assert_array_equal(perilink.build(again).critical_stretch, graded)
+            perilink.run(case, Path(folder) / "r")
+            self.assertTrue((Path(folder) / "r" / "graded_1.csv").exists())
+            kept = tomllib.loads((Path(folder) / "r" / "case.toml").read_text())
+            self.assertEqual(Path(kept["graded"][0]["file"]).name, "graded_1.csv")
+        case["graded"][0]["file"] = points[:, :2]
+        with self.assertRaisesRegex(ValueError, r"shape \(4, 2\); allowed are \(n, 3\)"):
+            perilink.build(case)
+
     def test_faults_of_a_file_have_their_line(self):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "faulty.toml"

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "io/case/case_file.hpp"
+#include "io/case/sections/laws/case_random.hpp"
 #include "model/body/mesh_input.hpp"
 #include "results/result_directory.hpp"
 #include "results/summary_file.hpp"
@@ -72,11 +73,14 @@ Earlier read_earlier(const std::filesystem::path& directory) {
   }
 }
 
-/// Returns a case with a checksum in place of mesh paths, which may have changed.
+/// Returns a case with a checksum in place of paths of meshes and fields, which may have changed.
 CaseFile with_checksum(CaseFile input, const std::string& meshes) {
   const std::string name = meshes.empty() ? "cannot be read" : "checksum " + meshes;
   if (input.body.mesh) input.body.mesh = name;
   if (input.elements && input.elements->mesh) input.elements->mesh = name;
+  for (GradedSection& graded : input.fields.graded) {
+    if (graded.file && is_used(input, graded)) graded.file = name;
+  }
   return input;
 }
 
@@ -152,7 +156,7 @@ void require_same_model(const Checkpoint& checkpoint, const std::string& fingerp
                         const std::filesystem::path& directory) {
   if (checkpoint.model == fingerprint) return;
   throw FileError(fmt::format(
-      "{}: was saved with another model ({} there, {} here): a mesh has changed, or "
+      "{}: was saved with another model ({} there, {} here): a mesh or a field has changed, or "
       "another machine rounds the stiffness in another way{}",
       (directory / checkpoint_name).string(), checkpoint.model, fingerprint, other_ways));
 }

@@ -175,9 +175,11 @@ struct RandomSection : VaryingSection {
   RandomField field;
 };
 
-/// [[graded]]: the factor is a formula of the place.
+/// [[graded]]: the factor is a formula of the place, or a field from a file.
 struct GradedSection : VaryingSection {
   Expression factor;
+  std::optional<std::string> file = {};  ///< of points, from the folder of the case
+  std::string column = "factor";         ///< of the file
 };
 
 /// Properties that vary in space.

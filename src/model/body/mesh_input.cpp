@@ -14,6 +14,7 @@
 #include "io/case/case_schema.hpp"
 #include "io/case/case_words.hpp"
 #include "io/case/sections/case_kinds.hpp"
+#include "io/case/sections/laws/case_random.hpp"
 #include "io/checkpoint/checkpoint.hpp"
 #include "io/mesh/gmsh_mesher.hpp"
 #include "io/mesh/mesh_file.hpp"
@@ -261,23 +262,32 @@ CaseFile seen_from(const CaseFile& input, const fs::path& directory) {
   };
   move(moved.body.mesh);
   if (moved.elements) move(moved.elements->mesh);
+  for (GradedSection& graded : moved.fields.graded) move(graded.file);
   return moved;
 }
 
 std::string mesh_checksum(const CaseFile& input) {
   std::vector<std::string> contents;
+  std::string sum;
   try {
     const auto read = [&](const std::optional<std::string>& file) {
       if (file) contents.push_back(read_regular_file(seen_from_case(input, *file).string()));
     };
     read(input.body.mesh);
     if (input.elements) read(input.elements->mesh);
-  } catch (const FileError&) {  // the mesh's reader reports it
+    if (!contents.empty()) {
+      contents.resize(2);
+      sum = fingerprint(contents[0], contents[1]);
+    }
+    for (const GradedSection& graded : input.fields.graded) {
+      contents.clear();
+      if (is_used(input, graded)) read(graded.file);
+      if (!contents.empty()) sum = fingerprint(sum, contents.front());
+    }
+  } catch (const FileError&) {  // the reader of the file reports it
     return "";
   }
-  if (contents.empty()) return "";
-  contents.resize(2);
-  return fingerprint(contents[0], contents[1]);
+  return sum;
 }
 
 }  // namespace perilink

@@ -41,11 +41,11 @@ const MeshGroup& group_of_cells(const CaseFile& input, const Mesh& mesh, const R
 ///         that it lacks, a material for a group without cells, cells that overlap
 Body read_mesh_body(const CaseFile& input, int dim, std::vector<std::string>& notes);
 
-/// Returns the case with its mesh path relative to a folder, to be written there.
+/// Returns the case with paths of meshes and fields relative to a folder, to be written there.
 CaseFile seen_from(const CaseFile& input, const std::filesystem::path& directory);
 
-/// Returns a checksum of the contents of a case's mesh files; empty without a mesh, or if one
-/// cannot be read.
+/// Returns a checksum of the contents of a case's files of meshes and fields; empty without such a
+/// file, or if one cannot be read.
 std::string mesh_checksum(const CaseFile& input);
 
 }  // namespace perilink

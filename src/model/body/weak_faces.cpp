@@ -122,8 +122,9 @@ namespace {
   auto formula = std::find_if(graded, network.fields.end(), varies);
   if (input.fields.random.empty()) formula = std::min(formula, network.fields.end() - 1);
   if (formula != network.fields.end()) {
+    const auto entry = static_cast<std::size_t>(formula - graded);
     const std::string key =
-        item_key("graded", static_cast<std::size_t>(formula - graded), "factor");
+        item_key("graded", entry, input.fields.graded[entry].file ? "file" : "factor");
     refuse_formula(input.where(key), *formula, network.horizon, error,
                    dimension_of(network.problem));
   }

@@ -22,7 +22,6 @@
 #include "model/body/strength_notes.hpp"
 #include "model/body/weak_faces.hpp"
 #include "model/conditions/boundary_conditions.hpp"
-#include "model/from_case/property_fields.hpp"
 #include "model/gauges.hpp"
 #include "network/bond_softening.hpp"
 #include "network/builder/network_builder.hpp"
@@ -89,7 +88,6 @@ NetworkInput network_input(const CaseFile& input, const Model& model, const Laid
     network.materials.back().softening.closes = material.softening.closes;
   }
   network.cracks = model.cracks;
-  network.fields = property_fields(input);
   network.bars = bars.lines;
   network.bar_materials = bars.materials;
   return network;
@@ -189,7 +187,8 @@ void add_slits(const Body& body, NetworkInput& network) {
 
 }  // namespace
 
-void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, Model& model) {
+void build_bonds(const CaseFile& input, const BondOptions& options,
+                 std::vector<PropertyField> fields, Body& body, Model& model) {
   const LaidBars bars = lay_bars(input, body);
   refuse_bars_outside(input, body, bars);
   model.entry_of_bar = bars.sections;
@@ -197,6 +196,7 @@ void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, 
   model.cracks = std::move(drawn.cracks);
   model.entry_of_crack = std::move(drawn.entry);
   NetworkInput network = network_input(input, model, bars);
+  network.fields = std::move(fields);
   add_slits(body, network);
   network.calibration = options.calibration;
   network.interfaces = weak_interfaces(input, body);

@@ -5,6 +5,7 @@
 #include "calibration/calibration.hpp"
 #include "discretization/lattices/lattice.hpp"
 #include "io/case/case_file.hpp"
+#include "material/strength/property_field.hpp"
 #include "model/model.hpp"
 
 namespace perilink {
@@ -20,7 +21,9 @@ struct BondOptions {
 bool have_unlike_constants(const CaseFile& input);
 
 /// Builds the bonds and bars of a case between the particles of its body.
+/// \param fields  property_fields() of the case
 /// \throws InputError where the case does not fit its body
-void build_bonds(const CaseFile& input, const BondOptions& options, Body& body, Model& model);
+void build_bonds(const CaseFile& input, const BondOptions& options,
+                 std::vector<PropertyField> fields, Body& body, Model& model);
 
 }  // namespace perilink

@@ -178,17 +178,19 @@ Model build_bodies_model(const CaseFile& input, const BondOptions& options) {
   Body body = build_body(input, dim, model.horizon, model.notes);
   model.lattice = body.lattice;
   refuse_materials_without_particles(input, body);
+  const std::vector<PropertyField> fields = property_fields(input, body.particles, model.notes);
   if (has_horizon(input.body)) {
-    build_bonds(input, options, body, model);
+    build_bonds(input, options, fields, body, model);
   } else if (is_particles(input.body)) {
     build_particles(input, body, model);
   } else {
     build_elements(input, body, model);
-    scale_stiffness(property_fields(input), body.particles.positions, *model.elements);
+    scale_stiffness(fields, body.particles.positions, *model.elements);
   }
   model.facets = std::move(body.facets);
   model.cells = std::move(body.cells);
   model.groups = std::move(body.groups);
+  model.modulus = modulus_of_particles(input, fields, model.network);
   return model;
 }
 
@@ -203,7 +205,6 @@ Model build_model_with(const CaseFile& input, const BondOptions& options) {
         hooke_constants(model.problem, material.youngs_modulus,
                         material.poissons_ratio.value_or(bond_poissons_ratio(model.problem))));
   }
-  model.modulus = modulus_of_particles(input, model.network);
   model.surface_conditions = surface_of_case(input, model);
   if (is_quasistatic(input.analysis.type)) carry_particles(input, model);
   return model;

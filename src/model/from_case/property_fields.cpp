@@ -11,6 +11,7 @@
 #include "io/case/sections/case_rules.hpp"
 #include "io/case/sections/laws/case_random.hpp"
 #include "model/conditions/formula_field.hpp"
+#include "model/from_case/field_file.hpp"
 
 namespace perilink {
 namespace {
@@ -44,7 +45,8 @@ std::string table_of_modulus(const CaseFile& input) {
 
 }  // namespace
 
-std::vector<PropertyField> property_fields(const CaseFile& input) {
+std::vector<PropertyField> property_fields(const CaseFile& input, const Particles& particles,
+                                           std::vector<std::string>& notes) {
   std::vector<PropertyField> fields;
   for (const RandomSection& random : input.fields.random) {
     if (!is_used(input, random)) continue;
@@ -53,16 +55,24 @@ std::vector<PropertyField> property_fields(const CaseFile& input) {
   for (std::size_t k = 0; k < input.fields.graded.size(); ++k) {
     const GradedSection& graded = input.fields.graded[k];
     if (!is_used(input, graded)) continue;
-    fields.push_back({graded.property,
-                      {},
-                      materials_that_vary(input, graded),
-                      positive_formula(input, item_key("graded", k, "factor"), graded.factor)});
+    fields.push_back({graded.property, {}, materials_that_vary(input, graded)});
+    if (!graded.file) {
+      fields.back().factor =
+          positive_formula(input, item_key("graded", k, "factor"), graded.factor);
+      continue;
+    }
+    const std::shared_ptr<const PointField> field = read_field_file(input, k);
+    notes.push_back(field_file_note(input, k, *field, particles));
+    fields.back().factor = [field](std::span<const double> position) {
+      return field->at(position);
+    };
   }
   return fields;
 }
 
-std::vector<double> modulus_of_particles(const CaseFile& input, const Network& network) {
-  const std::vector<PropertyField> fields = property_fields(input);
+std::vector<double> modulus_of_particles(const CaseFile& input,
+                                         std::span<const PropertyField> fields,
+                                         const Network& network) {
   if (fields.empty()) return {};
   const Particles& places = network.places();
   std::vector<Index> solid;

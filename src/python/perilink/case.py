@@ -7,12 +7,14 @@ import json
 import re
 import tempfile
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import partial
 from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _core
 from .errors import InputError
@@ -25,12 +27,13 @@ class Case(dict[str, Any]):
     ``Case(body={"spacing": 5.0, ...}, materials=[{...}], analysis={"type": "damage"})`` builds one,
     `read_case` reads one. Values may be numbers (also of numpy), texts, booleans, lists, arrays,
     dictionaries and paths; keys with the value ``None`` are left out. ``body["mesh"]`` and
-    ``elements["mesh"]`` may be a `Mesh`. Change entries as in any dictionary:
+    ``elements["mesh"]`` may be a `Mesh`; ``graded[k]["file"]`` may be an array with a row
+    ``x, y, factor`` (3D: ``x, y, z, factor``) per point. Change entries as in any dictionary:
     ``case["body"]["spacing"] = 2.5``.
 
     Args:
         tables: keys and tables, or another case
-        path: name of the case in messages; names of mesh files begin at its folder
+        path: name of the case in messages; names of other files begin at its folder
         **more: further keys and tables
     """
 
@@ -53,14 +56,18 @@ class Case(dict[str, Any]):
     def toml(self) -> str:
         """Returns the text of the case file: of the file itself while nothing has changed.
 
-        A `Mesh` has the name of the file that `write` gives it.
+        A `Mesh` and the points of a field have the name of the file that `write` gives them.
         """
-        return self._unchanged() or _toml(self, {id(m): f"{t}.msh" for t, m in self._meshes()})
+        return self._unchanged() or _toml(self, self._names())
 
     def write(self, path: str | PathLike[str]) -> None:
-        """Writes the case file. A `Mesh` is written beside it as body.msh or elements.msh."""
+        """Writes the case file.
+
+        Beside it, a `Mesh` is written as body.msh or elements.msh, points of fields as
+        graded_1.csv and so on.
+        """
         target = Path(path)
-        self._write_meshes(target.parent)
+        self._write_parts(target.parent)
         target.write_text(self.toml(), encoding="utf-8")
 
     def check(self) -> Case:
@@ -72,18 +79,18 @@ class Case(dict[str, Any]):
         """
         return Case(tomllib.loads(self._parse().resolved()), path=self.path)
 
-    def _parse(self, mesh_folder: Path | None = None) -> _core.CaseFile:
+    def _parse(self, folder: Path | None = None) -> _core.CaseFile:
         """Reads and checks the case.
 
         Args:
-            mesh_folder: receives the meshes; without one they are only named
+            folder: receives meshes and points of fields; without one they are only named
         """
         source = self._unchanged()
         if source is not None:
             return _core.parse_case(source, self.path, True)
         text = self.toml()
-        if mesh_folder is not None:
-            text = _toml(self, self._write_meshes(mesh_folder))
+        if folder is not None:
+            text = _toml(self, self._write_parts(folder))
         try:  # lines of this text mean nothing to the user
             return _core.parse_case(text, self.path, False)
         except InputError as error:
@@ -93,26 +100,47 @@ class Case(dict[str, Any]):
 
     def _unchanged(self) -> str | None:
         """Returns the text that the case was read from, if nothing has changed since."""
-        if self._source is not None and tomllib.loads(self._source) == self:
-            return self._source
-        return None
+        if self._source is None:
+            return None
+        # Texts are compared: arrays of numpy have no single answer to ==.
+        same = _toml(tomllib.loads(self._source), {}) == _toml(self, self._names())
+        return self._source if same else None
 
-    def _meshes(self) -> list[tuple[str, Mesh]]:
-        found = []
+    def _parts(self) -> list[tuple[str, Any, Callable[[], str]]]:
+        """Returns meshes and points of fields: name of the file, value of the key, text."""
+        found: list[tuple[str, Any, Callable[[], str]]] = []
         for table in ("body", "elements"):
             entry = self.get(table)
             if isinstance(entry, dict) and isinstance(entry.get("mesh"), Mesh):
-                found.append((table, entry["mesh"]))
+                found.append((f"{table}.msh", entry["mesh"], entry["mesh"]._text))
+        fields = self.get("graded")
+        for k, entry in enumerate(fields if isinstance(fields, (list, tuple)) else (), start=1):
+            if isinstance(entry, dict) and isinstance(entry.get("file"), np.ndarray):
+                text = partial(_points_text, entry["file"], entry.get("column", "factor"))
+                found.append((f"graded_{k}.csv", entry["file"], text))
         return found
 
-    def _write_meshes(self, folder: Path) -> dict[int, str]:
-        """Writes the meshes and returns the paths of their files."""
+    def _names(self) -> dict[int, str]:
+        return {id(part): name for name, part, _ in self._parts()}
+
+    def _write_parts(self, folder: Path) -> dict[int, str]:
+        """Writes meshes and points of fields and returns the paths of their files."""
         paths = {}
-        for table, mesh in self._meshes():
-            file = folder / f"{table}.msh"
-            mesh.write(file)
-            paths[id(mesh)] = str(file.resolve())
+        for name, part, text in self._parts():
+            file = folder / name
+            file.write_text(text(), encoding="utf-8")
+            paths[id(part)] = str(file.resolve())
         return paths
+
+
+def _points_text(points: NDArray[Any], column: str) -> str:
+    """Returns the text of a file of points, with all digits."""
+    if points.ndim != 2 or points.shape[1] not in (3, 4):
+        raise ValueError(f"points of a field have the shape {points.shape}; allowed are (n, 3) "
+                         "with x, y, factor and (n, 4) with x, y, z, factor")
+    names = [*"xyz"[: points.shape[1] - 1], column]
+    rows = points.astype(float).tolist()
+    return "\n".join([",".join(names), *(",".join(map(repr, row)) for row in rows), ""])
 
 
 # help(Case) lists every key.
@@ -129,7 +157,7 @@ def parse_case(text: str, path: str | PathLike[str] = "case") -> Case:
 
     Args:
         text: TOML, see docs/case_file.md
-        path: name of the case in messages; names of mesh files begin at its folder
+        path: name of the case in messages; names of other files begin at its folder
 
     Raises:
         InputError: with file, line, key, value, what is allowed and a suggestion
@@ -157,8 +185,12 @@ def read_case(path: str | PathLike[str]) -> Case:
 _BARE_KEY = re.compile(r"[A-Za-z0-9_-]+\Z")
 
 
-def _toml(case: Mapping[str, Any], mesh_names: Mapping[int, str]) -> str:
-    """Returns a case as TOML: plain keys, then a header for each table and entry of a list."""
+def _toml(case: Mapping[str, Any], names: Mapping[int, str]) -> str:
+    """Returns a case as TOML: plain keys, then a header for each table and entry of a list.
+
+    Args:
+        names: names of the files of meshes and points, by their identity
+    """
 
     def key(name: object) -> str:
         if not isinstance(name, str):
@@ -166,12 +198,12 @@ def _toml(case: Mapping[str, Any], mesh_names: Mapping[int, str]) -> str:
         return name if _BARE_KEY.match(name) else json.dumps(name, ensure_ascii=False)
 
     def value(item: Any) -> str:
+        if id(item) in names:
+            return value(names[id(item)])
         if isinstance(item, (np.generic, np.ndarray)):
             item = item.tolist()
         if isinstance(item, bool):
             return "true" if item else "false"
-        if isinstance(item, Mesh):
-            return value(mesh_names[id(item)])
         if isinstance(item, (int, float)):
             return repr(item)
         if isinstance(item, (str, PathLike)):
@@ -200,13 +232,13 @@ def _toml(case: Mapping[str, Any], mesh_names: Mapping[int, str]) -> str:
     return "\n".join([*plain, *tables, ""])
 
 
-class MeshFolder:
-    """Folder for the meshes of a case while C++ reads them: a given one, or a temporary one."""
+class PartsFolder:
+    """Folder for meshes and fields of a case while C++ reads them: a given or a temporary one."""
 
     def __init__(self, case: Case, given: Path | None = None) -> None:
         self._temporary = None
         self.path = given
-        if given is None and case._meshes():
+        if given is None and case._parts():
             self._temporary = tempfile.TemporaryDirectory(prefix="perilink-")
             self.path = Path(self._temporary.name)
 

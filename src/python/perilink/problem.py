@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
-from .case import Case, MeshFolder
+from .case import Case, PartsFolder
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ def build(case: Case, *, threads: int | None = None) -> _core.Problem:
     Raises:
         InputError: the case is wrong or does not fit its body
     """
-    with MeshFolder(case) as folder:
+    with PartsFolder(case) as folder:
         return _core.build(case._parse(folder), threads or 0)
 
 

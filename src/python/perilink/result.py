@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
-from .case import Case, MeshFolder
+from .case import Case, PartsFolder
 from .summary import Summary
 
 if TYPE_CHECKING:
@@ -205,13 +205,13 @@ def _run(
     trust_geometry: bool,
     calibrations: str | PathLike[str] | None,
 ) -> Result:
-    meshes = None
-    if case._meshes():
+    parts = None
+    if case._parts():
         _core.refuse_old_results(fspath(target), old_results != _core.OldResults.refused)
-        case._parse()  # before the mesh is written
+        case._parse()  # before its parts are written
         target.mkdir(parents=True, exist_ok=True)
-        meshes = target
-    with MeshFolder(case, meshes) as folder:
+        parts = target
+    with PartsFolder(case, parts) as folder:
         parsed = case._parse(folder)
     parsed.trust_geometry = trust_geometry
     _, _, text = _core.run(parsed, fspath(target), threads or 0, old_results, progress,

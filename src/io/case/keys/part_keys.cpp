@@ -202,13 +202,23 @@ TableSchema random_table() {
 }
 
 TableSchema graded_table() {
-  return {"graded",
-          true,
-          {key<GradedSection>("property", &VaryingSection::property).needed(what_varies),
-           key<GradedSection>("materials", &VaryingSection::materials),
-           key("factor", &GradedSection::factor)
-               .needed("a formula of the place: factor = \"1 + x / 400\"")},
-          no_fields};
+  return {
+      "graded",
+      true,
+      {key<GradedSection>("property", &VaryingSection::property).needed(what_varies),
+       key<GradedSection>("materials", &VaryingSection::materials),
+       key("factor", &GradedSection::factor).derived().written_if(+[](const GradedSection& graded) {
+         return !graded.file;
+       }),
+       KeySchema("file", Kind::text)
+           .written_by(+[](TomlWriter& out, const GradedSection& graded, Kinds) {
+             out.write("file", graded.file);
+           }),
+       key("column", &GradedSection::column)
+           .beside("file")
+           .written_if(+[](const GradedSection& graded) { return graded.file.has_value(); })},
+      no_fields,
+      {{"factor", "file"}}};
 }
 
 TableSchema rebar_table() {

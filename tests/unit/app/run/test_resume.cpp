@@ -144,6 +144,23 @@ TEST_F(Resume, ComparesTheContentsOfMeshes) {
   EXPECT_THAT(refusal(place_mesh("second.msh", other)), HasSubstr("`mesh = \"checksum "));
 }
 
+/// A file of a field may move; its contents may not change.
+TEST_F(Resume, ComparesTheContentsOfFields) {
+  const auto place_field = [&](const char* name, const char* value) {
+    write_whole_file((work_ / name).string(),
+                     std::string("x,y,factor\n0,0,1\n0,80,") + value + "\n");
+    return strip + fmt::format("[[graded]]\nproperty = \"fracture_energy\"\nfile = \"{}\"\n",
+                               (work_ / name).string());
+  };
+  const std::string history = run(place_field("first.csv", "2"));
+  const std::string moved = place_field("second.csv", "2");
+  std::filesystem::remove(work_ / "first.csv");
+  EXPECT_TRUE(find_results(parse_case(moved, "strip.toml"), work_.path()).is_finished);
+  const std::string more = run(replaced(moved, "broken_bonds = 12", "broken_bonds = 25"));
+  EXPECT_EQ(more.substr(0, history.size()), history);
+  EXPECT_THAT(refusal(place_field("second.csv", "3")), HasSubstr("`file = \"checksum "));
+}
+
 TEST_F(Resume, RefusesAnotherModel) {
   run(strip);
   const Resumed found = find_results(

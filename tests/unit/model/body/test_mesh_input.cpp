@@ -305,6 +305,11 @@ TEST_F(MeshInput, IsFoundFromTheFolderOfTheResults) {
   embedded.elements->mesh = "coarse.msh";
   EXPECT_EQ(*seen_from(embedded, results).elements->mesh, "../../coarse.msh");
 
+  CaseFile graded = input;
+  graded.fields.graded.resize(1);
+  graded.fields.graded[0].file = "strength.csv";
+  EXPECT_EQ(*seen_from(graded, results).fields.graded[0].file, "../../strength.csv");
+
   CaseFile absolute = input;
   absolute.body.mesh = (directory_ / "body.msh").string();
   EXPECT_EQ(seen_from(absolute, results).body.mesh, absolute.body.mesh);

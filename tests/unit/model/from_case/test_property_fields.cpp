@@ -19,10 +19,15 @@ CaseFile graded_case(const std::string& property, const std::string& factor,
                     "strip.toml");
 }
 
+std::size_t number_of_fields(const CaseFile& input) {
+  std::vector<std::string> notes;
+  return property_fields(input, {}, notes).size();
+}
+
 TEST(PropertyFieldsOfCase, AreLeftOutWhereNothingUsesThem) {
-  EXPECT_EQ(property_fields(graded_case("fracture_energy", "1 + x")).size(), 1u);
-  EXPECT_EQ(property_fields(graded_case("youngs_modulus", "1 + x", "elastic")).size(), 1u);
-  EXPECT_TRUE(property_fields(graded_case("fracture_energy", "1 + x", "elastic")).empty());
+  EXPECT_EQ(number_of_fields(graded_case("fracture_energy", "1 + x")), 1u);
+  EXPECT_EQ(number_of_fields(graded_case("youngs_modulus", "1 + x", "elastic")), 1u);
+  EXPECT_EQ(number_of_fields(graded_case("fracture_energy", "1 + x", "elastic")), 0u);
 }
 
 TEST(PropertyFieldsOfCase, GiveParticlesTheirModulus) {

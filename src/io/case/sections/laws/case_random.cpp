@@ -129,8 +129,12 @@ RandomSection read_random(const CaseTable& table, Kinds kind) {
 }
 
 GradedSection read_graded(const CaseTable& table, Kinds kind) {
-  const auto section = read_section<GradedSection>("graded", table, kind);
+  auto section = read_section<GradedSection>("graded", table, kind);
   refuse_no_materials(table, section);
+  section.file = table.path("file");
+  if (section.file && section.file->empty()) {
+    table.refuse("file", "is empty", "name a file of points: file = \"strength.csv\"");
+  }
   return section;
 }
 
