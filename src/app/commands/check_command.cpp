@@ -75,12 +75,13 @@ void print_time_of_events(const CaseFile& input, const Network& network, double 
   if (input.stop.broken_bonds && !many) {
     fmt::print(", {} for {} of them", time_text(*input.stop.broken_bonds * each),
                *input.stop.broken_bonds);
-  } else if (const auto events = expected_events(network)) {
+  } else if (const auto crack = expected_crack(network)) {
     const double count =
-        *events / expected_batch(*events, batches ? event_tolerance_of(input) : 0.0);
+        crack->events / expected_batch(crack->events, batches ? event_tolerance_of(input) : 0.0);
     const double unit = std::pow(10.0, std::max(0.0, std::floor(std::log10(count)) - 1.0));
-    fmt::print("; {} for a crack across the body, about {:.0f} of them", time_text(count * each),
-               unit * std::round(count / unit));
+    const bool has_bars = network.first_slip_spring < network.num_elements();
+    fmt::print("; {} for {} crack across the body, about {:.0f} of them", time_text(count * each),
+               has_bars ? "each" : "a", unit * std::round(count / unit));
   }
   fmt::print("\n");
 }
