@@ -62,6 +62,7 @@ TEST(ExpectedEvents, CountTheWeakestPlane) {
   body.solid = {{{0.0, 0.0, 0.0}, {9.0 * h, 5.0 * h, 0.0}},
                 {{9.0 * h, 0.0, 0.0}, {11.0 * h, 2.0 * h, 0.0}},
                 {{11.0 * h, 0.0, 0.0}, {20.0 * h, 5.0 * h, 0.0}}};
+  body.material = {0, 0, 0};
   NetworkInput input = network_input(body);
   input.horizon = 1.1 * h;
   EXPECT_NEAR(expected_crack(build_network(make_body(body), input))->events, 3.0, 1e-9);
