@@ -19,9 +19,9 @@ struct ExpectedCrack {
 };
 
 /// Estimates one crack through the weak interfaces of a body or, without interfaces, across it: of
-/// all planes normal to an axis the one whose bonds have the smallest fracture energy. Planes within the
-/// longest bond of an end of the breakable part do not count. Damage beside the crack and further
-/// cracks are left out.
+/// all planes normal to an axis the one whose bonds have the smallest fracture energy. Planes within
+/// the longest bond of an end of the breakable part do not count. Damage beside the crack and
+/// further cracks are left out.
 /// \return nothing for shells and beams, and without bonds that can break
 std::optional<ExpectedCrack> expected_crack(const Network& network);
 
