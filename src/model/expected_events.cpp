@@ -122,8 +122,9 @@ std::optional<ExpectedCrack> expected_crack(const Network& network) {
   return least;
 }
 
-double expected_batch(double events, double tolerance) {
-  return std::max(1.0, 20.0 * tolerance * std::cbrt(events));
+double expected_batch(double events, double tolerance, int dim) {
+  const double abreast = dim == 2 ? 4.0 * std::sqrt(events) : 1.6 * std::pow(events, 2.0 / 3.0);
+  return std::max(1.0, tolerance * abreast);
 }
 
 }  // namespace perilink

@@ -19,15 +19,17 @@ struct ExpectedCrack {
 };
 
 /// Estimates one crack through the weak interfaces of a body or, without interfaces, across it: of
-/// all planes normal to an axis the one whose bonds have the smallest fracture energy. Planes within
-/// the longest bond of an end of the breakable part do not count. Damage beside the crack and
-/// further cracks are left out.
+/// all planes normal to an axis the one whose bonds have the smallest fracture energy. Planes
+/// within the longest bond of an end of the breakable part do not count. Damage beside the crack
+/// and further cracks are left out.
 /// \return nothing for shells and beams, and without bonds that can break
 std::optional<ExpectedCrack> expected_crack(const Network& network);
 
-/// Estimates the mean number of events of a batch, fitted to verification/studies/event_tolerance.
+/// Estimates the mean number of events of a batch, a part of the bonds abreast of a crack front. The
+/// factors were fitted to verification/studies/event_tolerance.
 /// \param events     ExpectedCrack::events
 /// \param tolerance  EquilibriumOptions::event_tolerance
-double expected_batch(double events, double tolerance);
+/// \param dim        of the body
+double expected_batch(double events, double tolerance, int dim);
 
 }  // namespace perilink

@@ -90,9 +90,10 @@ TEST(ExpectedEvents, AreLeftAsTheCrackGrows) {
 }
 
 TEST(ExpectedEvents, ComeInLargerBatchesWithALargerTolerance) {
-  EXPECT_EQ(expected_batch(1e4, 0.0), 1.0);
-  EXPECT_NEAR(expected_batch(8000.0, 0.01), 4.0, 1e-12);
-  EXPECT_NEAR(expected_batch(8000.0, 0.05), 20.0, 1e-12);
+  EXPECT_EQ(expected_batch(1e4, 0.0, 2), 1.0);
+  EXPECT_NEAR(expected_batch(1e4, 0.01, 2), 4.0, 1e-12);
+  EXPECT_NEAR(expected_batch(1e4, 0.05, 2), 20.0, 1e-12);
+  EXPECT_NEAR(expected_batch(8000.0, 0.01, 3), 6.4, 1e-12);
 }
 
 }  // namespace
