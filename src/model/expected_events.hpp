@@ -25,8 +25,8 @@ struct ExpectedCrack {
 /// \return nothing for shells and beams, and without bonds that can break
 std::optional<ExpectedCrack> expected_crack(const Network& network);
 
-/// Estimates the mean number of events of a batch, a part of the bonds abreast of a crack front. The
-/// factors were fitted to verification/studies/event_tolerance.
+/// Estimates the mean number of events of a batch, a part of the bonds abreast of a crack front.
+/// The factors were fitted to verification/studies/event_tolerance.
 /// \param events     ExpectedCrack::events
 /// \param tolerance  EquilibriumOptions::event_tolerance
 /// \param dim        of the body
