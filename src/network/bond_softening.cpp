@@ -267,6 +267,15 @@ Index count_segments(const BondLaw& law) {
   return count;
 }
 
+double energy_until(const BondLaw& law, double secant) {
+  double energy = 0.0;
+  for (int k = 0; law.segment(k).secant > secant; ++k) {
+    const Segment segment = law.segment(k);
+    energy += segment.limit * segment.limit * (segment.secant - law.segment(k + 1).secant);
+  }
+  return energy;
+}
+
 TooStrong::TooStrong(Index number, double energy, double factor, const Vector3& at)
     : std::invalid_argument("the strength of a bond does not fit its fracture energy"),
       material(number),

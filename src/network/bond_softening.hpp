@@ -21,6 +21,11 @@ constexpr double most_softening = 1e10;
 /// Returns the number of events until a bond with this law has broken; the law must have an end.
 Index count_segments(const BondLaw& law);
 
+/// Returns the energy that tension events dissipate in a bond until it reaches a secant stiffness
+/// ratio [-]. The reference is half of the stiffness times the squared extension at the critical
+/// stretch.
+double energy_until(const BondLaw& law, double secant);
+
 /// Error for a tensile strength that does not fit the fracture energy. At that strength a bond
 /// holds more energy than it may dissipate, or less than 1 / most_softening of it.
 class TooStrong : public std::invalid_argument {

@@ -85,6 +85,18 @@ TEST_F(SofteningRuns, CheckTellsTheirStrengthAndTeeth) {
   EXPECT_THAT(end.out, testing::Not(testing::HasSubstr("critical stretch ")));
 }
 
+TEST_F(SofteningRuns, CheckExpectsTheBatchesOfACrack) {
+  for (const char* solver : {"direct", "iterative"}) {
+    const std::string setting = std::string("analysis.solver=") + solver;
+    const ProcessEnd end = run({"check", "implicit.toml", "--set", setting});
+    ASSERT_EQ(end.exit_status, 0) << end.err;
+    EXPECT_THAT(end.out, testing::HasSubstr(" ms per batch of events; ")) << solver;
+    EXPECT_THAT(end.out, testing::HasSubstr(" for a crack across the body, about ")) << solver;
+  }
+  const ProcessEnd bars = run({"check", PERILINK_SOURCE_DIR "/meshes/corbel.toml"});
+  EXPECT_THAT(bars.out, testing::HasSubstr(" for each crack across the body, about "));
+}
+
 TEST_F(SofteningRuns, LoseTheirStiffnessInThreeSteps) {
   run_case("implicit");
   const CsvTable history = read_csv((work() / "implicit/history.csv").string());

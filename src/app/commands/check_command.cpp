@@ -61,26 +61,44 @@ double memory_without_factor(const Network& network, bool events) {
   return boxes + 8.0 * unknowns * static_cast<double>(columns);
 }
 
+/// Estimates the time of a batch without a factor [s]. Rates are those of
+/// verification/studies/large_bodies, iterations those of the prism of
+/// verification/studies/event_tolerance.
+double seconds_without_factor(const Network& network) {
+  constexpr double iterations = 80.0, per_particle = 7.4e-8, per_element = 1.4e-9;
+  return iterations *
+         (per_particle * network.particles.size() + per_element * network.num_elements());
+}
+
+bool fails_in_batches(const CaseFile& input, const Network& network) {
+  return softens(network) && event_tolerance_of(input) > 0.0;
+}
+
 /// Prints the time per event, which reads the factor twice, and of one crack across the body. A
 /// batch takes `batch_share` times as long, and `batch_seconds` for its elements. Both were fitted
 /// to verification/studies/event_tolerance.
-void print_time_of_events(const CaseFile& input, const Network& network, double factor_bytes) {
+/// \param factor  empty: batches without a factor
+void print_time_of_events(const CaseFile& input, const Network& network,
+                          const std::optional<FactorStatistics>& factor) {
   constexpr double batch_share = 1.7, batch_seconds = 8e-5;
-  const bool many = softens(network), batches = many && event_tolerance_of(input) > 0.0;
-  const double seconds = 2.0 * factor_bytes / read_bytes_per_second;
-  const double each = batches ? batch_share * seconds + batch_seconds : seconds;
+  const bool many = softens(network), batches = fails_in_batches(input, network);
+  const double seconds = factor ? 2.0 * factor->bytes / read_bytes_per_second : 0.0;
+  const double each = !factor   ? seconds_without_factor(network)
+                      : batches ? batch_share * seconds + batch_seconds
+                                : seconds;
   const char* event = batches ? "batch of events" : many ? "event" : "broken bond";
   fmt::print("#   time               about {:.2g} ms per {}{}", 1e3 * each, event,
              input.elements ? " at first" : "");
   if (input.stop.broken_bonds && !many) {
     fmt::print(", {} for {} of them", time_text(*input.stop.broken_bonds * each),
                *input.stop.broken_bonds);
-  } else if (const auto events = expected_events(network)) {
-    const double count =
-        *events / expected_batch(*events, batches ? event_tolerance_of(input) : 0.0);
+  } else if (const auto crack = expected_crack(network)) {
+    const double tolerance = batches ? event_tolerance_of(input) : 0.0;
+    const double count = crack->events / expected_batch(crack->events, tolerance, network.dim());
     const double unit = std::pow(10.0, std::max(0.0, std::floor(std::log10(count)) - 1.0));
-    fmt::print("; {} for a crack across the body, about {:.0f} of them", time_text(count * each),
-               unit * std::round(count / unit));
+    const bool has_bars = network.first_slip_spring < network.num_elements();
+    fmt::print("; {} for {} crack across the body, about {:.0f} of them", time_text(count * each),
+               has_bars ? "each" : "a", unit * std::round(count / unit));
   }
   fmt::print("\n");
 }
@@ -105,7 +123,8 @@ void print_cost(const CaseFile& input, const Network& network,
     memory = std::max(memory, memory_without_factor(network, events));
   }
   fmt::print("#   memory             {:.3g} GB\n", memory / 1e9);
-  if (events && factor) print_time_of_events(input, network, factor->bytes);
+  const bool searches = fails_in_batches(input, network) && !network.carries_moments();
+  if (events && (factor || searches)) print_time_of_events(input, network, factor);
   if (events && softens(network)) {
     const char* wider = event_tolerance_of(input) < 0.02 ? "event_tolerance = 0.02, " : "";
     fmt::print(

@@ -22,9 +22,6 @@
 namespace perilink {
 namespace {
 
-/// Events still expected over the events so far, once a crack needs more than expected_events().
-constexpr double least_left = 0.1;
-
 /// Returns the number of rows between checkpoints by counted work: a new engine over an event.
 /// \param batches  elements fail together, and a row takes several solutions
 Index rows_of_events(const FactorStatistics& factor, const Network& network, bool batches) {
@@ -278,10 +275,13 @@ void DamageRun::show_progress(const StepRecord& record) {
   if (stop.displacement && *stop.displacement > 0.0) {
     done = std::max(done.value_or(0.0), std::abs(record.displacement) / *stop.displacement);
   }
-  if (!expected_) expected_ = expected_events(model_.network);
-  if (const std::optional<double> expected = *expected_) {
+  if (!crack_) {
+    const bool has_bars = model_.network.first_slip_spring < model_.network.num_elements();
+    crack_ = has_bars ? std::nullopt : expected_crack(model_.network);
+  }
+  if (*crack_) {
     const double events = record.broken_bonds + record.yield_events;
-    const double left = std::max(*expected - events, least_left * events);
+    const double left = (*crack_)->events_left(record.released_energy);
     if (events > 0.0) done = std::max(done.value_or(0.0), events / (events + left));
   }
   if (done) done = std::clamp(*done, 0.0, 1.0);

@@ -8,6 +8,7 @@
 #include "app/run/run_kind.hpp"
 #include "app/run/run_warnings.hpp"
 #include "base/csr.hpp"
+#include "model/expected_events.hpp"
 
 namespace perilink {
 
@@ -99,7 +100,7 @@ class DamageRun final : public NetworkRun {
   void show_progress(const StepRecord& record);
 
   DamageOptions options_;
-  std::optional<std::optional<double>> expected_;  ///< expected_events(), once it was wanted
+  std::optional<std::optional<ExpectedCrack>> crack_;  ///< expected_crack(), once it was wanted
   std::unique_ptr<EventRun> run_;
   DamageResult result_;
   Records records_;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "model/body/strength_notes.hpp"
+#include "network/bond_softening.hpp"
 
 namespace perilink {
 
@@ -173,22 +174,6 @@ std::optional<std::string> warning_about_compression(const Compression& at_large
       "the material softening = \"concrete\"",
       at_largest_load.stress, at_largest_load.times);
 }
-
-namespace {
-
-/// Returns the energy that tension events dissipate in a bond until it reaches a secant stiffness
-/// ratio [-]. The reference is half of the stiffness times the squared extension at the critical
-/// stretch.
-double energy_until(const BondLaw& law, double secant) {
-  double energy = 0.0;
-  for (int k = 0; law.segment(k).secant > secant; ++k) {
-    const Segment segment = law.segment(k);
-    energy += segment.limit * segment.limit * (segment.secant - law.segment(k + 1).secant);
-  }
-  return energy;
-}
-
-}  // namespace
 
 SoftenedEnergy softened_energy(const Network& network, Secants secants) {
   constexpr double of_crack = 0.1;  // bonds of an intact body at its strength have lost 3 to 5 %

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "network/bond_softening.hpp"
 #include "support/small_networks.hpp"
 
@@ -21,16 +23,16 @@ Network long_plate() {
 
 TEST(ExpectedEvents, CountTheBondsAcrossTheBody) {
   Network plate = long_plate();
-  EXPECT_NEAR(*expected_events(plate), 6.0, 1e-9);
+  EXPECT_NEAR(expected_crack(plate)->events, 6.0, 1e-9);
   for (double& x : plate.particles.positions) x *= -3.0;
-  EXPECT_NEAR(*expected_events(plate), 6.0, 1e-9);
+  EXPECT_NEAR(expected_crack(plate)->events, 6.0, 1e-9);
 }
 
 TEST(ExpectedEvents, CountEverySegment) {
   Network plate = long_plate();
   plate.laws = {BondLaw::saw_tooth({{1.0, 1.0}, {0.5, 1.5}, {0.25, 2.0}})};
   EXPECT_EQ(count_segments(plate.laws[0]), 3);
-  EXPECT_NEAR(*expected_events(plate), 18.0, 1e-9);
+  EXPECT_NEAR(expected_crack(plate)->events, 18.0, 1e-9);
 }
 
 /// The crack lies where bonds can break, and the part that cannot does not thin them out.
@@ -42,27 +44,56 @@ TEST(ExpectedEvents, LeaveOutBondsThatCannotBreak) {
                       plate.particles.position(plate.bonds.second[e])[0] < end;
     if (left) plate.critical_stretch[e] = infinity;
   }
-  EXPECT_NEAR(*expected_events(plate), 6.0, 1e-9);
+  EXPECT_NEAR(expected_crack(plate)->events, 6.0, 1e-9);
   plate.critical_stretch.assign(plate.critical_stretch.size(), infinity);
-  EXPECT_FALSE(expected_events(plate));
+  EXPECT_FALSE(expected_crack(plate));
 }
 
 TEST(ExpectedEvents, FollowWeakInterfaces) {
   Network plate = long_plate();
   plate.interfaces = {{.count = 7, .strength = {.segments = 4}}};
-  EXPECT_EQ(expected_events(plate), 28.0);
+  EXPECT_EQ(expected_crack(plate)->events, 28.0);
 }
 
-TEST(ExpectedEvents, AreUnknownForBodiesThatCrackInManyPlaces) {
+/// The crack takes the ligament of a notched body.
+TEST(ExpectedEvents, CountTheWeakestPlane) {
+  LatticeInput body = body_input(rectangular, 5);
+  const double h = body.spacing;
+  body.solid = {{{0.0, 0.0, 0.0}, {9.0 * h, 5.0 * h, 0.0}},
+                {{9.0 * h, 0.0, 0.0}, {11.0 * h, 2.0 * h, 0.0}},
+                {{11.0 * h, 0.0, 0.0}, {20.0 * h, 5.0 * h, 0.0}}};
+  body.material = {0, 0, 0};
+  NetworkInput input = network_input(body);
+  input.horizon = 1.1 * h;
+  EXPECT_NEAR(expected_crack(build_network(make_body(body), input))->events, 3.0, 1e-9);
+}
+
+TEST(ExpectedEvents, TellTheEnergyOfTheCrack) {
   Network plate = long_plate();
-  plate.first_slip_spring = plate.num_elements() - 1;
-  EXPECT_FALSE(expected_events(plate));
+  plate.laws = {BondLaw::saw_tooth({{1.0, 1.0}, {0.5, 1.5}})};
+  std::ranges::fill(plate.stiffness, 2.0);
+  std::ranges::fill(plate.critical_stretch, 0.01);
+  const double extension = 0.01 * plate.bonds.length(0);
+  const double of_bond = extension * extension * (0.5 + 0.5 * 1.5 * 1.5);
+  EXPECT_NEAR(expected_crack(plate)->energy, 6.0 * of_bond, 1e-9 * of_bond);
+}
+
+TEST(ExpectedEvents, AreLeftAsTheCrackGrows) {
+  const ExpectedCrack crack{1000.0, 2.0};
+  EXPECT_EQ(crack.events_left(0.0), 1000.0);
+  EXPECT_NEAR(crack.events_left(1.5), 250.0, 1e-9);
+  EXPECT_NEAR(crack.events_left(2.3), 100.0, 1e-9) << "about to be complete";
+  EXPECT_NEAR(crack.events_left(2.6), 700.0, 1e-9) << "another crack";
+  for (double released = 0.0; released < 20.0; released += 0.1) {
+    EXPECT_LE(crack.events_left(released), 1000.0);
+  }
 }
 
 TEST(ExpectedEvents, ComeInLargerBatchesWithALargerTolerance) {
-  EXPECT_EQ(expected_batch(1e4, 0.0), 1.0);
-  EXPECT_NEAR(expected_batch(8000.0, 0.01), 5.4, 1e-12);
-  EXPECT_NEAR(expected_batch(8000.0, 0.05), 27.0, 1e-12);
+  EXPECT_EQ(expected_batch(1e4, 0.0, 2), 1.0);
+  EXPECT_NEAR(expected_batch(1e4, 0.01, 2), 4.0, 1e-12);
+  EXPECT_NEAR(expected_batch(1e4, 0.05, 2), 20.0, 1e-12);
+  EXPECT_NEAR(expected_batch(8000.0, 0.01, 3), 6.4, 1e-12);
 }
 
 }  // namespace
