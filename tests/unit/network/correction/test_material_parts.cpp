@@ -194,19 +194,16 @@ TEST(MaterialParts, NoBondPassesThroughAnInclusion) {
       const bool in_depth = dim == 2 || (x[2] > 2.001 && x[2] < 4.999);
       return x[0] > 4.001 && x[0] < 6.999 && x[1] > 4.001 && x[1] < 6.999 && in_depth;
     };
-    for (std::size_t p = 0; p < 2; ++p) {
-      const MaterialPart& part = parts[p];
-      for (Index b = 0; b < part.network.bonds.size(); ++b) {
-        const auto from = part.body.particles.position(part.network.bonds.first[b]);
-        const auto to = part.body.particles.position(part.network.bonds.second[b]);
-        for (int k = 1; k < 20; ++k) {
-          std::vector<double> x;
-          for (int a = 0; a < dim; ++a) x.push_back(from[a] + 0.05 * k * (to[a] - from[a]));
-          if (p == 0) EXPECT_FALSE(inside(x));
-        }
+    const MaterialPart& around = parts[0];
+    for (Index b = 0; b < around.network.bonds.size(); ++b) {
+      const auto from = around.body.particles.position(around.network.bonds.first[b]);
+      const auto to = around.body.particles.position(around.network.bonds.second[b]);
+      for (int k = 1; k < 20; ++k) {
+        std::vector<double> x;
+        for (int a = 0; a < dim; ++a) x.push_back(from[a] + 0.05 * k * (to[a] - from[a]));
+        EXPECT_FALSE(inside(x));
       }
     }
-    // Every other bond of the body has an end within either part, or ends in both.
     EXPECT_LT(parts[0].network.bonds.size() + parts[1].network.bonds.size(),
               tested.network.bonds.size());
   }
