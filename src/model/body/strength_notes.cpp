@@ -172,7 +172,7 @@ std::optional<std::string> joint_note(const NetworkInput& input, const Model& mo
   }
   if (largest <= negligible || network.calibration->in_parts) return std::nullopt;
   return fmt::format(
-      "materials of unlike stiffness (moduli 1 and {:.3g}) meet, but not in parallel layers: a "
+      "materials of unlike stiffness (moduli 1 and {:.3g}) meet, and are calibrated as a whole: a "
       "crack along their joint dissipates less than the smaller fracture energy, 0.4 of it at "
       "moduli 1 and 4, and begins at a lower load; where a crack may run along it, give strength "
       "and energy of the joint by [[interfaces]]",
