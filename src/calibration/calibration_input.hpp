@@ -58,7 +58,7 @@ struct CalibrationOptions {
 struct CalibrationReport {
   Index free_bonds = 0;
   bool alike = false;            ///< whether the problem was symmetry-reduced
-  bool layered = false;          ///< layers of materials one by one
+  bool in_parts = false;         ///< parts of unlike stiffness one by one
   double residual_before = 0.0;  ///< largest unbalanced force at the start ...
   double residual_after = 0.0;   ///< ... and at the end
   double moment_after = 0.0;     ///< largest unbalanced moment over 1/2 sum k xi^2

@@ -55,6 +55,28 @@ FacetGeometry facet_geometry(const Particles& particles, const Facets& facets, I
   return geometry;
 }
 
+std::vector<FacetGeometry> facet_pieces(const Particles& particles, const Facets& facets,
+                                        Index facet) {
+  FacetGeometry first = facet_geometry(particles, facets, facet);
+  const std::span<const Index> ends = facets.corners.row(facet);
+  const bool has_diagonal_only = particles.dim == 3 && ends.size() == 2;
+  if (ends.size() < 4 && !has_diagonal_only) return {first};
+  FacetGeometry second = first;
+  if (has_diagonal_only) {
+    const auto normal = std::ranges::max_element(
+        first.normal, {}, [](double component) { return std::abs(component); });
+    const auto axis = static_cast<std::size_t>(normal - first.normal.begin() + 1) % 3;
+    first.edge = second.edge = false;
+    first.c = second.c = first.a;
+    first.c[axis] = first.b[axis];
+    second.c[(axis + 1) % 3] = first.b[(axis + 1) % 3];
+    return {first, second};
+  }
+  second.b = first.c;
+  second.c = point_of(particles.positions, particles.dim, ends[3]);
+  return {first, second};
+}
+
 double height_above(const FacetGeometry& facet, const Vector3& point) {
   return dot(minus(point, facet.a), facet.normal);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "base/types.hpp"
 #include "discretization/facets.hpp"
@@ -18,6 +19,11 @@ struct FacetGeometry {
 
 /// \param facet  two corners in the plane, three in space
 FacetGeometry facet_geometry(const Particles& particles, const Facets& facets, Index facet);
+
+/// Returns a facet as an edge or as triangles: rectangles are divided along a diagonal. Faces of
+/// face-centred lattices are rectangles of which two opposite corners are particles.
+std::vector<FacetGeometry> facet_pieces(const Particles& particles, const Facets& facets,
+                                        Index facet);
 
 /// Returns the distance along the normal from the facet's line or plane, positive outside [length].
 double height_above(const FacetGeometry& facet, const Vector3& point);

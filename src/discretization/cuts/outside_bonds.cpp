@@ -41,18 +41,19 @@ BodySurface surface_of(const Particles& particles, const Bonds& bonds, const Fac
   double largest = 0.0;
   for (Index f = 0; f < facets.size(); ++f) {
     if (!facets.on_surface(f)) continue;
-    const FacetGeometry facet = facet_geometry(particles, facets, f);
-    Box box;
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto [low, high] = std::minmax({facet.a[axis], facet.b[axis], facet.c[axis]});
-      box.lower[axis] = low - surface.touch;
-      box.upper[axis] = high + surface.touch;
+    for (const FacetGeometry& facet : facet_pieces(particles, facets, f)) {
+      Box box;
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto [low, high] = std::minmax({facet.a[axis], facet.b[axis], facet.c[axis]});
+        box.lower[axis] = low - surface.touch;
+        box.upper[axis] = high + surface.touch;
+      }
+      const Vector3 centre = facets.centre(f, particles.positions);
+      centres.insert(centres.end(), centre.begin(), centre.begin() + dim);
+      largest = std::max(largest, facet.size);
+      surface.facets.push_back(facet);
+      surface.boxes.push_back(box);
     }
-    const Vector3 centre = facets.centre(f, particles.positions);
-    centres.insert(centres.end(), centre.begin(), centre.begin() + dim);
-    largest = std::max(largest, facet.size);
-    surface.facets.push_back(facet);
-    surface.boxes.push_back(box);
   }
   const double longest = *std::max_element(bonds.lengths.begin(), bonds.lengths.end());
   surface.near = find_neighbors(centres, particles.positions, dim, longest + largest);

@@ -11,7 +11,6 @@
 #include "io/case/case_words.hpp"
 #include "model/body/horizon_limits.hpp"
 #include "network/bond_strength.hpp"
-#include "network/correction/joint.hpp"
 
 namespace perilink {
 namespace {
@@ -158,8 +157,8 @@ std::optional<std::string> unnotched_note(const CaseFile& input, const Model& mo
 
 std::optional<std::string> joint_note(const NetworkInput& input, const Model& model) {
   const Network& network = model.network;
-  if (input.elastic || !input.interfaces.empty() || !network.calibration) return std::nullopt;
-  if (network.has_sections()) return std::nullopt;
+  if (input.elastic || input.draft || !input.interfaces.empty()) return std::nullopt;
+  if (!network.calibration || network.has_sections()) return std::nullopt;
   constexpr double negligible = 1.05;
   double largest = 1.0;
   const Facets& facets = network.facets;
@@ -171,14 +170,9 @@ std::optional<std::string> joint_note(const NetworkInput& input, const Model& mo
     const auto [least, most] = std::minmax(one.youngs_modulus, other.youngs_modulus);
     largest = std::max(largest, most / least);
   }
-  if (largest <= negligible || network.calibration->layered) return std::nullopt;
-  std::vector<LameConstants> constants;
-  for (const SolidMaterial& m : input.materials) constants.push_back(lame_constants(input, m));
-  if (input.draft && find_joint(facets, network.particles, constants, model.lattice.spacing)) {
-    return std::nullopt;
-  }
+  if (largest <= negligible || network.calibration->in_parts) return std::nullopt;
   return fmt::format(
-      "materials of unlike stiffness (moduli 1 and {:.3g}) meet, but not in parallel layers: a "
+      "materials of unlike stiffness (moduli 1 and {:.3g}) meet, and are calibrated as a whole: a "
       "crack along their joint dissipates less than the smaller fracture energy, 0.4 of it at "
       "moduli 1 and 4, and begins at a lower load; where a crack may run along it, give strength "
       "and energy of the joint by [[interfaces]]",

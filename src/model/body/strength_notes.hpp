@@ -39,7 +39,7 @@ std::optional<std::string> path_note(const CaseFile& input, const Model& model);
 std::optional<std::string> unnotched_note(const CaseFile& input, const Model& model);
 
 /// Returns a note on joints of materials with other stiffnesses, where a crack along them
-/// dissipates too little: bodies that are not layers, without interfaces
+/// dissipates too little: bodies calibrated as a whole, without interfaces
 /// (docs/theory/calibration.md, section 6).
 std::optional<std::string> joint_note(const NetworkInput& input, const Model& model);
 

@@ -9,7 +9,7 @@
 #include "calibration/expected_calibration.hpp"
 #include "calibration/kept/kept_calibration.hpp"
 #include "network/bond_strength.hpp"
-#include "network/correction/layered_body.hpp"
+#include "network/correction/material_parts.hpp"
 #include "network/correction/tied_strength.hpp"
 #include "network/lattice_neighbourhoods.hpp"
 
@@ -65,7 +65,7 @@ class Correction {
   void energy();
   /// \param give_up  see CalibrationInput::give_up
   void calibrate(bool give_up = false);
-  bool calibrate_layers();
+  bool calibrate_parts();
   void balance(const CalibrationInput& calibration);
 
  private:
@@ -280,8 +280,8 @@ void Correction::set_strength(const LatticeNeighbourhoods* neighbourhoods) {
   }
 }
 
-/// Calibrates layers of materials that meet in planes, each as a separate body.
-bool Correction::calibrate_layers() {
+/// Calibrates the parts of a body that differ in stiffness, each as a separate body.
+bool Correction::calibrate_parts() {
   if (input_.materials.size() < 2 || !input_.interfaces.empty()) return false;
   if (input_.draft || input_.shell) return false;
   if (can_break(input_) && on_lattice() && input_.critical_stretch != Constants::lattice) {
@@ -291,19 +291,13 @@ bool Correction::calibrate_layers() {
       interior_neighbourhood(body_.lattice, input_.horizon).offsets.size() < least_neighbours) {
     return false;
   }
-  std::vector<LameConstants> constants;
-  for (const SolidMaterial& m : input_.materials) constants.push_back(lame_constants(input_, m));
   const Timer timer;
-  const std::optional<Joint> joint =
-      find_joint(network_.facets, network_.particles, constants, body_.lattice.spacing);
-  const auto calibrate_layer = [&](std::size_t layer, const Body& body, Network& network) {
-    Correction(body, input_, network).calibrate(true);
+  const auto calibrate_part = [&](const Body& body, Network& part) {
+    Correction(body, input_, part).calibrate(true);
     if (input_.elastic || !can_break(input_) || have_stretches(input_)) return;
-    toughen_tied_faces(*joint, layer, input_.horizon, body_.lattice.spacing, network);
+    toughen_tied_faces(input_.horizon, body_.lattice.spacing, part);
   };
-  if (!joint || !perilink::calibrate_layers(body_, input_, *joint, calibrate_layer, network_)) {
-    return false;
-  }
+  if (!perilink::calibrate_parts(body_, input_, calibrate_part, network_)) return false;
   network_.calibration->seconds = timer.seconds();
   return true;
 }
@@ -333,7 +327,7 @@ void correct_surfaces(const Body& body, const NetworkInput& input, Network& netw
   if (surface == Surface::energy) Correction(body, input, network).energy();
   if (surface != Surface::calibrated) return;
   Correction correction(body, input, network);
-  if (!correction.calibrate_layers()) correction.calibrate();
+  if (!correction.calibrate_parts()) correction.calibrate();
 }
 
 }  // namespace perilink

@@ -3,7 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
+
+#include "base/joined_parts.hpp"
+#include "discretization/facet_geometry.hpp"
+#include "discretization/mesh_faces.hpp"
+#include "discretization/neighbor_search.hpp"
 
 namespace perilink {
 namespace {
@@ -17,15 +24,12 @@ constexpr int cuts_in_spacing = 2;
 /// Factors on stretches are multiples of this: every stretch of softening bonds needs its own law.
 constexpr double steps = 0.01;
 
-/// Energies and forces of cuts along one tied face.
+/// Energies and forces of cuts along one tied face, at constant distances from it.
 class CutsAlongFace {
  public:
-  /// \param inwards  1 where the layer lies above the face, -1 below
-  CutsAlongFace(const Joint& joint, double face, double inwards, double horizon, double spacing,
-                const Network& network)
-      : joint_(joint),
-        face_(face),
-        inwards_(inwards),
+  /// \param depth  of each particle: distance from the face [length]
+  CutsAlongFace(std::vector<double> depth, double horizon, double spacing, const Network& network)
+      : depth_(std::move(depth)),
         step_(spacing / cuts_in_spacing),
         count_(static_cast<std::size_t>(std::ceil((horizon + spacing) / step_))),
         network_(network),
@@ -34,7 +38,7 @@ class CutsAlongFace {
         wanted_(count_, 0.0) {}
 
   /// \param share  fraction of each bond that is used: a half for each end away from other faces
-  /// \param per_force  energy over force of a cut inside the layer [length]
+  /// \param per_force  energy over force of a cut inside the part [length]
   void measure(const std::vector<double>& share, double per_force);
   void even_out();
   double factor(Index bond) const {
@@ -47,13 +51,10 @@ class CutsAlongFace {
     std::size_t from, to;
   };
   std::size_t slot(std::size_t from, std::size_t to) const { return from * (count_ + 1) + to; }
-  double depth(Index particle) const {
-    return inwards_ * (joint_.height(network_.particles.position(particle)) - face_);
-  }
   Range crossed(Index bond) const;
 
-  const Joint& joint_;
-  double face_, inwards_, step_;
+  std::vector<double> depth_;
+  double step_;
   std::size_t count_;
   const Network& network_;
   std::vector<double> energy_;  // k xi^2 of bonds across the same cuts, by first and last cut
@@ -63,7 +64,7 @@ class CutsAlongFace {
 
 /// Returns the cuts that a bond crosses; cuts are at (k + 1/2) steps of depth.
 CutsAlongFace::Range CutsAlongFace::crossed(Index bond) const {
-  const double a = depth(network_.bonds.first[bond]), b = depth(network_.bonds.second[bond]);
+  const double a = depth_[network_.bonds.first[bond]], b = depth_[network_.bonds.second[bond]];
   const auto first_below = [&](double at) {
     return static_cast<std::size_t>(
         std::clamp(std::ceil(at / step_ - 0.5), 0.0, static_cast<double>(count_)));
@@ -76,7 +77,7 @@ void CutsAlongFace::measure(const std::vector<double>& share, double per_force) 
     const auto [from, to] = crossed(b);
     if (from >= to) continue;
     const double force = share[b] * network_.stiffness[b] * network_.bonds.length(b);
-    const double rise = depth(network_.bonds.second[b]) - depth(network_.bonds.first[b]);
+    const double rise = depth_[network_.bonds.second[b]] - depth_[network_.bonds.first[b]];
     energy_[slot(from, to)] += force * network_.bonds.length(b);
     for (std::size_t k = from; k < to; ++k) {
       wanted_[k] += force * std::abs(rise) / network_.bonds.length(b) * per_force;
@@ -134,38 +135,93 @@ std::vector<double> far_shares(const Network& network, const std::vector<std::ui
   return share;
 }
 
-/// Returns energy over force of a cut inside the layer, averaged over its height; zero without
-/// interior.
-double energy_per_force(const Joint& joint, const Network& network) {
+/// Returns energy over force of a cut inside the part, averaged over its place and over the
+/// directions of tied facets; zero without interior.
+double energy_per_force(const Network& network) {
+  constexpr std::size_t most = 16;  // directions; more hardly change the mean
+  std::vector<Index> tied;
+  for (Index f = 0; f < network.facets.size(); ++f) {
+    if (network.facets.is_tied(f)) tied.push_back(f);
+  }
+  std::vector<Vector3> normals;
+  for (std::size_t k = 0; k < std::min(most, tied.size()); ++k) {
+    const Index f = tied[k * tied.size() / std::min(most, tied.size())];
+    normals.push_back(facet_geometry(network.particles, network.facets, f).normal);
+  }
   const std::vector<double> share = far_shares(network, near_facets(network, true));
   double energy = 0.0, force = 0.0;
   for (Index b = 0; b < network.bonds.size(); ++b) {
+    if (share[b] == 0.0) continue;
     const double length = network.bonds.length(b);
-    const double rise = std::abs(joint.height(network.bonds.direction(b)));
-    energy += share[b] * network.stiffness[b] * length * length * length * rise;
-    force += share[b] * network.stiffness[b] * length * length * rise * rise;
+    const Vector3 direction = point_of(network.bonds.direction(b), network.dim(), 0);
+    for (const Vector3& normal : normals) {
+      const double rise = std::abs(dot(normal, direction));
+      energy += share[b] * network.stiffness[b] * length * length * length * rise;
+      force += share[b] * network.stiffness[b] * length * length * rise * rise;
+    }
   }
   return force > 0.0 ? energy / force : 0.0;
 }
 
+/// Returns the tied facets of each face: facets that share particles belong to one face.
+std::vector<std::vector<Index>> tied_faces(const Network& network) {
+  const Facets& facets = network.facets;
+  JoinedParts parts(network.particles.size());
+  for (Index f = 0; f < facets.size(); ++f) {
+    const auto corners = facets.corners.row(f);
+    if (!facets.is_tied(f)) continue;
+    for (const Index i : corners) parts.join(corners[0], i);
+  }
+  std::map<Index, std::vector<Index>> faces;
+  for (Index f = 0; f < facets.size(); ++f) {
+    if (facets.is_tied(f)) faces[parts.find(facets.corners.row(f)[0])].push_back(f);
+  }
+  std::vector<std::vector<Index>> result;
+  for (auto& [part, face] : faces) result.push_back(std::move(face));
+  return result;
+}
+
+/// Returns the distance of each particle from a face, at most `largest` [length].
+std::vector<double> depths_below(const std::vector<Index>& face, double largest,
+                                 const Network& network) {
+  const Particles& particles = network.particles;
+  std::vector<FacetGeometry> pieces;
+  std::vector<double> centres;
+  double size = 0.0;
+  for (const Index f : face) {
+    for (const FacetGeometry& piece : facet_pieces(particles, network.facets, f)) {
+      centres.insert(centres.end(), piece.a.begin(), piece.a.begin() + particles.dim);
+      size = std::max(size, piece.size);
+      pieces.push_back(piece);
+    }
+  }
+  const Csr near = find_neighbors(centres, particles.positions, particles.dim, largest + size);
+  std::vector<double> depth(static_cast<std::size_t>(particles.size()), largest);
+  for (Index i = 0; i < particles.size(); ++i) {
+    const Vector3 x = point_of(particles.positions, particles.dim, i);
+    for (const Index k : near.row(i)) {
+      depth[i] = std::min(depth[i], norm(minus(x, nearest_point(pieces[k], x))));
+    }
+  }
+  return depth;
+}
+
 }  // namespace
 
-void toughen_tied_faces(const Joint& joint, std::size_t layer, double horizon, double spacing,
-                        Network& network) {
-  const double per_force = energy_per_force(joint, network);
+void toughen_tied_faces(double horizon, double spacing, Network& network) {
+  const double per_force = energy_per_force(network);
   if (!(per_force > 0.0)) return;
   const std::vector<double> share = far_shares(network, near_facets(network, false));
-  const auto toughen = [&](double face, double inwards) {
-    CutsAlongFace cuts(joint, face, inwards, horizon, spacing, network);
+  for (const std::vector<Index>& face : tied_faces(network)) {
+    CutsAlongFace cuts(depths_below(face, 2.0 * horizon + spacing, network), horizon, spacing,
+                       network);
     cuts.measure(share, per_force);
     cuts.even_out();
     for (Index b = 0; b < network.bonds.size(); ++b) {
       const double factor = std::sqrt(cuts.factor(b));
       network.critical_stretch[b] *= steps * std::round(factor / steps);
     }
-  };
-  if (layer > 0) toughen(joint.planes[layer - 1], 1.0);
-  if (layer < joint.planes.size()) toughen(joint.planes[layer], -1.0);
+  }
 }
 
 }  // namespace perilink

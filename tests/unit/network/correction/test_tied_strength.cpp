@@ -13,13 +13,8 @@ namespace {
 /// one and 1/4 carry the same energy, and the lowest row stands on a glued face.
 struct Ladder {
   Network network;
-  Joint joint;
 
   explicit Ladder(int rows) {
-    joint.normal = {0.0, 1.0, 0.0};
-    joint.planes = {0.0};
-    joint.layers = {0, 0};
-    joint.tolerance = 1e-9;
     Particles& particles = network.particles;
     particles.dim = network.bonds.dim = network.facets.dim = 2;
     for (int row = 0; row < rows; ++row) {
@@ -36,7 +31,11 @@ struct Ladder {
         network.critical_stretch.push_back(0.1);
       }
     }
-    network.facets.append(std::vector<Index>{0}, {0.0, -1.0, 0.0}, 0, no_index);
+    particles.positions.insert(particles.positions.end(), {1.0, 0.0});  // other end of the face
+    particles.volumes.push_back(1.0);
+    particles.kind.push_back(ParticleKind::solid);
+    particles.material.push_back(0);
+    network.facets.append(std::vector<Index>{0, rows}, {0.0, -1.0, 0.0}, 0, no_index);
     network.facets.tied.push_back(1);
   }
 
@@ -60,7 +59,7 @@ TEST(TiedStrength, CutsBesideTheFaceHoldAsMuchForTheirForceAsInside) {
   EXPECT_NEAR(ladder.energy(0.5), 2.0, 1e-12);
   EXPECT_NEAR(ladder.energy(6.5), 3.0, 1e-12);
   const std::vector<double> before = ladder.network.critical_stretch;
-  toughen_tied_faces(ladder.joint, 1, 2.0, 1.0, ladder.network);
+  toughen_tied_faces(2.0, 1.0, ladder.network);
   // Factors on stretches are multiples of 0.01.
   EXPECT_NEAR(ladder.energy(0.5), 3.0 * 1.5 / 2.0, 0.03);
   EXPECT_NEAR(ladder.energy(6.5), 3.0, 1e-12);
@@ -69,10 +68,10 @@ TEST(TiedStrength, CutsBesideTheFaceHoldAsMuchForTheirForceAsInside) {
   }
 }
 
-TEST(TiedStrength, LayersWithoutAnInsideStayAsTheyAre) {
+TEST(TiedStrength, PartsWithoutAnInsideStayAsTheyAre) {
   Ladder ladder(3);
   const std::vector<double> before = ladder.network.critical_stretch;
-  toughen_tied_faces(ladder.joint, 1, 2.0, 1.0, ladder.network);
+  toughen_tied_faces(2.0, 1.0, ladder.network);
   EXPECT_EQ(ladder.network.critical_stretch, before);
 }
 
