@@ -96,9 +96,21 @@ CurvePoint highest(std::span<const StepRecord> rows) {
   return {row->displacement, row->load};
 }
 
+/// Returns the number of points before the body gave way, if a load beside them is larger.
+std::size_t points_before(std::span<const CurvePoint> path, double other) {
+  PeakWatch watch;
+  std::size_t held = 0;
+  for (const CurvePoint& point : path) {
+    watch.add(point);
+    if (!watch.gave_way()) ++held;
+  }
+  return other > std::abs(watch.first().load) ? held : path.size();
+}
+
 /// Returns the number of rows of a stage before residual strength. Loads of each sign have their
 /// own falls. Rows at which no element fails are no part of them: stages that unload the body,
-/// reload it or turn its load do not weaken it.
+/// reload it or turn its load do not weaken it. A body that gave way may carry a larger load of the
+/// other sign, as its cracks close.
 std::size_t rows_of_stage_before_residual(std::span<const StepRecord> rows, bool goes_on) {
   std::size_t before = rows.size();
   for (const double sign : {1.0, -1.0}) {
@@ -108,9 +120,11 @@ std::size_t rows_of_stage_before_residual(std::span<const StepRecord> rows, bool
     // the strain energy of each row. Beside small loads before, the loads of the stage over the
     // displacements that they alone would cause show a loss of strength with that of stiffness.
     std::vector<CurvePoint> equivalent, alone;
+    double other = 0.0;  // largest |load| of the other sign
     for (std::size_t k = 0; k < rows.size(); ++k) {
       const StepRecord& row = rows[k];
       const double load = sign * row.load, all = row.equivalent_load;
+      other = std::max(other, -load);
       if (row.events == 0 || load < 0.0) continue;
       ends.push_back(k + 1);
       equivalent.push_back({all > 0.0 ? 2.0 * row.strain_energy / all : 0.0, all});
