@@ -131,7 +131,8 @@ std::size_t rows_of_stage_before_residual(std::span<const StepRecord> rows, bool
       alone.push_back({all > 0.0 ? 2.0 * row.strain_energy / (all * all) * load : 0.0, load});
     }
     const std::size_t held =
-        std::min(rows_before_residual(equivalent, goes_on), rows_before_residual(alone, true));
+        std::min({rows_before_residual(equivalent, goes_on), rows_before_residual(alone, true),
+                  points_before(alone, other)});
     if (held < ends.size()) before = std::min(before, ends[held - 1]);
   }
   return before;

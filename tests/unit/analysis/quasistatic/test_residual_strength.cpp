@@ -165,6 +165,18 @@ TEST(Peaks, HaveFallsOfTheirOwnSign) {
   EXPECT_EQ(stage.result().other_peak->load, 12.0) << "20 is residual strength";
 }
 
+/// The body tears at 12, and its closed cracks carry 40.
+TEST(Peaks, EndWhereTheBodyGaveWayBeforeItsCracksClose) {
+  for (const double sign : {1.0, -1.0}) {
+    StageBeside stage(0.0);
+    for (int k = 1; k <= 12; ++k) stage.add(sign * k, 1.0);
+    for (int k = 1; k <= 9; ++k) stage.add(sign * (12.0 - k), 1.0 + 0.5 * k);
+    stage.add(sign * -40.0, 1.0, 0);
+    EXPECT_EQ(stage.result().peak_load, 12.0 * sign);
+    EXPECT_EQ(stage.result().peaks.highest().load, -40.0 * sign);
+  }
+}
+
 /// A twentieth of the peak is told, less is not.
 TEST(Peaks, OfTheOtherSignAreNoSwings) {
   for (const double other : {-4.0, -6.0}) {
