@@ -22,7 +22,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// Two strips with an elastic limit of about 0.01 and a strength of 3 over their width.
-std::vector<test::SofteningStrip> strips() {
+std::vector<test::SofteningStrip> cycled_strips() {
   test::SofteningStrip narrow;
   narrow.width = 30.0;
   test::SofteningStrip wide;
@@ -34,7 +34,7 @@ std::vector<test::SofteningStrip> strips() {
 }
 
 /// Returns stages with one load case: the ends of the first ones, then the rule of the last.
-std::string stages(const std::vector<std::string>& ends) {
+std::string in_stages(const std::vector<std::string>& ends) {
   std::string text;
   for (std::size_t k = 0; k < ends.size(); ++k) {
     text += fmt::format("[[stages]]\nname = \"{}\"\n{}{}\n", k, k > 0 ? "loads = \"0\"\n" : "",
@@ -53,7 +53,7 @@ class StagedStrip : public test::WholeRun {
  private:
   static std::string text_of(test::SofteningStrip strip, const std::vector<std::string>& ends,
                              bool force) {
-    strip.more = stages(ends);
+    strip.more = in_stages(ends);
     const std::string text = test::softening_case(strip);
     return force ? replaced(text, "[[displacements]]\nregion = \"right\"\nx = 1",
                             "[[loads]]\nregion = \"right\"\nforce = [1, 0]")
@@ -68,7 +68,7 @@ void expect_no_residual_strength(const StagedStrip& run) {
 }
 
 TEST(LoadCycles, LeaveThePeakOfADrivenBody) {
-  for (const test::SofteningStrip& strip : strips()) {
+  for (const test::SofteningStrip& strip : cycled_strips()) {
     const double peak = StagedStrip(strip, {"load_fraction = 0.3"}).told("peak_load");
     EXPECT_NEAR(peak, 3.0 * strip.width, 0.3 * strip.width);
     for (const std::vector<std::string>& cycle : {
@@ -89,7 +89,7 @@ TEST(LoadCycles, LeaveThePeakOfADrivenBody) {
 }
 
 TEST(LoadCycles, LeaveThePeakUnderForces) {
-  for (const test::SofteningStrip& strip : strips()) {
+  for (const test::SofteningStrip& strip : cycled_strips()) {
     const double last = 2.6 * strip.width;
     const StagedStrip run(strip, {"to = 30", "to = -28", "to = 40", fmt::format("to = {}", last)},
                           true);
@@ -103,7 +103,7 @@ TEST(LoadCycles, LeaveThePeakOfANotchedBeam) {
   const auto peak_of = [](const std::vector<std::string>& ends) {
     test::NotchedBeam beam;
     beam.spacing = 5.0;
-    beam.stop = stages(ends);
+    beam.stop = in_stages(ends);
     const test::WholeRun run(test::notched_beam_case(beam));
     EXPECT_THAT(run.summary.warnings, Not(Contains(HasSubstr("residual strength"))));
     return run.summary.json.at("peak_load").get<double>();
@@ -119,7 +119,7 @@ TEST(LoadCycles, LeaveThePeakOfANotchedBeam) {
 
 /// Compression to four times the strength leaves the strip whole.
 TEST(LoadCycles, EndByTheLargestLoadOfTheSameSign) {
-  for (const test::SofteningStrip& strip : strips()) {
+  for (const test::SofteningStrip& strip : cycled_strips()) {
     const StagedStrip alone(strip, {"load_fraction = 0.3"});
     const double peak = alone.told("peak_load");
     const StagedStrip run(strip, {fmt::format("to_load = {}", -4.0 * peak), "load_fraction = 0.3"});

@@ -170,7 +170,7 @@ TEST(Peaks, EndWhereTheBodyGaveWayBeforeItsCracksClose) {
   for (const double sign : {1.0, -1.0}) {
     StageBeside stage(0.0);
     for (int k = 1; k <= 12; ++k) stage.add(sign * k, 1.0);
-    for (int k = 1; k <= 9; ++k) stage.add(sign * (12.0 - k), 1.0 + 0.5 * k);
+    for (int k = 1; k <= 9; ++k) stage.add(sign * (12.0 - k), 1.0 + k * k);
     stage.add(sign * -40.0, 1.0, 0);
     EXPECT_EQ(stage.result().peak_load, 12.0 * sign);
     EXPECT_EQ(stage.result().peaks.highest().load, -40.0 * sign);
