@@ -57,6 +57,10 @@ void note_peaks(PathState& path, bool keeps_row) {
   peaks.add({path.row.displacement, path.row.load});
   if (held) path.result.broken_as_gave_way = path.broken_bonds;
   path.result.peak_load = peaks.highest().load;
+  const std::size_t sign = path.row.load < 0.0 ? 1 : 0;
+  for (auto* largest : {&path.largest, &path.largest_of_stage}) {
+    (*largest)[sign] = std::max((*largest)[sign], std::abs(path.row.load));
+  }
   if (keeps_row) path.rows.push_back(path.row);
 }
 

@@ -19,7 +19,8 @@ namespace perilink {
 /// Rules that end a run before collapse.
 struct StopRules {
   std::optional<Index> broken_bonds;
-  std::optional<double> load_fraction;  ///< |load| below this fraction of its peak
+  /// |load| below this fraction of the largest of its sign, and fallen in the present stage.
+  std::optional<double> load_fraction;
   /// Successive rows that must lie below `load_fraction`, since the load may dip deeply between two
   /// events of a growing crack.
   int load_fraction_rows = 10;
@@ -74,8 +75,10 @@ struct DamageResult {
   /// Largest |load| before the body failed, with its sign [force]. In bodies with bars, the largest
   /// of all rows.
   double peak_load = 0.0;
-  double peak_displacement = 0.0;            ///< displacement at the peak load
-  PeakWatch peaks;                           ///< first and largest peak
+  double peak_displacement = 0.0;  ///< displacement at the peak load
+  PeakWatch peaks;                 ///< first and largest peak
+  /// Largest |load| of the other sign before the body failed; absent if that is small.
+  std::optional<CurvePoint> other_peak;
   Index broken_as_gave_way = 0;              ///< broken bonds when the body first gave way
   std::optional<double> smoothed_peak_load;  ///< absent if the path of events is too short
   double initial_stiffness = 0.0;            ///< load / displacement of the intact body
@@ -95,7 +98,7 @@ struct DamageResult {
   template <class Archive>
   void serialize(Archive& archive) {
     archive(termination, reason, stages, last, broken_bonds, peak_load, peak_displacement, peaks,
-            broken_as_gave_way, smoothed_peak_load, initial_stiffness, largest_residual,
+            other_peak, broken_as_gave_way, smoothed_peak_load, initial_stiffness, largest_residual,
             conversions, missed_releases, elements, unknowns, energy_error, beyond_small_strains,
             factor.factorizations, factor.iterations, factor.most_bytes);
   }

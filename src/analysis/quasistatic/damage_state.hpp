@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -41,6 +43,8 @@ struct PathState {
   /// Load fraction of the stop rule, and successive rows below it.
   std::optional<double> load_fraction;
   int rows_below = 0;
+  /// Largest |load| of positive and of negative loads, of the load case and of the present stage.
+  std::array<double, 2> largest{}, largest_of_stage{};
   Index broken_bonds = 0;
   Index yield_events = 0;
   /// Bonds that host releases freed since the last event, with the load factor of each release.
@@ -70,14 +74,20 @@ struct PathState {
   void serialize(Archive& archive) {
     archive(row, rows, result, pending, position, in_stage, over, energy, following, strains,
             compliance, checked_compliance, stored_by_elements, stored_by_permanent, most_work,
-            events, looks, load_fraction, rows_below, broken_bonds, yield_events, freed, whole);
+            events, looks, load_fraction, rows_below, largest, largest_of_stage, broken_bonds,
+            yield_events, freed, whole);
   }
 };
 
-/// Returns whether a row lies below the load fraction of the stop rule.
+/// Returns whether a row lies below the load fraction of the stop rule. The load is compared with
+/// the largest of its sign. One that holds back earlier loads is no load of the body, and is
+/// compared with the largest of the other sign.
 inline bool is_below(const StepRecord& row, const PathState& path) {
-  return path.load_fraction &&
-         std::abs(row.load) < *path.load_fraction * std::abs(path.result.peak_load);
+  if (!path.load_fraction) return false;
+  const std::size_t sign = row.load < 0.0 ? 1 : 0;
+  const std::size_t loaded = path.largest_of_stage[sign] > 0.0 ? sign : 1 - sign;
+  const double load = std::abs(row.load);
+  return load < path.largest_of_stage[loaded] && load < *path.load_fraction * path.largest[loaded];
 }
 
 /// State of a damage analysis between two rows: all that the run cannot rebuild from its problem

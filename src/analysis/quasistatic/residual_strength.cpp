@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -73,6 +74,21 @@ class Cracks {
   std::vector<Index> parent_;
 };
 
+/// Returns the row with the largest |load| of the other sign than a peak load. It is absent if no
+/// such load exceeds a twentieth of the peak: concrete carries a tenth of its compression in
+/// tension, and stages near the capacity swing about zero by less.
+std::optional<CurvePoint> largest_against(double peak, std::span<const StepRecord> rows) {
+  constexpr double least = 0.05;
+  std::optional<CurvePoint> largest;
+  double most = least * std::abs(peak);
+  for (const StepRecord& row : rows) {
+    if (!(row.load * peak < 0.0) || !(std::abs(row.load) > most)) continue;
+    most = std::abs(row.load);
+    largest = CurvePoint{row.displacement, row.load};
+  }
+  return largest;
+}
+
 CurvePoint highest(std::span<const StepRecord> rows) {
   const auto row = std::max_element(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
     return std::abs(a.load) < std::abs(b.load);
@@ -80,29 +96,46 @@ CurvePoint highest(std::span<const StepRecord> rows) {
   return {row->displacement, row->load};
 }
 
-/// Returns the curve of the growing load case alone at the strain energy of each row. The load of
-/// a stage is what the body carries beside permanent loads: near their capacity it jumps about zero
-/// while the body has lost nothing.
-std::vector<CurvePoint> equivalent_curve(std::span<const StepRecord> rows) {
-  std::vector<CurvePoint> points;
-  for (const StepRecord& row : rows) {
-    const double load = row.equivalent_load;
-    points.push_back({load > 0.0 ? 2.0 * row.strain_energy / load : 0.0, load});
+/// Returns the number of points before the body gave way, if a load beside them is larger.
+std::size_t points_before(std::span<const CurvePoint> path, double other) {
+  PeakWatch watch;
+  std::size_t held = 0;
+  for (const CurvePoint& point : path) {
+    watch.add(point);
+    if (!watch.gave_way()) ++held;
   }
-  return points;
+  return other > std::abs(watch.first().load) ? held : path.size();
 }
 
-/// Returns the number of rows of a stage before residual strength. Beside small loads before, the
-/// loads of the stage over the displacements that they alone would cause show a loss of strength
-/// with the loss of stiffness.
+/// Returns the number of rows of a stage before residual strength. Loads of each sign have their
+/// own falls. Rows at which no element fails are no part of them: stages that unload the body,
+/// reload it or turn its load do not weaken it. A body that gave way may carry a larger load of the
+/// other sign, as its cracks close.
 std::size_t rows_of_stage_before_residual(std::span<const StepRecord> rows, bool goes_on) {
-  std::vector<CurvePoint> alone;
-  for (const StepRecord& row : rows) {
-    const double square = row.equivalent_load * row.equivalent_load, load = std::abs(row.load);
-    alone.push_back({square > 0.0 ? 2.0 * row.strain_energy / square * load : 0.0, load});
+  std::size_t before = rows.size();
+  for (const double sign : {1.0, -1.0}) {
+    std::vector<std::size_t> ends;  // number of rows up to that of each point
+    // The load of a stage is what the body carries beside permanent loads: near their capacity it
+    // jumps about zero while the body has lost nothing. So its growing load case alone is judged at
+    // the strain energy of each row. Beside small loads before, the loads of the stage over the
+    // displacements that they alone would cause show a loss of strength with that of stiffness.
+    std::vector<CurvePoint> equivalent, alone;
+    double other = 0.0;  // largest |load| of the other sign
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const StepRecord& row = rows[k];
+      const double load = sign * row.load, all = row.equivalent_load;
+      other = std::max(other, -load);
+      if (row.events == 0 || load < 0.0) continue;
+      ends.push_back(k + 1);
+      equivalent.push_back({all > 0.0 ? 2.0 * row.strain_energy / all : 0.0, all});
+      alone.push_back({all > 0.0 ? 2.0 * row.strain_energy / (all * all) * load : 0.0, load});
+    }
+    const std::size_t held =
+        std::min({rows_before_residual(equivalent, goes_on), rows_before_residual(alone, true),
+                  points_before(alone, other)});
+    if (held < ends.size()) before = std::min(before, ends[held - 1]);
   }
-  return std::min(rows_before_residual(equivalent_curve(rows), goes_on),
-                  rows_before_residual(alone, true));
+  return before;
 }
 
 }  // namespace
@@ -162,6 +195,8 @@ void find_peaks(const Network& network, std::span<const StepRecord> rows, Damage
   const CurvePoint peak = bars ? peaks.highest() : peaks.first();
   result.peak_load = peak.load;
   result.peak_displacement = peak.displacement;
+  result.other_peak = largest_against(peak.load, rows.first(bars ? rows.size() : before));
+  if (result.smoothed_peak_load.value_or(0.0) * peak.load < 0.0) result.smoothed_peak_load.reset();
 }
 
 }  // namespace perilink

@@ -90,12 +90,14 @@ void EventRun::begin_stage() {
   path_.result.stages.emplace_back();
   path_.row.stage = static_cast<Index>(number + 1);
   path_.rows_below = 0;
+  path_.largest_of_stage = {};
   path_.strains.restart();
   follow_rules();
   const bool flowed = number > 0 && staged_->leave_flow();
   if (!others && !flowed) return;
   if (others) {
     path_.result.peaks = {};
+    path_.largest = {};
     path_.rows.clear();
   }
   const Unknowns& held = problem_.sets[set].unknowns;

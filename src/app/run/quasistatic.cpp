@@ -92,6 +92,7 @@ std::string solver_text(const FactorStatistics& factor) {
 Equilibria::Equilibria(const DamageResult& result)
     : last(result.last),
       peaks(result.peaks),
+      other_peak(result.other_peak),
       has_events(true),
       factor(result.factor),
       solver(solver_text(result.factor)),
@@ -130,6 +131,12 @@ Equilibria::Equilibria(const ElasticAnswer& answer)
 void tell_equilibria(Summary& summary, const CaseFile& input, const Equilibria& found) {
   const StepRecord& last = found.last;
   tell_peaks(summary, input, found.peaks);
+  if (found.other_peak) {
+    summary.add("peak_load_other_sign", found.other_peak->load);
+    summary.add("peak_displacement_other_sign", found.other_peak->displacement);
+    summary.line("", "{:.6g} at {:.6g} is the largest load of the other sign",
+                 found.other_peak->load, found.other_peak->displacement);
+  }
   if (found.smoothed_peak_load) {
     summary.add("smoothed_peak_load", *found.smoothed_peak_load);
     summary.line("", "{:.6g} is the smoothed peak load", *found.smoothed_peak_load);

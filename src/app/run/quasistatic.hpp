@@ -60,7 +60,8 @@ struct Equilibria {
 
   const StepRecord& last;  ///< row of the history
   const PeakWatch& peaks;
-  bool has_events = false;  ///< bonds break or yield
+  std::optional<CurvePoint> other_peak = {};  ///< see DamageResult
+  bool has_events = false;                    ///< bonds break or yield
   const FactorStatistics& factor;
   std::string solver;              ///< description of the solver and its work
   double unsolved = 0.0;           ///< error of the iterations in the energy norm [-]

@@ -51,6 +51,8 @@ class Summary(TypedDict, total=False):
     first_peak_displacement: float
     largest_load: float
     largest_load_displacement: float
+    peak_load_other_sign: float
+    peak_displacement_other_sign: float
     smoothed_peak_load: float
     peak_reaction: float
     initial_stiffness: float

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "analysis/quasistatic/damage_state.hpp"
 #include "support/strip_case.hpp"
 
 namespace perilink {
@@ -91,10 +92,11 @@ TEST(Peaks, EndWithTheCrackThroughTheBody) {
 class StageBeside {
  public:
   explicit StageBeside(double held) : held_(held) { network_.laws.push_back(BondLaw::plateau()); }
-  void add(double load, double compliance) {
+  void add(double load, double compliance, Index events = 1) {
     StepRecord& row = rows_.emplace_back();
     row.element = no_index;
     row.stage = 2;
+    row.events = events;
     row.load = load;
     row.displacement = compliance * load;
     row.equivalent_load = std::hypot(load, held_);
@@ -134,6 +136,91 @@ TEST(Peaks, AreFoundBesideSmallerLoads) {
     EXPECT_EQ(stage.result().peak_load, 12.0);
     EXPECT_EQ(stage.result().peaks.highest().load, 30.0);
   }
+}
+
+/// Stages unload the body and turn its load before it softens at 12.
+TEST(Peaks, AreNoEndsOfStagesThatUnloadTheBody) {
+  for (const double sign : {1.0, -1.0}) {
+    StageBeside stage(0.0);
+    for (const double load : {3.0, 0.5, 4.0, -3.0}) stage.add(sign * load, 1.0, 0);
+    for (int k = 7; k <= 12; ++k) stage.add(sign * k, 1.0);
+    stage.add(sign * 2.0, 1.0, 0);
+    for (int k = 1; k <= 9; ++k) stage.add(sign * (12.0 - k), 1.0 + 0.5 * k);
+    EXPECT_EQ(stage.result().peak_load, 12.0 * sign);
+    EXPECT_FALSE(stage.result().peaks.climbed_again());
+    ASSERT_TRUE(stage.result().other_peak);
+    EXPECT_EQ(stage.result().other_peak->load, -3.0 * sign);
+  }
+}
+
+/// Bonds fail at -30 and at 10 in turn. The fall behind 12 ends the loads of its sign.
+TEST(Peaks, HaveFallsOfTheirOwnSign) {
+  StageBeside stage(0.0);
+  for (const double load : {8.0, -20.0, 9.0, -30.0, 10.0, 12.0}) stage.add(load, 1.0);
+  for (int k = 1; k <= 9; ++k) stage.add(12.0 - k, 1.0 + 0.5 * k);
+  EXPECT_EQ(stage.result().peak_load, -30.0);
+  EXPECT_FALSE(stage.result().peaks.climbed_again());
+  for (int k = 1; k <= 20; ++k) stage.add(k, 6.0);
+  ASSERT_TRUE(stage.result().other_peak);
+  EXPECT_EQ(stage.result().other_peak->load, 12.0) << "20 is residual strength";
+}
+
+/// The body tears at 12, and its closed cracks carry 40.
+TEST(Peaks, EndWhereTheBodyGaveWayBeforeItsCracksClose) {
+  for (const double sign : {1.0, -1.0}) {
+    StageBeside stage(0.0);
+    for (int k = 1; k <= 12; ++k) stage.add(sign * k, 1.0);
+    for (int k = 1; k <= 9; ++k) stage.add(sign * (12.0 - k), 1.0 + k * k);
+    stage.add(sign * -40.0, 1.0, 0);
+    EXPECT_EQ(stage.result().peak_load, 12.0 * sign);
+    EXPECT_EQ(stage.result().peaks.highest().load, -40.0 * sign);
+  }
+}
+
+/// A twentieth of the peak is told, less is not.
+TEST(Peaks, OfTheOtherSignAreNoSwings) {
+  for (const double other : {-4.0, -6.0}) {
+    StageBeside stage(0.0);
+    for (const double load : {other, 50.0, 100.0}) stage.add(load, 1.0);
+    EXPECT_EQ(stage.result().other_peak.has_value(), other == -6.0);
+  }
+}
+
+/// A stage of a run that has carried -100 and 40 before.
+class LoadFraction : public testing::Test {
+ protected:
+  LoadFraction() {
+    path_.load_fraction = 0.3;
+    path_.largest = {40.0, 100.0};
+  }
+  bool is_below_at(double load) {
+    StepRecord row;
+    row.load = load;
+    return is_below(row, path_);
+  }
+  PathState path_;
+};
+
+TEST_F(LoadFraction, IsThatOfTheLargestLoadOfTheSameSign) {
+  path_.largest_of_stage = {40.0, 0.0};
+  EXPECT_FALSE(is_below_at(13.0));
+  EXPECT_TRUE(is_below_at(11.0));
+  path_.largest_of_stage = {40.0, 100.0};
+  EXPECT_FALSE(is_below_at(-31.0));
+  EXPECT_TRUE(is_below_at(-29.0));
+}
+
+TEST_F(LoadFraction, IsNotReachedByARisingLoad) {
+  path_.largest_of_stage = {5.0, 0.0};
+  EXPECT_FALSE(is_below_at(5.0));
+  EXPECT_TRUE(is_below_at(4.9));
+}
+
+/// Rows that hold back earlier loads are not among the largest.
+TEST_F(LoadFraction, OfALoadHeldBackIsThatOfTheLoadsBefore) {
+  path_.largest_of_stage = {40.0, 0.0};
+  EXPECT_TRUE(is_below_at(-11.0));
+  EXPECT_FALSE(is_below_at(-13.0));
 }
 
 }  // namespace
