@@ -23,14 +23,14 @@ using testing::Not;
 
 /// Two strips with an elastic limit of about 0.01 and a strength of 3 over their width.
 std::vector<test::SofteningStrip> cycled_strips() {
-  test::SofteningStrip narrow;
-  narrow.width = 30.0;
-  test::SofteningStrip wide;
-  wide.model = "micropolar";
-  wide.pattern = "unstructured";
-  wide.softening = "softening = \"bilinear\"";
-  narrow.pull = wide.pull = 1.0;
-  return {narrow, wide};
+  test::SofteningStrip lattice;
+  lattice.width = 30.0;
+  lattice.pull = 1.0;
+  test::SofteningStrip cloud = lattice;
+  cloud.model = "micropolar";
+  cloud.pattern = "unstructured";
+  cloud.softening = "softening = \"bilinear\"";
+  return {lattice, cloud};
 }
 
 /// Returns stages with one load case: the ends of the first ones, then the rule of the last.
@@ -73,7 +73,6 @@ TEST(LoadCycles, LeaveThePeakOfADrivenBody) {
     EXPECT_NEAR(peak, 3.0 * strip.width, 0.3 * strip.width);
     for (const std::vector<std::string>& cycle : {
              std::vector<std::string>{"to = 0.003", "to = 0.0005"},
-             {"to = -0.003"},
              {"to = 0.003", "to = -0.0029"},
              {"to = 0.0095", "to = 0.001", "to = 0.0098", "to = 0"},
              {"to_load = 40", "to_load = -60", "to_load = 0"},
