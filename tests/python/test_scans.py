@@ -120,7 +120,7 @@ class Scans(unittest.TestCase):
                          (single.directory / "history.csv").read_bytes())
         perilink.scan(case, values, out=scan.path)
         case["body"]["mesh"] = perilink.Mesh(points * 1.5, cells)
-        with self.assertRaisesRegex(perilink.FileError, "mesh of another scan"):
+        with self.assertRaisesRegex(perilink.FileError, "body.msh: is of another scan"):
             perilink.scan(case, values, out=scan.path)
         with self.assertRaisesRegex(TypeError, "Mesh.write"):
             perilink.scan(case, {"body.mesh": [case["body"]["mesh"]]})
@@ -130,6 +130,21 @@ class Scans(unittest.TestCase):
         case = case.copy()
         case["materials"][0]["fracture_energy"] = energy
         return case
+
+    def test_fields_of_arrays_are_kept_beside_the_members(self):
+        case = strip()
+        case["graded"] = [{"property": "fracture_energy",
+                           "file": np.array([[0.0, 0.0, 1.0], [0.0, 50.0, 4.0]])}]
+        scan = perilink.scan(case, {"stop.broken_bonds": [3, 5]}, out=self.folder / "out")
+        self.assertEqual(list(scan.table["status"]), ["completed"] * 2, scan.table["reason"])
+        case["stop"] = {"broken_bonds": 5}
+        single = perilink.run(case, self.folder / "single")
+        self.assertEqual((scan.path / "0002/history.csv").read_bytes(),
+                         (single.directory / "history.csv").read_bytes())
+        case["graded"][0]["file"] = "out/graded_1.csv"
+        case.path = str(self.folder / "case.toml")
+        named = perilink.scan(case, {"graded[1].file": ["out/graded_1.csv"]})
+        self.assertEqual(list(named.table["status"]), ["completed"], named.table["reason"])
 
     def test_names_of_meshes_begin_at_the_folder_of_the_case(self):
         mesh = perilink.Mesh([[0, 0], [40, 0], [40, 80], [0, 80], [20, 40]],

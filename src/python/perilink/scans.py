@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 Table = dict[str, NDArray[Any]]
 
 _NAME = "scan"  # of the scan in messages
+_OF_FILES = re.compile(r"(body|elements)\.mesh\Z|graded\[\d+\]\.file\Z")  # keys
 _TEXTS = ("status", "reason", "set", "quantity")
 # A Python without numpy that runs the program: members start in a hundredth of a second.
 _PROGRAM = "import sys; sys.path.append(sys.argv[1]); import _core; " \
@@ -196,9 +197,9 @@ def _scan(
     report = None if progress is None else lambda *member: progress(ScanProgress(*member))
     words = [sys.executable, "-I", "-S", "-c", _PROGRAM, str(Path(_core.__file__).parent)]
     try:
-        if case._meshes():
-            _core.check_scan(scan_text, _NAME, text)  # before meshes are written
-            _write_meshes(case, path, force)
+        if case._parts():
+            _core.check_scan(scan_text, _NAME, text)  # before meshes and fields are written
+            _write_parts(case, path, force)
         _core.scan(scan_text, _NAME, text, fspath(path), *processors,
                    _core.OldResults.removed if force else _core.OldResults.refused,
                    trust_geometry, words, report)
@@ -221,30 +222,32 @@ def _whole_text(case: Case, table: dict[str, Any], path: Path) -> str:
     """Returns the text of a case that may stand in any folder, and changes values accordingly."""
     origin = Path(case.path).resolve().parent
     case = case.copy()
-    for name, mesh in case._meshes():
-        case[name]["mesh"] = path.resolve() / f"{name}.msh"
-    for name in ("body", "elements"):
-        if isinstance(case.get(name), dict) and case[name].get("mesh"):
-            case[name]["mesh"] = origin / case[name]["mesh"]
+    names = {id(part): str(path.resolve() / name) for name, part, _ in case._parts()}
+    fields = case.get("graded")
+    entries = [(case.get("body"), "mesh"), (case.get("elements"), "mesh"),
+               *((entry, "file") for entry in (fields if isinstance(fields, list) else ()))]
+    for entry, key in entries:
+        if isinstance(entry, dict) and isinstance(entry.get(key), str):
+            entry[key] = origin / entry[key]
     for values in [table["values"] or {}, *(table["runs"] or [])]:
-        for key in ("body.mesh", "elements.mesh"):
-            if isinstance(values.get(key), str):
+        for key in filter(_OF_FILES.match, values):
+            if isinstance(values[key], str):
                 values[key] = origin / values[key]
-            elif isinstance(values.get(key), list):
-                values[key] = [origin / mesh for mesh in values[key]]
-    return _toml(case, {})
+            elif isinstance(values[key], list):
+                values[key] = [origin / name for name in values[key]]
+    return _toml(case, names)
 
 
-def _write_meshes(case: Case, path: Path, force: bool) -> None:
+def _write_parts(case: Case, path: Path, force: bool) -> None:
     path.mkdir(parents=True, exist_ok=True)
-    for name, mesh in case._meshes():
-        file = path / f"{name}.msh"
+    for name, _, text in case._parts():
+        file = path / name
         if file.exists() and (path / "scan.csv").exists() and not force:
-            if file.read_text(encoding="utf-8") == mesh._text():
+            if file.read_text(encoding="utf-8") == text():
                 continue
-            raise FileError(f"{file}: is the mesh of another scan\n  overwrite it with force=True, "
+            raise FileError(f"{file}: is of another scan\n  overwrite it with force=True, "
                             "or choose another directory with out")
-        mesh.write(file)
+        file.write_text(text(), encoding="utf-8")
 
 
 def _listed(values: Any) -> Any:
