@@ -154,7 +154,7 @@ class Scans(unittest.TestCase):
         case = strip()
         case["analysis"] = {"type": "elastic"}
         del case["stop"]
-        case["body"] = {"mesh": "a.msh", "horizon_ratio": 3}
+        case["body"] = {"mesh": Path("a.msh"), "horizon_ratio": 3}
         case.path = str(self.folder / "case.toml")
         scan = perilink.scan(case, {"body.mesh": ["a.msh", "b.msh"]})
         self.assertEqual(list(scan.table["status"]), ["completed"] * 2, scan.table["reason"])

@@ -60,6 +60,19 @@ BodySurface surface_of(const Particles& particles, const Bonds& bonds, const Fac
   return surface;
 }
 
+/// Flags particles above the plane of a facet nearby. Bonds between others stay below every facet
+/// that they could meet, and so within the body.
+std::vector<std::uint8_t> above_facets(const Particles& particles, const BodySurface& surface) {
+  std::vector<std::uint8_t> above;
+  for (Index i = 0; i < particles.size(); ++i) {
+    const Vector3 x = point_of(particles.positions, particles.dim, i);
+    above.push_back(std::ranges::any_of(surface.near.row(i), [&](Index f) {
+      return height_above(surface.facets[f], x) > surface.touch;
+    }));
+  }
+  return above;
+}
+
 /// Intersection of a bond and a facet.
 struct Meeting {
   double fraction;  // position over the bond's length
@@ -177,10 +190,12 @@ Index remove_bonds_outside(const Particles& particles, Bonds& bonds, const Facet
                            double spacing) {
   if (bonds.size() == 0) return 0;
   const BodySurface surface = surface_of(particles, bonds, facets, spacing);
+  const std::vector<std::uint8_t> above = above_facets(particles, surface);
   std::vector<std::uint8_t> keep(static_cast<std::size_t>(bonds.size()), 1);
 #pragma omp parallel for schedule(dynamic, 4096)
   for (Index b = 0; b < bonds.size(); ++b) {
     const Index i = bonds.first[b], j = bonds.second[b];
+    if (above[i] == 0 && above[j] == 0) continue;
     const auto near_i = surface.near.row(i), near_j = surface.near.row(j);
     if (near_i.empty() || near_j.empty()) continue;  // meetings are near both ends
     Passage passage(surface, near_i, point_of(particles.positions, particles.dim, i),

@@ -36,7 +36,7 @@ double continuum_modulus(const NetworkInput& input, double micromodulus) {
   return std::numbers::pi / 3.0 * micromodulus * input.thickness * std::pow(delta, 3);
 }
 
-/// Least number of neighbours to balance moments in space where a plane between layers meets the
+/// Least number of neighbours to balance moments in space where a joint of parts meets the
 /// surface: about three variables for each of the 18 equations of a particle. Cubic lattices with
 /// horizons of two spacings have only 32.
 constexpr std::size_t least_neighbours = 36;
@@ -259,7 +259,7 @@ void Correction::calibrate(bool give_up) {
   if (!input_.elastic) set_strength(neighbourhood);
 }
 
-/// Hinges bonds at particles in the planes of a joint, where rotations of the layers differ.
+/// Hinges bonds at particles on a joint, where rotations of the parts differ.
 void Correction::hinge() {
   if (network_.hinged.empty()) return;
   network_.inflection.assign(network_.hinged.size(), 0.5);

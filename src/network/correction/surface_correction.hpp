@@ -11,8 +11,8 @@ namespace perilink {
 /// - energy: multiplies by the mean over both ends of (modulus of an interior particle / modulus of
 ///   the particle), modulus 1/2 sum k xi^2 per volume;
 /// - calibrated: makes interior neighbourhoods isotropic (make_isotropic). Near surfaces and
-///   interfaces, and everywhere in unstructured particle sets, uses calibrate_bonds(); layers of
-///   materials use calibrate_layers(). Removes bonds without stiffness. Sets critical stretches by
+///   interfaces, and everywhere in unstructured particle sets, uses calibrate_bonds(); parts of
+///   unlike stiffness use calibrate_parts(). Removes bonds without stiffness. Sets critical stretches by
 ///   the new stiffness, so that a straight crack releases G_F.
 /// Other options change nothing. To be called before bars are added.
 /// \throws std::invalid_argument  where the horizon holds too few neighbours for an isotropic solid

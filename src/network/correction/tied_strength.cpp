@@ -35,15 +35,21 @@ class CutsAlongFace {
         network_(network),
         energy_(count_ * (count_ + 1), 0.0),
         factor_(energy_.size(), 1.0),
-        wanted_(count_, 0.0) {}
+        wanted_(count_, 0.0) {
+    for (Index b = 0; b < network.bonds.size(); ++b) {
+      if (const auto [from, to] = crossed(b); from < to) bonds_.push_back(b);
+    }
+  }
 
   /// \param share  fraction of each bond that is used: a half for each end away from other faces
   /// \param per_force  energy over force of a cut inside the part [length]
   void measure(const std::vector<double>& share, double per_force);
   void even_out();
+  const std::vector<Index>& bonds() const { return bonds_; }  ///< that cross a cut
+  /// \param bond  one of bonds()
   double factor(Index bond) const {
     const auto [from, to] = crossed(bond);
-    return from < to ? factor_[slot(from, to)] : 1.0;
+    return factor_[slot(from, to)];
   }
 
  private:
@@ -57,6 +63,7 @@ class CutsAlongFace {
   double step_;
   std::size_t count_;
   const Network& network_;
+  std::vector<Index> bonds_;
   std::vector<double> energy_;  // k xi^2 of bonds across the same cuts, by first and last cut
   std::vector<double> factor_;  // factor on the stretch
   std::vector<double> wanted_;  // per cut
@@ -73,9 +80,8 @@ CutsAlongFace::Range CutsAlongFace::crossed(Index bond) const {
 }
 
 void CutsAlongFace::measure(const std::vector<double>& share, double per_force) {
-  for (Index b = 0; b < network_.bonds.size(); ++b) {
+  for (const Index b : bonds_) {
     const auto [from, to] = crossed(b);
-    if (from >= to) continue;
     const double force = share[b] * network_.stiffness[b] * network_.bonds.length(b);
     const double rise = depth_[network_.bonds.second[b]] - depth_[network_.bonds.first[b]];
     energy_[slot(from, to)] += force * network_.bonds.length(b);
@@ -186,17 +192,25 @@ std::vector<double> depths_below(const std::vector<Index>& face, double largest,
                                  const Network& network) {
   const Particles& particles = network.particles;
   std::vector<FacetGeometry> pieces;
-  std::vector<double> centres;
+  std::vector<double> first_corners;
   double size = 0.0;
   for (const Index f : face) {
     for (const FacetGeometry& piece : facet_pieces(particles, network.facets, f)) {
-      centres.insert(centres.end(), piece.a.begin(), piece.a.begin() + particles.dim);
+      first_corners.insert(first_corners.end(), piece.a.begin(), piece.a.begin() + particles.dim);
       size = std::max(size, piece.size);
       pieces.push_back(piece);
     }
   }
-  const Csr near = find_neighbors(centres, particles.positions, particles.dim, largest + size);
-  std::vector<double> depth(static_cast<std::size_t>(particles.size()), largest);
+  // The nearest piece has its first corner within the distance of the nearest corner and its size.
+  const NearestPoint corners(first_corners, particles.dim);
+  std::vector<double> radii;
+  for (Index i = 0; i < particles.size(); ++i) {
+    const Vector3 x = point_of(particles.positions, particles.dim, i);
+    const double distance = norm(minus(x, pieces[corners.at(particles.position(i))].a));
+    radii.push_back(distance < largest + size ? distance + size : 0.0);
+  }
+  const Csr near = find_neighbors_within(first_corners, particles.positions, particles.dim, radii);
+  std::vector<double> depth(radii.size(), largest);
   for (Index i = 0; i < particles.size(); ++i) {
     const Vector3 x = point_of(particles.positions, particles.dim, i);
     for (const Index k : near.row(i)) {
@@ -217,7 +231,7 @@ void toughen_tied_faces(double horizon, double spacing, Network& network) {
                        network);
     cuts.measure(share, per_force);
     cuts.even_out();
-    for (Index b = 0; b < network.bonds.size(); ++b) {
+    for (const Index b : cuts.bonds()) {
       const double factor = std::sqrt(cuts.factor(b));
       network.critical_stretch[b] *= steps * std::round(factor / steps);
     }

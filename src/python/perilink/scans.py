@@ -223,18 +223,21 @@ def _whole_text(case: Case, table: dict[str, Any], path: Path) -> str:
     origin = Path(case.path).resolve().parent
     case = case.copy()
     names = {id(part): str(path.resolve() / name) for name, part, _ in case._parts()}
+
+    def moved(name: Any) -> Any:
+        if isinstance(name, list):
+            return [moved(entry) for entry in name]
+        return origin / name if isinstance(name, (str, PathLike)) else name
+
     fields = case.get("graded")
-    entries = [(case.get("body"), "mesh"), (case.get("elements"), "mesh"),
-               *((entry, "file") for entry in (fields if isinstance(fields, list) else ()))]
-    for entry, key in entries:
-        if isinstance(entry, dict) and isinstance(entry.get(key), str):
-            entry[key] = origin / entry[key]
+    for entry, key in [(case.get("body"), "mesh"), (case.get("elements"), "mesh"),
+                       *((entry, "file") for entry in
+                         (fields if isinstance(fields, (list, tuple)) else ()))]:
+        if isinstance(entry, dict) and key in entry:
+            entry[key] = moved(entry[key])
     for values in [table["values"] or {}, *(table["runs"] or [])]:
         for key in filter(_OF_FILES.match, values):
-            if isinstance(values[key], str):
-                values[key] = origin / values[key]
-            elif isinstance(values[key], list):
-                values[key] = [origin / name for name in values[key]]
+            values[key] = moved(values[key])
     return _toml(case, names)
 
 
