@@ -16,7 +16,7 @@
 namespace perilink::quality {
 namespace {
 
-// docs/developers/architecture.md shows the same table.
+// docs/developers/architecture.md lists the modules.
 const std::map<std::string, std::set<std::string>>& allowed_modules() {
   static const std::map<std::string, std::set<std::string>> table = {
       {"base", {}},
