@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "base/plain_text.hpp"
 #include "discretization/bonds.hpp"
+#include "discretization/facet_geometry.hpp"
 #include "model/model_regions.hpp"
 #include "model/reactions.hpp"
 #include "results/history_file.hpp"
@@ -112,7 +113,7 @@ std::vector<Gauge::Term> linear_terms(const Model& model, Index nearest, const V
   return terms;
 }
 
-/// \param notes  receives a note where no particle lies at the point
+/// \param notes  receives a note where the point does not lie between particles
 std::vector<Gauge::Term> terms_at(const CaseFile& input, const Model& model, const std::string& key,
                                   const Vector3& point, const Gauge& gauge,
                                   std::vector<std::string>& notes) {
@@ -133,17 +134,12 @@ std::vector<Gauge::Term> terms_at(const CaseFile& input, const Model& model, con
   if (nearest.distance <= moved * spacing) return {{nearest.particle, 1.0}};
   std::vector<Gauge::Term> terms =
       linear_terms(model, nearest.particle, point, gauge.stress.has_value());
-  std::vector<std::string> texts;
-  for (const Gauge::Term& term : terms) {
-    const Gauge::Term alone{term.particle, 1.0};
-    texts.push_back(point_text(place_of(particles, {&alone, 1}), particles.dim));
+  const Vector3 place = place_of(particles, terms);
+  if (norm(minus(place, point)) > moved * spacing) {
+    notes.push_back(fmt::format(
+        "the point {} of the gauge \"{}\" does not lie between particles: it measures at {}",
+        point_text(point, particles.dim), gauge.name, point_text(place, particles.dim)));
   }
-  const std::string between =
-      terms.size() == 1 ? "" : fmt::format(", linearly between the particles at {}", joined(texts));
-  notes.push_back(
-      fmt::format("no particle lies at the point {} of the gauge \"{}\": it measures at {}{}",
-                  point_text(point, particles.dim), gauge.name,
-                  point_text(place_of(particles, terms), particles.dim), between));
   return terms;
 }
 

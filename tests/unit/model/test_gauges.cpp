@@ -108,9 +108,9 @@ TEST(Gauges, AreLinearBetweenParticles) {
     EXPECT_EQ(model.gauges[3].place, "at (40, 53)");
     EXPECT_EQ(model.gauges[2].terms.size(), 2u) << "on a line between two";
     const auto notes = std::count_if(model.notes.begin(), model.notes.end(), [](const auto& note) {
-      return note.find("no particle lies at the point") != std::string::npos;
+      return note.find("does not lie between particles: it measures at (") != std::string::npos;
     });
-    EXPECT_EQ(notes, 6);
+    EXPECT_EQ(notes, 1);
   }
 }
 
