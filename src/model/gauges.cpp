@@ -12,6 +12,7 @@
 #include "base/plain_text.hpp"
 #include "discretization/bonds.hpp"
 #include "discretization/facet_geometry.hpp"
+#include "model/crack_shares.hpp"
 #include "model/model_regions.hpp"
 #include "model/reactions.hpp"
 #include "results/history_file.hpp"
@@ -226,6 +227,19 @@ void fill_force(const CaseFile& input, const Model& model, const std::string& ke
       fmt::format("{} on {} particles", is_held ? "reaction" : "load", gauge.terms.size());
 }
 
+void fill_cracks(const CaseFile& input, const Model& model, const std::string& key,
+                 const std::string& region, Gauge& gauge) {
+  std::vector<std::uint8_t> marked(static_cast<std::size_t>(model.network.particles.size()), 0);
+  for (const Index i : particles_of_region(input, model, region, key)) marked[i] = 1;
+  gauge.cracks = crack_shares(input, model, marked);
+  if (gauge.cracks.empty()) {
+    throw InputError(
+        input.where(key), fmt::format("is \"{}\", where no bond can crack", region),
+        "name a region that contains bonds of a breakable material, which do not crush");
+  }
+  gauge.place = fmt::format("cracks of {} bonds", gauge.cracks.size());
+}
+
 /// Returns the index of a component among the six of a Stress.
 std::size_t number_of(const std::array<int, 2>& axes) {
   if (axes[0] == axes[1]) return axes[0];
@@ -256,6 +270,8 @@ std::vector<Gauge> build_gauges(const CaseFile& input, const Model& model,
       gauge.place = "at " + point_text(place_of(particles, gauge.terms), particles.dim);
     } else if (!section.reaction.empty()) {
       fill_force(input, model, item_key("gauges", k, "reaction"), section, gauge);
+    } else if (!section.cracks.empty()) {
+      fill_cracks(input, model, item_key("gauges", k, "cracks"), section.cracks, gauge);
     } else if (!section.region.empty()) {
       fill_mean(input, model, item_key("gauges", k, "region"), section, gauge);
     } else {
@@ -304,6 +320,10 @@ std::vector<double> gauge_values(const Model& model, const ModelState& state, Cs
   for (const Gauge& gauge : model.gauges) {
     if (gauge.force != Gauge::Force::none) {
       values.push_back(gauge_force(model, gauge, state, holding));
+      continue;
+    }
+    if (!gauge.cracks.empty()) {
+      values.push_back(crack_size(model.network, gauge.cracks, state.secants));
       continue;
     }
     if (!gauge.stress) {
