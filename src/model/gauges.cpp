@@ -197,34 +197,45 @@ void fill_mean(const CaseFile& input, const Model& model, const std::string& key
 }
 
 /// Sets up a gauge of the force on the particles of a region: of its supports, else of its loads.
+/// Supports across the axis of a force do not count: one of a symmetry plane holds a loaded corner.
 void fill_force(const CaseFile& input, const Model& model, const std::string& key,
-                const GaugeSection& section, Gauge& gauge) {
+                const GaugeSection& section, Gauge& gauge, std::vector<std::string>& notes) {
   const std::vector<std::uint8_t> held = held_slots(model);
   ModelState loaded;
   const std::vector<double> factors(model.sets.size(), 1.0);
   loaded.set_factors = factors;
   const std::vector<double> loads = present_loads(model, loaded);
   const auto width = static_cast<std::size_t>(model.network.width());
-  bool is_held = false, is_loaded = false;
+  bool any = false, is_held = false, is_loaded = false;
   for (const Index i : particles_of_region(input, model, section.reaction, key)) {
     gauge.terms.push_back({i, 1.0});
-    for (std::size_t slot = i * width; slot < (i + 1) * width; ++slot) {
-      is_held = is_held || held[slot] != 0;
-      is_loaded = is_loaded || loads[slot] != 0.0;
+    for (std::size_t c = 0; c < width; ++c) {
+      const bool holds = held[i * width + c] != 0, loads_it = loads[i * width + c] != 0.0;
+      any = any || holds || loads_it;
+      if (section.axis && !section.about && c != static_cast<std::size_t>(*section.axis)) continue;
+      is_held = is_held || holds;
+      is_loaded = is_loaded || loads_it;
     }
   }
-  if (!is_held && !is_loaded) {
+  if (!any) {
     throw InputError(
         input.where(key),
         fmt::format("is \"{}\", whose particles have neither supports nor loads", section.reaction),
         "name a region of [[supports]], [[displacements]], [[velocities]], [[springs]] "
         "or of loads");
   }
-  gauge.force = is_held ? Gauge::Force::reaction : Gauge::Force::load;
+  if (is_held && is_loaded) {
+    notes.push_back(
+        fmt::format("the region \"{}\" of the gauge \"{}\" has supports and loads: it measures the "
+                    "reaction",
+                    section.reaction, gauge.name));
+  }
+  gauge.force = is_loaded && !is_held ? Gauge::Force::load : Gauge::Force::reaction;
   gauge.about = section.about;
   if (section.about && !section.axis) gauge.direction[2] = 1.0;  // in the plane
+  const bool is_load = gauge.force == Gauge::Force::load;
   gauge.place =
-      fmt::format("{} on {} particles", is_held ? "reaction" : "load", gauge.terms.size());
+      fmt::format("{} on {} particles", is_load ? "load" : "reaction", gauge.terms.size());
 }
 
 void fill_cracks(const CaseFile& input, const Model& model, const std::string& key,
@@ -269,7 +280,7 @@ std::vector<Gauge> build_gauges(const CaseFile& input, const Model& model,
       const Particles& particles = model.network.particles;
       gauge.place = "at " + point_text(place_of(particles, gauge.terms), particles.dim);
     } else if (!section.reaction.empty()) {
-      fill_force(input, model, item_key("gauges", k, "reaction"), section, gauge);
+      fill_force(input, model, item_key("gauges", k, "reaction"), section, gauge, notes);
     } else if (!section.cracks.empty()) {
       fill_cracks(input, model, item_key("gauges", k, "cracks"), section.cracks, gauge);
     } else if (!section.region.empty()) {
