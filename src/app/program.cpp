@@ -90,7 +90,8 @@ void add_set_option(CLI::App& command, RunOptions& options) {
 
 /// Adds the options that all computing commands share.
 void add_run_options(CLI::App& command, RunOptions& options) {
-  command.add_option("--out", options.directory, "Directory of the results [results/<file name>]");
+  command.add_option("-o,--out", options.directory,
+                     "Directory of the results [results/<file name>]");
   command
       .add_option("--threads", options.threads,
                   "Maximum number of threads; results do not depend on it "
@@ -143,7 +144,7 @@ const CLI::App* add_scan_command(CLI::App& app, ScanOptions& options) {
       "Run a case with lists of values of its keys, several runs at once; goes on where "
       "an earlier scan was stopped");
   command->add_option("scan", options.run.case_path, "Scan file (.toml)")->required();
-  command->add_option("--out", options.run.directory,
+  command->add_option("-o,--out", options.run.directory,
                       "Directory of the results [results/<file name>]");
   command
       ->add_option("--jobs", options.jobs,
@@ -166,7 +167,7 @@ const CLI::App* add_compare_command(CLI::App& app, CompareOptions& options) {
       "compare", "Compare two results: peaks, curves, energies, cracks, times, overlay plot");
   command->add_option("dir_a", options.first, "Directory of the results A")->required();
   command->add_option("dir_b", options.second, "Directory of the results B")->required();
-  command->add_option("--out", options.directory,
+  command->add_option("-o,--out", options.directory,
                       "Directory of compare.csv and compare.svg [results/A_vs_B]");
   command->add_flag("--quiet", options.quiet, "No table, files only");
   command->add_flag("--force", options.force, "Overwrite an earlier comparison");
@@ -177,7 +178,7 @@ void add_plot_command(CLI::App& app, PlotOptions& options) {
   CLI::App* command = app.add_subcommand(
       "plot", "Draw the load-displacement curve and the deformed body of a result (SVG)");
   command->add_option("directory", options.directory, "Directory of the results")->required();
-  command->add_option("--out", options.out, "Directory of the pictures [the same]");
+  command->add_option("-o,--out", options.out, "Directory of the pictures [the same]");
   command->add_option("--scale", options.scale, "Factor on the displacements [automatic]")
       ->check(is_scale);
   command
@@ -207,7 +208,7 @@ const CLI::App* add_report_command(CLI::App& app, ReportOptions& options) {
       "report",
       "Write one HTML page: case, curves, growing crack, energies; several runs together");
   command->add_option("directories", options.directories, "Directories of the results")->required();
-  command->add_option("--out", options.file,
+  command->add_option("-o,--out", options.file,
                       "The page [report.html in the directory; of several runs in this folder]");
   command->add_option("--at", options.at, "Show the body at this row first: a number, peak or last")
       ->check(is_row_choice);
@@ -275,16 +276,25 @@ int with_exit_status(const Command& command) {
   }
 }
 
-/// Returns why a command line cannot be read.
+/// Returns why a command line cannot be read, with the nearest command or option.
 std::string text_of(const CLI::ParseError& error, const CLI::App& app) {
-  const std::vector<std::string> unknown = app.remaining();
-  if (!app.get_subcommands().empty() || unknown.empty()) return error.what();
-  std::vector<std::string_view> commands;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-    commands.push_back(command->get_name());
+  std::vector<std::string> unknown = app.remaining(true);
+  const std::vector<CLI::App*> chosen = app.get_subcommands();
+  std::vector<std::string> allowed;
+  if (chosen.empty()) {
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+      allowed.push_back(command->get_name());
+    }
+  } else {
+    std::erase_if(unknown, [](const std::string& word) { return !word.starts_with('-'); });
+    for (const CLI::Option* option : chosen.front()->get_options()) {
+      if (!option->get_lnames().empty()) allowed.push_back("--" + option->get_lnames().front());
+    }
   }
-  return fmt::format("unknown command or option {}\n  {}", unknown.front(),
-                     suggest(unknown.front(), commands));
+  if (unknown.empty()) return error.what();
+  const std::string word = unknown.front().substr(0, unknown.front().find('='));
+  return fmt::format("unknown {} {}\n  {}", chosen.empty() ? "command or option" : "option", word,
+                     suggest(word, std::vector<std::string_view>(allowed.begin(), allowed.end())));
 }
 
 /// Disables signals that would end the program.

@@ -11,6 +11,8 @@
 #include "base/error.hpp"
 #include "base/plain_text.hpp"
 #include "discretization/bonds.hpp"
+#include "discretization/facet_geometry.hpp"
+#include "model/crack_shares.hpp"
 #include "model/model_regions.hpp"
 #include "model/reactions.hpp"
 #include "results/history_file.hpp"
@@ -112,7 +114,7 @@ std::vector<Gauge::Term> linear_terms(const Model& model, Index nearest, const V
   return terms;
 }
 
-/// \param notes  receives a note where no particle lies at the point
+/// \param notes  receives a note where the point does not lie between particles
 std::vector<Gauge::Term> terms_at(const CaseFile& input, const Model& model, const std::string& key,
                                   const Vector3& point, const Gauge& gauge,
                                   std::vector<std::string>& notes) {
@@ -133,17 +135,12 @@ std::vector<Gauge::Term> terms_at(const CaseFile& input, const Model& model, con
   if (nearest.distance <= moved * spacing) return {{nearest.particle, 1.0}};
   std::vector<Gauge::Term> terms =
       linear_terms(model, nearest.particle, point, gauge.stress.has_value());
-  std::vector<std::string> texts;
-  for (const Gauge::Term& term : terms) {
-    const Gauge::Term alone{term.particle, 1.0};
-    texts.push_back(point_text(place_of(particles, {&alone, 1}), particles.dim));
+  const Vector3 place = place_of(particles, terms);
+  if (norm(minus(place, point)) > moved * spacing) {
+    notes.push_back(fmt::format(
+        "the point {} of the gauge \"{}\" does not lie between particles: it measures at {}",
+        point_text(point, particles.dim), gauge.name, point_text(place, particles.dim)));
   }
-  const std::string between =
-      terms.size() == 1 ? "" : fmt::format(", linearly between the particles at {}", joined(texts));
-  notes.push_back(
-      fmt::format("no particle lies at the point {} of the gauge \"{}\": it measures at {}{}",
-                  point_text(point, particles.dim), gauge.name,
-                  point_text(place_of(particles, terms), particles.dim), between));
   return terms;
 }
 
@@ -200,34 +197,58 @@ void fill_mean(const CaseFile& input, const Model& model, const std::string& key
 }
 
 /// Sets up a gauge of the force on the particles of a region: of its supports, else of its loads.
+/// Supports across the axis of a force do not count: one of a symmetry plane holds a loaded corner.
 void fill_force(const CaseFile& input, const Model& model, const std::string& key,
-                const GaugeSection& section, Gauge& gauge) {
+                const GaugeSection& section, Gauge& gauge, std::vector<std::string>& notes) {
   const std::vector<std::uint8_t> held = held_slots(model);
   ModelState loaded;
   const std::vector<double> factors(model.sets.size(), 1.0);
   loaded.set_factors = factors;
   const std::vector<double> loads = present_loads(model, loaded);
   const auto width = static_cast<std::size_t>(model.network.width());
-  bool is_held = false, is_loaded = false;
+  bool any = false, is_held = false, is_loaded = false;
   for (const Index i : particles_of_region(input, model, section.reaction, key)) {
     gauge.terms.push_back({i, 1.0});
-    for (std::size_t slot = i * width; slot < (i + 1) * width; ++slot) {
-      is_held = is_held || held[slot] != 0;
-      is_loaded = is_loaded || loads[slot] != 0.0;
+    for (std::size_t c = 0; c < width; ++c) {
+      const bool holds = held[i * width + c] != 0, loads_it = loads[i * width + c] != 0.0;
+      any = any || holds || loads_it;
+      if (section.axis && !section.about && c != static_cast<std::size_t>(*section.axis)) continue;
+      is_held = is_held || holds;
+      is_loaded = is_loaded || loads_it;
     }
   }
-  if (!is_held && !is_loaded) {
+  if (!any) {
     throw InputError(
         input.where(key),
         fmt::format("is \"{}\", whose particles have neither supports nor loads", section.reaction),
         "name a region of [[supports]], [[displacements]], [[velocities]], [[springs]] "
         "or of loads");
   }
-  gauge.force = is_held ? Gauge::Force::reaction : Gauge::Force::load;
+  if (is_held && is_loaded) {
+    notes.push_back(
+        fmt::format("the region \"{}\" of the gauge \"{}\" has supports and loads: it measures the "
+                    "reaction",
+                    section.reaction, gauge.name));
+  }
+  gauge.force = is_loaded && !is_held ? Gauge::Force::load : Gauge::Force::reaction;
   gauge.about = section.about;
   if (section.about && !section.axis) gauge.direction[2] = 1.0;  // in the plane
+  const bool is_load = gauge.force == Gauge::Force::load;
   gauge.place =
-      fmt::format("{} on {} particles", is_held ? "reaction" : "load", gauge.terms.size());
+      fmt::format("{} on {} particles", is_load ? "load" : "reaction", gauge.terms.size());
+}
+
+void fill_cracks(const CaseFile& input, const Model& model, const std::string& key,
+                 const std::string& region, Gauge& gauge) {
+  std::vector<std::uint8_t> marked(static_cast<std::size_t>(model.network.particles.size()), 0);
+  for (const Index i : particles_of_region(input, model, region, key)) marked[i] = 1;
+  gauge.cracks = crack_shares(input, model, marked);
+  if (gauge.cracks.empty()) {
+    throw InputError(
+        input.where(key), fmt::format("is \"{}\", where no bond can crack", region),
+        "name a region that contains bonds of a breakable material, which do not crush");
+  }
+  gauge.place = fmt::format("cracks of {} bonds", gauge.cracks.size());
 }
 
 /// Returns the index of a component among the six of a Stress.
@@ -259,7 +280,9 @@ std::vector<Gauge> build_gauges(const CaseFile& input, const Model& model,
       const Particles& particles = model.network.particles;
       gauge.place = "at " + point_text(place_of(particles, gauge.terms), particles.dim);
     } else if (!section.reaction.empty()) {
-      fill_force(input, model, item_key("gauges", k, "reaction"), section, gauge);
+      fill_force(input, model, item_key("gauges", k, "reaction"), section, gauge, notes);
+    } else if (!section.cracks.empty()) {
+      fill_cracks(input, model, item_key("gauges", k, "cracks"), section.cracks, gauge);
     } else if (!section.region.empty()) {
       fill_mean(input, model, item_key("gauges", k, "region"), section, gauge);
     } else {
@@ -308,6 +331,10 @@ std::vector<double> gauge_values(const Model& model, const ModelState& state, Cs
   for (const Gauge& gauge : model.gauges) {
     if (gauge.force != Gauge::Force::none) {
       values.push_back(gauge_force(model, gauge, state, holding));
+      continue;
+    }
+    if (!gauge.cracks.empty()) {
+      values.push_back(crack_size(model.network, gauge.cracks, state.secants));
       continue;
     }
     if (!gauge.stress) {

@@ -36,7 +36,8 @@ double gauge_value(const Gauge& gauge, int dim, Displacement displacement) {
 /// Whether a gauge needs the reactions on the body.
 bool measures_reactions(std::span<const Gauge> gauges);
 
-/// Returns the values of all gauges [length], [force/length^2], [force] or [force length].
+/// Returns the values of all gauges [length], [length^2], [force/length^2], [force] or [force
+/// length].
 /// \param neighbourhoods  bonds of each particle; filled once a gauge needs them
 /// \param holding         holding_forces() where they are known, as for bodies in motion
 std::vector<double> gauge_values(const Model& model, const ModelState& state, Csr& neighbourhoods,

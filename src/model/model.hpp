@@ -22,8 +22,8 @@
 
 namespace perilink {
 
-/// A displacement or stress in the history, a weighted sum of particle values; or a force or moment
-/// on particles.
+/// A displacement or stress in the history, a weighted sum of particle values; a force or moment on
+/// particles; or the size of cracks.
 struct Gauge {
   struct Term {
     Index particle = no_index;
@@ -39,6 +39,12 @@ struct Gauge {
   enum class Force { none, reaction, load };
   Force force = Force::none;     ///< along `direction`, on the particles of the terms
   std::optional<Vector3> about;  ///< measures the moment about this point, around `direction`
+
+  struct CrackShare {
+    Index bond = no_index;
+    double size = 0.0;  ///< over energy_until() of its law [length] or [length^2]
+  };
+  std::vector<CrackShare> cracks;  ///< of crack_shares(); empty: measures no cracks
 };
 
 /// Particles, bonds, unknowns and loads of a case. With method = "linear_elements" the network

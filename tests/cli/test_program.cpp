@@ -112,6 +112,8 @@ TEST_F(Program, BadCommandLinesAreRefused) {
   }
   EXPECT_THAT(run({"simulate"}).err, HasSubstr("simulate"));
   EXPECT_THAT(run({"chek"}).err, HasSubstr("option chek\n  did you mean `check`?"));
+  EXPECT_THAT(run({"run", "a.toml", "--thread=2", "--output", "r"}).err,
+              HasSubstr("unknown option --thread\n  did you mean `--threads`? Allowed: "));
   EXPECT_THAT(run({"run"}).err, testing::StartsWith("perilink: case is required\n"));
   EXPECT_EQ(names(), std::set<std::string>{"a.toml"}) << "a refused command left files behind";
 }

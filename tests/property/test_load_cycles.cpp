@@ -134,5 +134,18 @@ TEST(LoadCycles, EndByTheLargestLoadOfTheSameSign) {
   }
 }
 
+/// Load steps that unload the body to a tenth and to nothing, and load it again.
+TEST(LoadCycles, OfLoadStepsAreNoFall) {
+  for (test::SofteningStrip strip : cycled_strips()) {
+    strip.more =
+        "control = \"steps\"\nload_factors = [0.004, 0.0004, 0.008, 0, 0.009, 1]\n"
+        "[stop]\nload_fraction = 0.5\n";
+    const test::WholeRun run(test::softening_case(strip));
+    EXPECT_EQ(run.history("load_factor").size(), 6u) << strip.model;
+    EXPECT_EQ(run.summary.json.at("peak_displacement"), 0.009) << strip.model;
+    EXPECT_THAT(run.summary.warnings, Not(Contains(HasSubstr("residual strength"))));
+  }
+}
+
 }  // namespace
 }  // namespace perilink

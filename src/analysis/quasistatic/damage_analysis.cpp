@@ -185,8 +185,8 @@ void EventRun::record(double load_factor, const LoadWork& work, const Event& eve
     note_peaks(path_, options_.load_factors.empty() && counts);
   }
   path_.load_fraction = stop_->load_fraction;
-  const bool below = is_below(path_.row, path_);
-  if (path_.row.side_change == 0) path_.rows_below = below ? path_.rows_below + 1 : 0;
+  const bool fallen = has_fallen(path_, options_.load_factors);
+  if (path_.row.side_change == 0) path_.rows_below = fallen ? path_.rows_below + 1 : 0;
 }
 
 /// Applies an event.

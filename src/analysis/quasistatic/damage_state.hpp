@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -88,6 +89,16 @@ inline bool is_below(const StepRecord& row, const PathState& path) {
   const std::size_t loaded = path.largest_of_stage[sign] > 0.0 ? sign : 1 - sign;
   const double load = std::abs(row.load);
   return load < path.largest_of_stage[loaded] && load < *path.load_fraction * path.largest[loaded];
+}
+
+/// Returns whether the last row lies below the load fraction. Load steps that unload the body are no
+/// fall.
+/// \param load_factors  of load steps; empty: a run by events or stages
+inline bool has_fallen(const PathState& path, const std::vector<double>& load_factors) {
+  const auto begin = load_factors.begin();
+  const auto end = load_factors.empty() ? begin : begin + static_cast<Index>(path.position);
+  const bool unloads = end != begin && path.row.load_factor < *std::max_element(begin, end);
+  return !unloads && is_below(path.row, path);
 }
 
 /// State of a damage analysis between two rows: all that the run cannot rebuild from its problem

@@ -73,7 +73,7 @@ EventRun::EventRun(const LoadedNetwork& problem, const DamageOptions& options, D
   if (path_.load_fraction == stop_->load_fraction) return;
   // The rule was raised: rows below it are counted anew.
   path_.load_fraction = stop_->load_fraction;
-  path_.rows_below = path_.rows.empty() && is_below(path_.row, path_) ? 1 : 0;
+  path_.rows_below = path_.rows.empty() && has_fallen(path_, options_.load_factors) ? 1 : 0;
   for (auto row = path_.rows.rbegin(); row != path_.rows.rend(); ++row) {
     if (row->side_change != 0) continue;
     if (row->stage != path_.row.stage || !is_below(*row, path_)) break;

@@ -106,6 +106,7 @@ std::string unit_of_column(const std::string& name, const TomlValue& root, const
     const char* measured = gauge.find("stress") != nullptr     ? "stress"
                            : gauge.find("about") != nullptr    ? "moment"
                            : gauge.find("reaction") != nullptr ? "force"
+                           : gauge.find("cracks") != nullptr   ? "crack size"
                                                                : "displacement";
     return unit_of_quantity(measured, units);
   }

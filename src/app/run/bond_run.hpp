@@ -2,6 +2,7 @@
 
 #include "analysis/dynamics/bonds/runs/bond_analysis.hpp"
 #include "analysis/dynamics/time_state.hpp"
+#include "app/run/crack_overlap.hpp"
 #include "app/run/run_kind.hpp"
 #include "base/csr.hpp"
 
@@ -33,7 +34,7 @@ class MovingBondsRun : public NetworkRun, protected BondRunObserver {
   void on_checkpoint(const TimeState& state) override;
   void restore(const std::string& state) override;
   /// Warns of displacements too large for small strains.
-  void warn_of_size(Summary& summary) const;
+  void warn_of_motion(Summary& summary) const;
   void write_state(const ExplicitRecord& record, const BondRunState& state);
   /// \param motion  motion of the state, with the embedded points of bars
   void add_forces_and_cracks(VtuGrid& grid, const ExplicitRecord& record, const BondRunState& state,
@@ -43,6 +44,7 @@ class MovingBondsRun : public NetworkRun, protected BondRunObserver {
   Index checkpoint_rows_ = 0;       ///< rows between checkpoints; 0: none
   std::optional<TimeState> from_;   ///< state to go on from
   std::vector<GrownCrack> cracks_;  ///< in the last field file
+  CrackOverlap overlap_;            ///< at the end
   Index loose_pieces_ = 0;          ///< unsupported parts of the broken body at the end
 
  private:

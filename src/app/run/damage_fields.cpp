@@ -70,6 +70,7 @@ VtuGrid DamageRun::fields_of(const StepRecord& record, const StepState& state, b
   for (double& u : motion) u *= scale_of(record);
   VtuGrid grid = make_field_grid(network, state.secants, motion, moment_of(record, input, model_),
                                  broken, neighbourhoods_);
+  records_.overlap = deepest_overlap(model_, motion, records_.overlap);
   if (network.is_beam()) {
     add_section_forces(grid, section_forces(network, state.secants, motion));
   }

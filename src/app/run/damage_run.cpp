@@ -159,7 +159,10 @@ void DamageRun::tell(Summary& summary) const {
   } else if (auto end = warning_about_end(result_.last.displacement, length)) {
     found.warnings.push_back(std::move(*end));
   }
-  if (auto warning = records_.balance.warning()) found.warnings.push_back(std::move(*warning));
+  for (auto& warning : {records_.balance.warning(),
+                        warning_about_overlap(records_.overlap, model_.network.dim())}) {
+    if (warning) found.warnings.push_back(*warning);
+  }
   if (records_.missed_releases > 0) {
     summary.add_note(
         fmt::format("{}: a bond was past its limit before its host element "

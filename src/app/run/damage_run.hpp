@@ -4,6 +4,7 @@
 
 #include "analysis/quasistatic/event_run.hpp"
 #include "analysis/quasistatic/peak_states.hpp"
+#include "app/run/crack_overlap.hpp"
 #include "app/run/quasistatic.hpp"
 #include "app/run/run_kind.hpp"
 #include "app/run/run_warnings.hpp"
@@ -67,13 +68,14 @@ class DamageRun final : public NetworkRun {
     PeakStates peaks;
     Index written_peak = 0;  ///< row of the fields written as those of the peak so far; 0: none
     std::vector<FieldCompression> compressions;  ///< of all field files
+    CrackOverlap overlap;                        ///< deepest one in all field files
     ReactionBalance balance;
 
     template <class Archive>
     void serialize(Archive& archive) {
       archive(missed_releases, whole, checkpoint_rows, broken, last_element, last_events,
               broken_at_fields, last_stage, highest, gauges, set_factors, cracks, high_rows, peaks,
-              written_peak, compressions, balance);
+              written_peak, compressions, overlap, balance);
     }
   };
 

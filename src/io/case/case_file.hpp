@@ -235,6 +235,7 @@ struct GaugeSection {
   std::optional<Vector3> at;
   std::string region;            ///< mean over its particles
   std::string reaction;          ///< region with supports or loads: the force on it
+  std::string cracks;            ///< region: length of its cracks, in space their area
   std::optional<Vector3> about;  ///< with a reaction: point of its moment, instead of the force
   /// Axis of the displacement, force or moment; absent between two points: the direction from one
   /// to the other.

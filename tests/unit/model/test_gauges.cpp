@@ -108,9 +108,9 @@ TEST(Gauges, AreLinearBetweenParticles) {
     EXPECT_EQ(model.gauges[3].place, "at (40, 53)");
     EXPECT_EQ(model.gauges[2].terms.size(), 2u) << "on a line between two";
     const auto notes = std::count_if(model.notes.begin(), model.notes.end(), [](const auto& note) {
-      return note.find("no particle lies at the point") != std::string::npos;
+      return note.find("does not lie between particles: it measures at (") != std::string::npos;
     });
-    EXPECT_EQ(notes, 6);
+    EXPECT_EQ(notes, 1);
   }
 }
 
@@ -187,6 +187,18 @@ TEST(Gauges, MeasureForcesAndMoments) {
   EXPECT_NEAR(values[1], -10.0, 1e-12);
   EXPECT_TRUE(measures_reactions(model.gauges));
   EXPECT_EQ(model.gauges[1].place.substr(0, 8), "reaction");
+
+  // A support across the axis of a load, as of a symmetry plane, and one along it.
+  SupportSection across;
+  across.region = "upper end";
+  across.fix[0] = true;
+  input.supports.push_back(across);
+  EXPECT_EQ(build_model(input).gauges[0].place.substr(0, 4), "load");
+  input.supports.back().fix = {false, true};
+  const Model both = build_model(input);
+  EXPECT_EQ(both.gauges[0].place.substr(0, 8), "reaction");
+  EXPECT_NE(both.notes.back().find("has supports and loads"), std::string::npos);
+  input.supports.pop_back();
 
   input.gauges[0].reaction = "middle";
   expect_refused(input, "gauges[1].reaction", "whose particles have neither supports nor loads");

@@ -42,6 +42,10 @@ const Without release_strains = {
     {elastic, {}, {}},
     {beam, "is given, but the mean strain of a bent beam leaves out the strain at its faces",
      "give `alert`"}};
+const Without crack_sizes = {
+    {lattice | particles | beam, "is given, but only bonds of a solid measure cracks",
+     "delete the gauge, or choose another model in [body]"},
+    {elements, no_bonds, "delete the gauge, or the line method = \"linear_elements\""}};
 constexpr const char* a_line = "give the `points` of a line: [[0, 1], [2, 1]]";
 
 constexpr const char* what_varies =
@@ -251,6 +255,7 @@ TableSchema gauge_table() {
           {key("name", &Gauge::name).needed("the heading of its column"),
            key("between", &Gauge::between), key("at", &Gauge::at, Kind::position),
            key("region", &Gauge::region), key("reaction", &Gauge::reaction),
+           key("cracks", &Gauge::cracks, {}, crack_sizes),
            key("about", &Gauge::about, Kind::position).beside("reaction"),
            key("axis", &Gauge::axis, Kind::axis),
            KeySchema("stress", {{"xx", "yy", "zz", "xy", "yz", "xz"}},
@@ -261,7 +266,7 @@ TableSchema gauge_table() {
                }),
            key("fields_at", &Gauge::fields_at, {}, set_aside(elastic))},
           {},
-          {{"between", "at", "region", "reaction"}}};
+          {{"between", "at", "region", "reaction", "cracks"}}};
 }
 
 }  // namespace perilink

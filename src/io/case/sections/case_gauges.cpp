@@ -65,7 +65,11 @@ GaugeSection read_gauge(const CaseTable& table, Kinds kind) {
     table.refuse("between", "holds " + counted(gauge.between.size(), "point"),
                  "give two: [[0, 0], [0, 1]]");
   }
-  if (table.has("reaction")) {
+  if (table.has("cracks")) {
+    for (const char* key : {"axis", "stress"}) {
+      if (table.has(key)) table.refuse(key, "is given together with `cracks`", "delete it");
+    }
+  } else if (table.has("reaction")) {
     read_reaction(table, dim, gauge);
   } else if (table.has("between")) {
     if (table.has("stress")) {

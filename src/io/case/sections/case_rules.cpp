@@ -343,7 +343,8 @@ void check_rules(const CaseFile& input) {
   }
   for (std::size_t i = 0; i < input.gauges.size(); ++i) {
     for (const auto& [key, region] : {std::pair{"region", &input.gauges[i].region},
-                                      std::pair{"reaction", &input.gauges[i].reaction}}) {
+                                      std::pair{"reaction", &input.gauges[i].reaction},
+                                      std::pair{"cracks", &input.gauges[i].cracks}}) {
       if (!region->empty())
         check_reference(input, names, item_key("gauges", i, key), *region, Reserved::allowed);
     }

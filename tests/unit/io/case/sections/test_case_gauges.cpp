@@ -42,7 +42,7 @@ TEST(CaseGauges, RefuseWhatCannotBeMeasured) {
                 HasSubstr("use letters, digits, _ and -"));
   }
   EXPECT_THAT(message_of(with_gauge("name = \"a\"\naxis = \"x\"\n")),
-              HasSubstr("none of `between`, `at`, `region` or `reaction`"));
+              HasSubstr("none of `between`, `at`, `region`, `reaction` or `cracks`"));
   EXPECT_THAT(message_of(with_gauge("name = \"a\"\nat = [0, 0]\n")),
               HasSubstr("none of `axis` or `stress`"));
   EXPECT_THAT(message_of(with_gauge("name = \"a\"\nat = [0, 0]\naxis = \"z\"\n")),

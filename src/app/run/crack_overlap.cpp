@@ -1,0 +1,119 @@
+#include "app/run/crack_overlap.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/plain_text.hpp"
+#include "discretization/facet_geometry.hpp"
+#include "discretization/neighbor_search.hpp"
+
+namespace perilink {
+namespace {
+
+constexpr double reach = 1.5;       // spacings between particles on the two faces
+constexpr double noticeable = 3.0;  // overlap over the shortening of intact bonds
+
+/// Displacements and places of the particles of a body.
+struct Moved {
+  const Network& network;
+  std::span<const double> motion;
+
+  Vector3 place(Index i) const { return point_of(network.particles.positions, network.dim(), i); }
+  /// Returns by how much two particles approach each other along a direction [length].
+  double approach(Index i, Index j, const Vector3& direction) const {
+    const auto width = static_cast<std::size_t>(network.width());
+    double sum = 0.0;
+    for (int a = 0; a < network.dim(); ++a) {
+      sum += (motion[i * width + a] - motion[j * width + a]) * direction[a];
+    }
+    return sum;
+  }
+};
+
+/// Returns the largest shortening of the short bonds [length].
+double largest_shortening(const Moved& body, double longest) {
+  const Network& network = body.network;
+  double largest = 0.0;
+  for (Index b = 0; b < network.num_bonds(); ++b) {
+    if (network.bonds.length(b) > longest) continue;
+    const Vector3 direction = point_of(network.bonds.direction(b), network.dim(), 0);
+    largest = std::max(largest,
+                       body.approach(network.bonds.first[b], network.bonds.second[b], direction));
+  }
+  return largest;
+}
+
+/// Returns the particles of the solid in the box around all cracks and one reach beyond.
+std::vector<Index> particles_near(const CrackCutter& cutter, const Network& network,
+                                  double distance) {
+  std::vector<Index> near;
+  for (Index i = 0; i < network.particles.size(); ++i) {
+    if (network.particles.kind[i] != ParticleKind::solid) continue;
+    const auto x = network.particles.position(i);
+    bool inside = true;
+    for (int a = 0; a < network.dim(); ++a) {
+      inside =
+          inside && x[a] >= cutter.lower()[a] - distance && x[a] <= cutter.upper()[a] + distance;
+    }
+    if (inside) near.push_back(i);
+  }
+  return near;
+}
+
+}  // namespace
+
+CrackOverlap deepest_overlap(const Model& model, std::span<const double> motion,
+                             const CrackOverlap& so_far) {
+  const Network& network = model.network;
+  const int dim = network.dim();
+  std::vector<Crack> cracks;
+  std::vector<std::size_t> entries;
+  for (std::size_t k = 0; k < model.cracks.size() && !network.shell; ++k) {
+    if (model.cracks[k].closes) continue;
+    cracks.push_back(model.cracks[k]);
+    entries.push_back(model.entry_of_crack[k]);
+  }
+  if (cracks.empty()) return so_far;
+  const Moved body{network, motion};
+  const double longest = reach * model.lattice.spacing;
+  const CrackCutter cutter(cracks, dim, model.lattice.spacing);
+  const std::vector<Index> near = particles_near(cutter, network, longest);
+  std::vector<double> places;
+  for (const Index i : near) {
+    const auto x = network.particles.position(i);
+    places.insert(places.end(), x.begin(), x.end());
+  }
+  const Csr pairs =
+      find_neighbors_within(places, places, dim, std::vector<double>(near.size(), longest));
+  const double least = noticeable * largest_shortening(body, longest);
+  CrackOverlap deepest = so_far;
+  for (std::size_t k = 0; k < near.size(); ++k) {
+    for (const Index l : pairs.row(static_cast<Index>(k))) {
+      const Index i = near[k], j = near[l];
+      if (j <= i) continue;
+      const Vector3 from = body.place(i), to = body.place(j);
+      const CrackCutter::Piece* piece = cutter.piece_between(from, to);
+      if (piece == nullptr) continue;
+      const double depth = std::copysign(1.0, dot(minus(to, from), piece->normal)) *
+                           body.approach(i, j, piece->normal);
+      if (depth > std::max(least, deepest.depth)) {
+        deepest = {depth, from, entries[piece->crack]};
+      }
+    }
+  }
+  return deepest;
+}
+
+std::optional<std::string> warning_about_overlap(const CrackOverlap& overlap, int dim) {
+  if (overlap.depth == 0.0) return std::nullopt;
+  return fmt::format(
+      "the faces of crack {} pass through each other, by up to {:.3g} near ({}): let them press on "
+      "each other by closing = true in its [[cracks]]; closing = false means a gap",
+      overlap.entry + 1, overlap.depth,
+      joined(std::span(overlap.place.data(), static_cast<std::size_t>(dim))));
+}
+
+}  // namespace perilink
