@@ -29,8 +29,13 @@ struct RestSums {
 struct Decision {
   double keep = 1.0, lose = 1.0;  ///< damping: factors of velocities
   bool restart = true;            ///< the damping is measured from here
-  bool at_rest = false, done = false;
-  bool examines = false;  ///< the pieces of the body are to be examined
+  enum class Then {
+    iterate,
+    examine,        ///< the pieces of the body, then iterate
+    end_load_step,  ///< the body is in equilibrium
+    end_run
+  } then = Then::iterate;
+  bool iterates() const { return then == Then::iterate || then == Then::examine; }
 };
 
 /// A residual that has grown by this factor since the first iteration has diverged.
