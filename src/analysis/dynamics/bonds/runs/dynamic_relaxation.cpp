@@ -72,12 +72,12 @@ class Relaxation {
   }
 
   RelaxationResult run() {
-    for (; step_ < options_.load_factors.size() && next_.then != Then::end_run; ++step_) {
+    for (; step_ < options_.load_factors.size() && next_.then != AfterIteration::end_run; ++step_) {
       start(options_.load_factors[step_]);
       while (next_.iterates()) {
         threads_.run([&](int threads) { iterate_round(threads); });
       }
-      if (next_.then == Then::end_load_step) rest();
+      if (next_.then == AfterIteration::end_load_step) rest();
     }
     result_.last = record_;
     result_.displacement = body_.motion.displacement;
@@ -85,8 +85,6 @@ class Relaxation {
   }
 
  private:
-  using Then = Decision::Then;
-
   /// Starts from rest at the last equilibrium, scaled by the load factor.
   void start(double factor) {
     const double growth = factor_ != 0.0 ? factor / factor_ : 0.0;
@@ -97,7 +95,7 @@ class Relaxation {
       body_.motion.velocity[slot] = 0.0;
     }
     iteration_ = 0;
-    next_.then = Then::iterate;
+    next_.then = AfterIteration::iterate;
   }
 
   void iterate_round(int threads) {
@@ -151,7 +149,7 @@ class Relaxation {
     RestSums all;
     for (const RestSums& block : rest_) all += block;
     judge(all);
-    if (next_.then == Then::examine) observe([&] { examine_pieces(); });
+    if (next_.then == AfterIteration::examine) observe([&] { examine_pieces(); });
     ++iteration_;
     ++result_.iterations;
   }
@@ -173,10 +171,9 @@ class Relaxation {
     result_.error = moves ? std::sqrt(all.push / all.size) / square_ : 0.0;
     // Loads and reactions are round-off beside the forces in the bonds, and so is the residual.
     if (moves && result_.error <= 1e-6 * options_.tolerance) result_.residual = 0.0;
-    const bool at_rest =
-        !gave_way && std::max(result_.residual, result_.error) <= options_.tolerance;
-    next_.then = at_rest ? Then::end_load_step : Then::iterate;
-    if (!at_rest) look(all, rest);
+    const bool at_rest = std::max(result_.residual, result_.error) <= options_.tolerance;
+    next_.then = at_rest && !gave_way ? AfterIteration::end_load_step : AfterIteration::iterate;
+    if (next_.then == AfterIteration::iterate) look(all, rest);
   }
 
   void look(const RestSums& all, double rest) {
@@ -201,9 +198,9 @@ class Relaxation {
     }
     // Before the first iteration all contact springs are open.
     const bool follows = separation_.follows_contact();
-    if (next_.then == Then::end_run) return;
+    if (next_.then == AfterIteration::end_run) return;
     const bool examines = (is_due && (ends || checks)) || (follows && checks);
-    if (examines && !(follows && iteration_ == 0)) next_.then = Then::examine;
+    if (examines && !(follows && iteration_ == 0)) next_.then = AfterIteration::examine;
     if (!checks) return;
     observe([&] {
       observer_.on_iteration(static_cast<Index>(step_) + 1, iteration_, result_.residual);
@@ -246,7 +243,7 @@ class Relaxation {
   void end(Termination termination, const std::string& reason) {
     result_.termination = termination;
     result_.reason = reason;
-    next_.then = Then::end_run;
+    next_.then = AfterIteration::end_run;
   }
 
   void damp(const RestSums& all) {
@@ -293,7 +290,7 @@ class Relaxation {
     observe([&] {
       note_row();
       if (separation_.is_due(fractured_) || separation_.follows_contact()) examine_pieces();
-      if (next_.then == Then::end_run) return;
+      if (next_.then == AfterIteration::end_run) return;
       if (separation_.is_unstrained()) {
         note_end();
         return collapse("the body is in pieces and no longer resists the displacements");
