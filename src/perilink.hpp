@@ -26,6 +26,7 @@
 #include "model/model_regions.hpp"
 #include "model/reactions.hpp"
 #include "results/case_json_schema.hpp"
+#include "results/history_columns.hpp"
 #include "results/result_directory.hpp"
 #include "results/state_file.hpp"
 

@@ -155,7 +155,7 @@ std::vector<double> strain_energy_density(const Network& network, Secants secant
   std::vector<double> states;
   if (network.has_states()) states = extension_sums(network, secants, motion);
   for (std::size_t i = 0; i < density.size(); ++i) {
-    if (network.has_states()) density[i] += network.state_stiffness[i] * states[i] * states[i];
+    if (network.has_states()) density[i] += network.states->stiffness[i] * states[i] * states[i];
     density[i] = 0.5 * density[i] / network.particles.volumes[i];
   }
   return density;

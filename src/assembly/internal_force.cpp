@@ -81,8 +81,8 @@ void add_states(const Network& network, Secants secants, std::span<const Real> d
   const Bonds& bonds = network.bonds;
   std::vector<Real> tension = sums_of_extensions(network, secants, displacement);
   for (std::size_t i = 0; i < tension.size(); ++i) {
-    result.energy += 0.5 * network.state_stiffness[i] * tension[i] * tension[i];
-    tension[i] *= network.state_stiffness[i];
+    result.energy += 0.5 * network.states->stiffness[i] * tension[i] * tension[i];
+    tension[i] *= network.states->stiffness[i];
   }
   for (Index e = 0; e < network.num_elements(); ++e) {
     const double* n = bonds.direction(e).data();

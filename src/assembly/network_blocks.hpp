@@ -103,7 +103,7 @@ class StateBlocks : public NetworkBlocks<Truss<Dim>> {
   /// Inlined to keep the captures of sinks in registers.
   /// \param by_i  derivative of the particle's sum of extensions with respect to the motion of i
   [[gnu::always_inline]] void visit_state(Index center, const Vector& by_i, auto&& sink) const {
-    const Vector column = this->network_.state_stiffness[center] * by_i;
+    const Vector column = this->network_.states->stiffness[center] * by_i;
     const Vector& own = own_[center];
     sink(center, [&](int row, int col) { return own[row] * column[col]; });
     for (const Index e : this->neighbourhoods_.row(center)) {

@@ -40,6 +40,12 @@ constexpr double least_couple_at_surface = -0.2, least_couple_below = 0.4;
 /// Couples that have fallen to zero can grow again by steps of this fraction of their start.
 constexpr double least_couple_scale = 0.1;
 
+/// Returns the corner of a facet after this one, around the facet.
+Index next_corner(const Facets& facets, Index facet, Index corner) {
+  return corner + 1 == facets.corners.offsets[facet + 1] ? facets.corners.offsets[facet]
+                                                         : corner + 1;
+}
+
 }  // namespace
 
 CalibrationEquations::CalibrationEquations(const CalibrationInput& input, double least_weight,
@@ -83,24 +89,19 @@ void CalibrationEquations::choose_points() {
     particle_of_.push_back(i);
   };
   if (dim_ == 3 && input_.all_free()) {
-    order_by_place(add);
+    // By position: meshes number their nodes at random, and solutions are faster where neighbours
+    // are close in memory.
+    for (const auto& box : split_into_boxes(input_.particles.positions, dim_, points_in_a_row)) {
+      for (const Index i : box) add(i);
+    }
+    const auto ends = [&](Index b) {
+      return std::minmax(point_of_[input_.bonds.first[b]], point_of_[input_.bonds.second[b]]);
+    };
+    std::ranges::sort(free_bonds_, {}, [&](Index b) { return std::pair<Index, Index>(ends(b)); });
   } else {
     for (Index i = 0; i < num_particles; ++i) add(i);
   }
   kept_ = free_bonds_;
-}
-
-/// Orders points and bonds by position: meshes number their nodes at random, and solutions are
-/// faster where neighbours are close in memory.
-template <class Add>
-void CalibrationEquations::order_by_place(Add add) {
-  for (const auto& box : split_into_boxes(input_.particles.positions, dim_, points_in_a_row)) {
-    for (const Index i : box) add(i);
-  }
-  const auto ends = [&](Index b) {
-    return std::minmax(point_of_[input_.bonds.first[b]], point_of_[input_.bonds.second[b]]);
-  };
-  std::ranges::sort(free_bonds_, {}, [&](Index b) { return std::pair<Index, Index>(ends(b)); });
 }
 
 CalibrationEquations::Variable CalibrationEquations::axial_variable(Index b) const {
@@ -142,7 +143,7 @@ void CalibrationEquations::for_each_share(Visit visit) const {
       return part * std::max(0.0, facets_.shares[corner] - least_share);
     };
     for (Index c = begin; c < (edge ? begin + 1 : facets_.corners.offsets[f + 1]); ++c) {
-      const Index to = next_corner(f, c);
+      const Index to = next_corner(facets_, f, c);
       const Index first = facets_.corners.values[c], second = facets_.corners.values[to];
       if (point_of_[first] == no_index || point_of_[second] == no_index) continue;
       if (spare(to) + spare(c) == 0.0) continue;
@@ -155,7 +156,7 @@ void CalibrationEquations::for_each_share(Visit visit) const {
 template <class Visit>
 void CalibrationEquations::for_each_variable(Visit visit) const {
   for (const Index b : kept_) visit(axial_variable(b));
-  if (carries_moments()) {
+  if (forces_.bending) {
     for (const Index b : kept_) {
       if (!(start_.stiffness.bending[b] > 0.0)) continue;  // a truss (Poisson's ratio at its limit)
       const double at_first = start_.stiffness.inflection[b];
@@ -163,7 +164,7 @@ void CalibrationEquations::for_each_variable(Visit visit) const {
       if (at_first != 1.0) visit(couple_variable(b, 1));
     }
   }
-  if (shares_vary()) for_each_share(visit);
+  if (input_.all_free()) for_each_share(visit);
 }
 
 void CalibrationEquations::change(const Variable& variable, double value) {
@@ -181,7 +182,7 @@ void CalibrationEquations::change(const Variable& variable, double value) {
     }
     case Kind::share:
       facets_.shares[variable.end] -= value;
-      facets_.shares[next_corner(variable.index, variable.end)] += value;
+      facets_.shares[next_corner(facets_, variable.index, variable.end)] += value;
   }
 }
 
@@ -225,18 +226,23 @@ PointEquations CalibrationEquations::make_equations(const ForceRows& form) const
   equations.dim = dim_;
   equations.rows = form.count();
   equations.odd = form.odd();
-  equations.killing = dim_ == 3 && !carries_moments() && input_.all_free();
+  equations.killing = dim_ == 3 && !forces_.bending && input_.all_free();
   equations.one_ended = static_cast<Index>(kept_.size());
   std::vector<double> row(static_cast<std::size_t>(form.count()));
-  const std::size_t most = kept_.size() * (carries_moments() ? 3 : 1) +
-                           (shares_vary() ? facets_.corners.values.size() : 0);
+  const std::size_t most = kept_.size() * (forces_.bending ? 3 : 1) +
+                           (input_.all_free() ? facets_.corners.values.size() : 0);
   equations.coefficients.reserve(most * row.size());
   for (auto* ends : {&equations.first, &equations.second}) ends->reserve(most);
   for (auto* bounds : {&equations.lower, &equations.upper}) bounds->reserve(most);
   for_each_variable([&](const Variable& variable) {
     equations.first.push_back(point_of_[variable.first]);
     equations.second.push_back(point_of_[variable.second]);
-    if (orbits_) equations.unknown.push_back(unknown_of(variable));
+    if (orbits_) {
+      equations.unknown.push_back(variable.kind == Kind::axial
+                                      ? orbits_->of_bond(variable.index)
+                                      : orbits_->num_views +
+                                            orbits_->views[variable.index][variable.end]);
+    }
     fill_row(form, variable, row.data());
     for (const double value : row) equations.coefficients.push_back(variable.scale * value);
     equations.lower.push_back(1.0 + (variable.least - variable.present) / variable.scale);
@@ -290,11 +296,7 @@ PointEquations CalibrationEquations::settling() const {
   equations.ridge.resize(static_cast<std::size_t>(equations.rows), 0.0);
   if (dim_ == 3) std::fill_n(equations.ridge.begin(), forces_.odd(), forces_ridge_in_space);
   equations.ridge.back() = dilatation_ridge;
-  gather_dilatations(equations);
-  return equations;
-}
-
-void CalibrationEquations::gather_dilatations(PointEquations& equations) const {
+  // The particles of a column under the surface share one equation.
   const std::vector<Index> head = surface_columns(input_.bonds, facets_, input_.particles);
   const std::size_t rows = static_cast<std::size_t>(equations.rows);
   for (const Index i : particle_of_) {
@@ -307,6 +309,7 @@ void CalibrationEquations::gather_dilatations(PointEquations& equations) const {
   for (std::size_t p = 0; p < particle_of_.size(); ++p) {
     if (head[particle_of_[p]] == no_index) equations.scale[(p + 1) * rows - 1] = 0.0;
   }
+  return equations;
 }
 
 void CalibrationEquations::report_balance(CalibrationReport& report) const {

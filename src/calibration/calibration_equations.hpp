@@ -46,14 +46,14 @@ class CalibrationEquations {
   /// \return whether a lower bound was removed
   bool allow_zero(double limit);
   /// Drops bonds that have fallen to zero: no finite multiplier makes a weight exactly zero.
-  void drop_zero_weights();
+  /// \return fraction of the free bonds that are dropped
+  double drop_zero_weights();
   /// Presolve from the start: drops the bonds of an equation whose right side is zero and to which
   /// no bond can contribute with the other sign. At the corner of a cube these are all bonds that
   /// point inwards from its faces. \return whether bonds were dropped
   bool drop_fixed_at_zero();
   Index num_points() const { return static_cast<Index>(particle_of_.size()); }
-  Index num_free() const { return static_cast<Index>(free_bonds_.size()); }
-  Index num_dropped() const { return num_free() - static_cast<Index>(kept_.size()); }
+  Index num_dropped() const { return static_cast<Index>(free_bonds_.size() - kept_.size()); }
   /// Whether a particle has lost more than half of its bonds.
   bool underconstrained() const;
 
@@ -91,16 +91,7 @@ class CalibrationEquations {
   void for_each_variable(Visit visit) const;
   template <class Visit>
   void for_each_share(Visit visit) const;
-  Index next_corner(Index facet, Index corner) const {
-    return corner + 1 == facets_.corners.offsets[facet + 1] ? facets_.corners.offsets[facet]
-                                                            : corner + 1;
-  }
   Index class_of(Index bond) const { return orbits_ ? orbits_->of_bond(bond) : bond; }
-  Index unknown_of(const Variable& variable) const {
-    return variable.kind == Kind::axial
-               ? orbits_->of_bond(variable.index)
-               : orbits_->num_views + orbits_->views[variable.index][variable.end];
-  }
   template <class Gone>
   void drop(Gone gone);
   Variable axial_variable(Index bond) const;
@@ -109,13 +100,8 @@ class CalibrationEquations {
   void fill_row(const ForceRows& form, const Variable& variable, double* row) const;
   PointEquations make_equations(const ForceRows& form) const;
   void set_right_sides(PointEquations& equations) const;
-  void gather_dilatations(PointEquations& equations) const;
   std::vector<double> out_of_balance() const;
   void choose_points();
-  template <class Add>
-  void order_by_place(Add add);
-  bool shares_vary() const { return input_.all_free(); }
-  bool carries_moments() const { return forces_.bending; }
 
   /// The inverse of this weights squares of soft moments against squares of the changes.
   static constexpr double soft_ridge = 1e-4;

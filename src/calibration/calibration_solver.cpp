@@ -35,10 +35,6 @@ constexpr double settling_tolerance = 0.01;
 /// solids with edges; nearly infeasible equations would take minutes.
 constexpr int most_iterations = 8000;
 
-/// Exact penalty on residuals of forces and moments. Multipliers of feasible equations are up to
-/// 1e3.
-constexpr double penalty = 1e5, no_penalty = std::numeric_limits<double>::infinity();
-
 /// Regularisation for unstructured particle sets in space, whose equations are often infeasible.
 /// Multipliers of feasible equations are about 1 to 1e3.
 constexpr double regularisation = 1e-8;
@@ -59,7 +55,7 @@ constexpr double coarsely_met = 1e-4;
 LeastSquaresResult CalibrationSolver::solve_least_squares(PointEquations equations,
                                                           LeastSquaresOptions options) {
   ++searches_;
-  if (on_search_) on_search_(searches_, unbalanced());
+  if (options_.on_search) options_.on_search(searches_, unbalanced());
   LeastSquaresResult change = bounded_least_squares(std::move(equations), options, kept_);
   equations_.apply(change.weights);
   report_.iterations += change.iterations;
@@ -74,11 +70,11 @@ void CalibrationSolver::fit_energies() {
   LeastSquaresOptions options;
   options.tolerance = settling_tolerance;
   options.preconditioner = Preconditioner::blocks_then_boxes;
-  options.penalty = penalised_ ? penalty : no_penalty;
-  options.keeps_directions = !in_space_;
+  options.penalty = penalty_;
+  options.keeps_directions = !in_space();
   KeptPreconditioner of_forces = std::exchange(kept_, {});
   for (const Method method : {Method::newton, Method::interior_point}) {
-    if (in_space_ && method == Method::newton) continue;
+    if (in_space() && method == Method::newton) continue;
     equations_.restore(start);
     options.method = method;
     kept_.reset();  // coefficients depend on the present stiffnesses
@@ -88,22 +84,22 @@ void CalibrationSolver::fit_energies() {
 }
 
 /// Solves the exact equations once.
-void CalibrationSolver::balance_by(Method method, double charge, double tolerance) {
+void CalibrationSolver::balance_by(Method method, double tolerance) {
   LeastSquaresOptions options;
   options.tolerance = tolerance;
   options.iterations = most_iterations;
   options.method = method;
-  options.penalty = charge;
+  options.penalty = penalty_;
   options.infeasible_above = infeasible_above_;
-  if (in_space_ && irregular_) options.regularisation = regularisation;
+  if (in_space() && irregular()) options.regularisation = regularisation;
   PointEquations equations = equations_.balance();
   const bool tight =
       equations.num_variables() / least_freedom < static_cast<Index>(equations.right.size());
-  options.preconditioner = !in_space_             ? Preconditioner::factor
-                           : tight && !irregular_ ? Preconditioner::blocks_then_factor
-                                                  : Preconditioner::blocks_then_boxes;
+  options.preconditioner = !in_space()             ? Preconditioner::factor
+                           : tight && !irregular() ? Preconditioner::blocks_then_factor
+                                                   : Preconditioner::blocks_then_boxes;
   if (reduced_) options.diverged = diverged_by_factor;
-  if (reduced_ && tolerance > tolerance_) options.infeasible_ratio = infeasible_by_factor;
+  if (reduced_ && tolerance > options_.tolerance) options.infeasible_ratio = infeasible_by_factor;
   options.start = std::exchange(start_, {});
   multipliers_ = solve_least_squares(std::move(equations), options).multipliers;
   equations_.report_balance(report_);
@@ -124,10 +120,10 @@ bool CalibrationSolver::balance(double tolerance) {
   equations_.report_balance(report_);
   const double before = left(), largest_before = unbalanced();
   const CalibrationEquations::State settled = equations_.save();
-  const bool cold = irregular_ && in_space_ && start_.empty();
+  const bool cold = irregular() && in_space() && start_.empty();
   const Method first = cold ? Method::interior_point : Method::newton;
-  balance_by(first, penalised_ ? penalty : no_penalty, tolerance);
-  const bool solvable = moments_ || !in_space_;
+  balance_by(first, tolerance);
+  const bool solvable = moments_ != Moments::none || !in_space();
   // The tolerance applies to the mean.
   const bool unsolved = solvable && unbalanced() > std::max(met_balance, 100.0 * tolerance);
   const bool diverged = reduced_ && unbalanced() > largest_before;
@@ -136,7 +132,7 @@ bool CalibrationSolver::balance(double tolerance) {
     const double reached = left();
     equations_.restore(settled);
     kept_.reset();
-    balance_by(Method::interior_point, penalised_ ? penalty : no_penalty, tolerance);
+    balance_by(Method::interior_point, tolerance);
     kept_.reset();
     if (left() > reached) {
       equations_.restore(ascended);
@@ -151,7 +147,7 @@ bool CalibrationSolver::balance(double tolerance) {
 
 void CalibrationSolver::settle() {
   equations_.start_over();
-  if (energies_) fit_energies();
+  if (fits_energies_) fit_energies();
   settled_ = equations_.save();
 }
 
@@ -165,7 +161,7 @@ bool CalibrationSolver::fix_zero_variables() {
     equations_.restore(settled_);
   }
   if (equations_.num_dropped() == 0) return false;
-  balance(first_tolerance());
+  balance(first_tolerance_);
   if (unbalanced() <= coarsely_met && !equations_.underconstrained()) return true;
   equations_.take_all_back();
   kept_.reset();
@@ -175,20 +171,21 @@ bool CalibrationSolver::fix_zero_variables() {
 }
 
 /// Solves with the lower bounds of all bonds.
-bool CalibrationSolver::keep_floors() { return balance(first_tolerance()); }
+bool CalibrationSolver::keep_floors() { return balance(first_tolerance_); }
 
 /// Allows bonds of unbalanced particles to fall to zero and drops those that do. Restores the lower
 /// bounds where this does not reduce the largest unbalanced force to a tenth.
 /// \return whether a lower bound was removed
 bool CalibrationSolver::remove_floors() {
   if (stalled_search_ == searches_ && unbalanced() > far_from_balance) return false;
-  if (penalised_ || !equations_.allow_zero(in_space_ ? coarsely_met : met_balance)) return false;
+  if (penalty_ != no_penalty || !equations_.allow_zero(in_space() ? coarsely_met : met_balance))
+    return false;
   const double floored = unbalanced();
   const CalibrationEquations::State with_floors = equations_.save();
   equations_.restore(settled_);
   infeasible_above_ = far_from_worth * floored;
   const double root = std::sqrt(static_cast<double>(equations_.num_points()));
-  balance(std::min(first_tolerance(), near_to_worth * worth_dropping * floored / root));
+  balance(std::min(first_tolerance_, near_to_worth * worth_dropping * floored / root));
   infeasible_above_ = std::numeric_limits<double>::infinity();
   if (unbalanced() <= worth_dropping * floored) {
     balance_without_dropped();
@@ -204,19 +201,18 @@ bool CalibrationSolver::remove_floors() {
 /// solution starts from the present state and multipliers.
 void CalibrationSolver::balance_without_dropped() {
   const double reached = unbalanced();
-  equations_.drop_zero_weights();
-  const bool few = equations_.num_dropped() <= few_dropped * equations_.num_free();
-  if (reduced_ || (irregular_ && few)) start_ = std::move(multipliers_);
+  const bool few = equations_.drop_zero_weights() <= few_dropped;
+  if (reduced_ || (irregular() && few)) start_ = std::move(multipliers_);
   if (few) {
     settled_ = equations_.without_dropped(std::move(settled_));
     equations_.restore(settled_);
   } else {
     settle();
   }
-  balance(tolerance_);
-  if (irregular_ && few && unbalanced() > reached) {  // Newton's method diverged
+  balance(options_.tolerance);
+  if (irregular() && few && unbalanced() > reached) {  // Newton's method diverged
     equations_.restore(settled_);
-    balance(tolerance_);
+    balance(options_.tolerance);
   }
 }
 
@@ -224,11 +220,11 @@ void CalibrationSolver::balance_without_dropped() {
 bool CalibrationSolver::go_on_from_multipliers() {
   const double reached = unbalanced();
   const bool few = reached > exact_balance && reached <= coarsely_met;
-  if (!in_space_ || moments_ || !few || multipliers_.empty()) return false;
+  if (!in_space() || moments_ != Moments::none || !few || multipliers_.empty()) return false;
   const CalibrationEquations::State coarse = equations_.save();
   start_ = std::move(multipliers_);
   equations_.restore(settled_);
-  balance(tolerance_);
+  balance(options_.tolerance);
   if (unbalanced() <= reached) return true;
   equations_.restore(coarse);
   equations_.report_balance(report_);
@@ -239,8 +235,8 @@ bool CalibrationSolver::go_on_from_multipliers() {
 /// force.
 bool CalibrationSolver::go_on_from_weights() {
   const double before = unbalanced();
-  if (!in_space_ || before <= exact_balance || refinements_++ == most_refinements) return false;
-  return balance(tolerance_) && unbalanced() <= 0.5 * before;
+  if (!in_space() || before <= exact_balance || refinements_++ == most_refinements) return false;
+  return balance(options_.tolerance) && unbalanced() <= 0.5 * before;
 }
 
 bool CalibrationSolver::make_attempts() {
@@ -281,15 +277,15 @@ CalibrationReport CalibrationSolver::run() {
   equations_.report_balance(report_);
   report_.residual_before = report_.residual_after;
   const double start = unbalanced();
-  if (!make_attempts() && energies_) {
-    energies_ = false;
+  if (!make_attempts() && fits_energies_) {
+    fits_energies_ = false;
     keep_if_nearer([&] { return left(); }, [&] { make_attempts(); });
   }
-  if (moments_ && !reduced_ && unbalanced() > met_balance) {
+  if (moments_ == Moments::exact && !reduced_ && unbalanced() > met_balance) {
     const auto with_soft_moments = [&] {
       equations_.take_all_back();
       equations_.soften_moments();
-      soft_moments_ = true;
+      moments_ = Moments::soft;
       make_attempts();
     };
     keep_if_nearer([&] { return report_.residual_after; }, with_soft_moments);

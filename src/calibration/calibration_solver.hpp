@@ -45,16 +45,16 @@ class CalibrationSolver {
   CalibrationSolver(const CalibrationInput& input, const CalibrationOptions& options,
                     const Facets& facets, const BondStiffness& stiffness, const BondOrbits* orbits,
                     bool presolves)
-      : in_space_(input.particles.dim == 3),
-        irregular_(input.all_free()),
-        penalised_(!in_space_ && (irregular_ || input.give_up)),
+      : input_(input),
+        options_(options),
+        moments_(stiffness.bending.empty() ? Moments::none : Moments::exact),
         reduced_(orbits != nullptr),
-        cautious_(in_space_ && !(reduced_ && input.box)),
-        presolves_(presolves && in_space_ && !irregular_ && stiffness.bending.empty()),
-        moments_(!stiffness.bending.empty()),
-        tolerance_(options.tolerance),
-        on_search_(options.on_search),
-        energies_(irregular_),
+        penalty_(!in_space() && (irregular() || input.give_up) ? force_penalty : no_penalty),
+        // Corners may be infeasible: a coarse solution shows it, and an exact one is expensive.
+        first_tolerance_(in_space() && !(reduced_ && input.box) ? coarse_tolerance
+                                                                : options.tolerance),
+        presolves_(presolves && in_space() && !irregular() && moments_ == Moments::none),
+        fits_energies_(irregular()),
         equations_(input, options.least_weight, facets, stiffness, orbits) {}
 
   CalibrationReport run();
@@ -63,13 +63,25 @@ class CalibrationSolver {
   bool presolves() const { return presolves_; }
 
  private:
+  /// Exact penalty on residuals of forces and moments. Multipliers of feasible equations are up to
+  /// 1e3.
+  static constexpr double force_penalty = 1e5;
+  static constexpr double no_penalty = std::numeric_limits<double>::infinity();
+
+  /// How moments of the particles are balanced.
+  enum class Moments { none, exact, soft };
+
+  bool in_space() const { return input_.particles.dim == 3; }
+  bool irregular() const { return input_.all_free(); }
   double unbalanced() const {
-    return soft_moments_ ? report_.residual_after
-                         : std::max(report_.residual_after, report_.moment_after);
+    return moments_ == Moments::soft ? report_.residual_after
+                                     : std::max(report_.residual_after, report_.moment_after);
   }
   /// Measure to compare two solutions: penalties reduce the sum of the unbalanced forces, least
   /// squares roughly the largest.
-  double left() const { return penalised_ && !soft_moments_ ? report_.sum_after : unbalanced(); }
+  double left() const {
+    return penalty_ != no_penalty && moments_ != Moments::soft ? report_.sum_after : unbalanced();
+  }
   /// Rows of the table of attempts, and their ends.
   enum class Step {
     fix_zeros,
@@ -81,7 +93,6 @@ class CalibrationSolver {
     failed
   };
   LeastSquaresResult solve_least_squares(PointEquations equations, LeastSquaresOptions options);
-  double first_tolerance() const { return cautious_ ? coarse_tolerance : tolerance_; }
   void settle();
   bool fix_zero_variables();
   bool keep_floors();
@@ -93,21 +104,18 @@ class CalibrationSolver {
   template <class Measure, class Run>
   void keep_if_nearer(Measure measure, Run run);
   void fit_energies();
-  void balance_by(Method method, double charge, double tolerance);
+  void balance_by(Method method, double tolerance);
   bool balance(double tolerance);
 
-  bool in_space_, irregular_;
-  bool penalised_;  // residuals have an exact penalty in place of least squares
-  bool reduced_;
-  /// Corners may be infeasible: a coarse solution shows it, and an exact one is expensive.
-  bool cautious_;
-  bool presolves_;  // drops variables that are fixed at zero
-  bool moments_;
-  double tolerance_;
-  CalibrationObserver on_search_;
+  const CalibrationInput& input_;
+  const CalibrationOptions& options_;
+  Moments moments_;
+  bool reduced_;            // symmetry-reduced
+  double penalty_;          // exact penalty on residuals; infinity: least squares
+  double first_tolerance_;  // of the first solution
+  bool presolves_;          // drops variables that are fixed at zero
+  bool fits_energies_;      // has equations of the energies of dilatation
   int searches_ = 0, refinements_ = 0;
-  bool energies_;  // whether equations of the energies of dilatation are used
-  bool soft_moments_ = false;
   int stalled_search_ = 0;  // number of the last solution that ended with short steps
   double infeasible_above_ = std::numeric_limits<double>::infinity();  // ends a solution
   CalibrationEquations equations_;

@@ -67,7 +67,7 @@ void CalibrationEquations::drop(Gone gone) {
   std::erase_if(kept_, [&](Index b) {
     if (!gone(b)) return false;
     start_.stiffness.axial[b] = 0.0;
-    if (carries_moments()) start_.stiffness.bending[b] = 0.0;
+    if (forces_.bending) start_.stiffness.bending[b] = 0.0;
     return true;
   });
 }
@@ -95,20 +95,22 @@ bool CalibrationEquations::allow_zero(double limit) {
   return any;
 }
 
-void CalibrationEquations::drop_zero_weights() {
+double CalibrationEquations::drop_zero_weights() {
   drop([&](Index b) {
     if (floor_[b] != Floor::none) return false;
     if (stiffness_.axial[b] < vanishing * start_.stiffness.axial[b]) return true;
     floor_[b] = Floor::small;
     return false;
   });
+  const auto free = static_cast<double>(free_bonds_.size());
+  return static_cast<double>(num_dropped()) / std::max(free, 1.0);
 }
 
 auto CalibrationEquations::without_dropped(State state) const -> State {
   for (const Index b : free_bonds_) {
     if (start_.stiffness.axial[b] != 0.0) continue;
     state.stiffness.axial[b] = 0.0;
-    if (carries_moments()) state.stiffness.bending[b] = 0.0;
+    if (forces_.bending) state.stiffness.bending[b] = 0.0;
   }
   return state;
 }

@@ -76,7 +76,7 @@ ExpectedCrack crack_of(const Network& network, Index bond) {
 /// Returns the crack through all weak interfaces.
 ExpectedCrack crack_of_interfaces(const Network& network) {
   ExpectedCrack crack;
-  for (const auto& [count, area, strength] : network.interfaces) {
+  for (const auto& [count, area, strength] : network.report.interfaces) {
     crack.events += static_cast<double>(count) * strength.segments;
     crack.energy += area * strength.fracture_energy;
   }

@@ -47,7 +47,7 @@ void fill_normals(const Model& model, SurfaceConditions& surface) {
 SurfaceConditions surface_of_case(const CaseFile& input, const Model& model) {
   const Network& network = model.network;
   SurfaceConditions surface;
-  const bool precise = network.calibration || model.elements;
+  const bool precise = network.report.calibration || model.elements;
   if (!is_quasistatic(input.analysis.type) || !precise || network.has_sections()) return surface;
   surface.dim = network.dim();
   fill_normals(model, surface);

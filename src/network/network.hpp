@@ -74,6 +74,25 @@ struct Shell {
   std::vector<double> shear_ratio;  ///< out-of-plane shear stiffness over k [-]
 };
 
+/// States of state-based particles. In addition to its bonds a particle stores c s^2 / 2, with s
+/// the sum of the extensions of its neighbours' bonds.
+struct ParticleStates {
+  /// Stiffness c = b / 2 [force/length], per particle; b / (2 L_0) in a lattice. It is negative if
+  /// Poisson's ratio is below the ratio of a network of bonds.
+  std::vector<double> stiffness;
+  /// Ends whose sums include the extension of a bond, see BondEnd, per element; empty: both ends.
+  /// Nearest neighbours need not be mutual.
+  std::vector<std::uint8_t> ends = {};
+};
+
+/// Results of building a network, for messages and estimates.
+struct NetworkReport {
+  std::optional<CalibrationReport> calibration;  ///< present if bonds were calibrated
+  std::vector<MaterialStrength> strengths;       ///< by material; empty if bonds have no laws
+  std::vector<Index> cut_by_crack;               ///< number of bonds removed by each pre-crack
+  std::vector<InterfaceBonds> interfaces;        ///< bonds of each weak interface
+};
+
 /// Particles with truss or frame elements. Elements are numbered in this order: bonds of the solid,
 /// contact springs of pre-cracks, slip springs between bars and solid, bar elements.
 struct Network {
@@ -94,15 +113,7 @@ struct Network {
   /// of the ends is free, and the inflection lies at the hinge. With two hinges the bond is a
   /// truss. Empty: no hinges.
   std::vector<std::uint8_t> hinged;
-  /// Stiffness c = b / 2 of the states of state-based particles [force/length], per particle;
-  /// b / (2 L_0) in a lattice. In addition to its bonds a particle stores c s^2 / 2, with s the sum
-  /// of the extensions of its neighbours' bonds. The stiffness is negative if Poisson's ratio is
-  /// below the ratio of a network of bonds. Empty: bonds only. Only networks of trusses have
-  /// states.
-  std::vector<double> state_stiffness;
-  /// Ends whose sums include the extension of a bond, see BondEnd, per element; empty: both ends.
-  /// Nearest neighbours need not be mutual.
-  std::vector<std::uint8_t> state_of;
+  std::optional<ParticleStates> states;  ///< present in state-based bodies, networks of trusses
   double torsion = 1.0;  ///< torsional over bending modulus of micropolar bonds in 3D [-]
   /// Laws of the elements, and the number of each element's law; empty: all have the first law.
   std::vector<BondLaw> laws = {BondLaw::brittle()};
@@ -113,7 +124,6 @@ struct Network {
   /// Materials whose mean determines the strength of a bond, per element: the materials of its
   /// layers. Empty: the materials of its ends.
   std::vector<std::array<Index, 2>> materials_of;
-  std::vector<MaterialStrength> strengths;  ///< by material; empty if bonds have no laws
   /// Stiffness of elastic supports between the components of particles and the ground
   /// [force/length], shape (particles, width); empty: no supports.
   std::vector<double> support_stiffness;
@@ -129,10 +139,7 @@ struct Network {
   Bars bars;
   EmbeddedPoints embedded_points;  ///< the last particles
   Facets facets;  ///< surface and interfaces, with the nodal area fractions that the bonds balance
-  std::optional<CalibrationReport> calibration;  ///< present if bonds were calibrated
-
-  std::vector<Index> cut_by_crack;         ///< number of bonds removed by each pre-crack
-  std::vector<InterfaceBonds> interfaces;  ///< bonds of each weak interface
+  NetworkReport report;
 
   /// Tied finite elements where the body has no bonds. Particles are their vertices. Their edges
   /// are the last bonds of the solid; they have no stiffness and serve for connectivity.
@@ -161,10 +168,10 @@ struct Network {
   /// Returns whether bonds represent whole sections of a shell or a beam. Particles then have no
   /// stress, and cracks have no opening.
   bool has_sections() const { return shell.has_value() || is_beam(); }
-  bool has_states() const { return !state_stiffness.empty(); }
+  bool has_states() const { return states.has_value(); }
   /// Returns whether the extension of a bond counts in the sum of the given end.
   bool counts_for(Index element, BondEnd end) const {
-    return state_of.empty() || (state_of[element] & end) != 0;
+    return states->ends.empty() || (states->ends[element] & end) != 0;
   }
   Index num_elements() const { return bonds.size(); }
   /// Returns the number of particles without the points of contact springs.

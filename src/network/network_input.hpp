@@ -73,6 +73,14 @@ struct WeakInterface {
   SofteningMaterial softening = {};
 };
 
+/// Whether the bonds of a body are calibrated.
+enum class Calibrating {
+  always,
+  only_alike,  ///< bonds stay uncalibrated if the symmetry-reduced equations have no solution
+  never,       ///< draft: shows results that do not depend on the calibration before it runs
+  estimated    ///< draft that reports the expected cost of the calibration
+};
+
 /// Parameters that turn the particles of a body into a network.
 struct NetworkInput {
   Problem problem = Problem::plane_stress;
@@ -97,12 +105,12 @@ struct NetworkInput {
   std::vector<RebarLine> bars;
   std::vector<BarMaterial> bar_materials;  ///< per bar
   CalibrationCalls calibration;
-  /// Bonds stay uncalibrated if the symmetry-reduced equations have no solution.
-  bool only_alike = false;
-  bool draft = false;  ///< uncalibrated model: shows results that do not depend on the calibration
-                       ///< before it runs
-  bool estimates_cost = false;  ///< an uncalibrated model reports the expected cost of the
-                                ///< calibration
+  Calibrating calibrating = Calibrating::always;
+
+  /// Whether the model stays uncalibrated.
+  bool is_draft() const {
+    return calibrating == Calibrating::never || calibrating == Calibrating::estimated;
+  }
 };
 
 /// Returns the constants c [force/length^6] and d [force/length^4] of the bonds of a material; d is

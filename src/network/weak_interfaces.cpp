@@ -363,7 +363,7 @@ void weaken_interfaces(const Body& body, const NetworkInput& input, const EvenBo
   for (std::size_t k = 0; k < input.interfaces.size(); ++k) {
     const WeakInterface& section = input.interfaces[k];
     const std::vector<Index> crossing = bonds_across(body, input, section, network);
-    InterfaceBonds& own = network.interfaces.emplace_back();
+    InterfaceBonds& own = network.report.interfaces.emplace_back();
     own.count = static_cast<Index>(crossing.size());
     if (crossing.empty()) continue;
     Face face = Measure(input, network, even, crossing).face();

@@ -3,6 +3,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -55,6 +56,20 @@ template <class T>
 pybind11::array_t<T> owning_array(std::vector<T> values) {
   const auto size = static_cast<pybind11::ssize_t>(values.size());
   return owning_array(std::move(values), {size});
+}
+
+/// Adds the quantities of a row as properties, named as the columns of history.csv.
+template <class Row>
+void bind_columns(pybind11::class_<Row>& type) {
+  for (const RowColumn<Row>& column : columns_of(Row{})) {
+    std::string text = column.meaning;
+    if (*column.unit != '\0') text.insert(text.size() - 1, std::string(" [") + column.unit + "]");
+    const auto get = [&column](const Row& row) -> pybind11::object {
+      if (column.counts) return pybind11::int_(static_cast<long>(column.get(row)));
+      return pybind11::float_(column.get(row));
+    };
+    type.def_property_readonly(column.name, get, text.c_str());
+  }
 }
 
 /// Returns values of the gauges of a model by their names.

@@ -169,24 +169,9 @@ py::dict result_of(Stepper& stepper) {
 }
 
 void bind_row(py::module_& module) {
-  py::class_<StepRecord>(module, "EventRow", "Equilibrium at the load of the next event.")
-      .def_readonly("step", &StepRecord::step, "Number of the row, from 1.")
-      .def_readonly("stage", &StepRecord::stage, "Number of the stage, from 1; 0: none.")
-      .def_readonly("load_factor", &StepRecord::load_factor, "Load factor [-].")
-      .def_readonly("load", &StepRecord::load, "Load [force].")
-      .def_readonly("displacement", &StepRecord::displacement,
-                    "Displacement, work-conjugate to the load [length].")
-      .def_readonly("element", &StepRecord::element, "Element that fails at this load; -1: none.")
-      .def_readonly("others", &StepRecord::others, "Elements that fail with it.")
-      .def_readonly("broken_bonds", &StepRecord::broken_bonds, "Broken bonds in this equilibrium.")
-      .def_readonly("yield_events", &StepRecord::yield_events,
-                    "Segments of laws passed without a break.")
-      .def_readonly("strain_energy", &StepRecord::strain_energy, "Stored [force length].")
-      .def_readonly("dissipated_energy", &StepRecord::dissipated_energy,
-                    "Dissipated so far [force length].")
-      .def_readonly("external_work", &StepRecord::external_work,
-                    "Work of loads and reactions so far [force length].")
-      .def_readonly("residual", &StepRecord::residual, "Relative residual when last measured [-].")
+  py::class_<StepRecord> row(module, "EventRow", "Equilibrium at the load of the next event.");
+  bind_columns(row);
+  row.def_readonly("others", &StepRecord::others, "Elements that fail with `element`.")
       .def("__repr__", [](const StepRecord& row) {
         return fmt::format(
             "EventRow(step={}, load={:.6g}, displacement={:.6g}, broken_bonds={}, element={})",

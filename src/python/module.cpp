@@ -45,7 +45,7 @@ void translate(std::exception_ptr pointer) {
 /// \param has_lines  later messages give lines of the text
 CaseFile read_text(const std::string& text, const std::string& path, bool has_lines) {
   CaseFile input = parse_case(text, path);
-  if (!has_lines) input.lines.clear();
+  if (!has_lines) input.source.lines.clear();
   return input;
 }
 
@@ -60,7 +60,7 @@ PYBIND11_MODULE(_core, module) {
   module.def("build_summary", build_summary);
 
   py::class_<CaseFile>(module, "CaseFile")
-      .def_property_readonly("path", [](const CaseFile& input) { return input.path; })
+      .def_property_readonly("path", [](const CaseFile& input) { return input.source.path; })
       .def_readwrite("trust_geometry", &CaseFile::trust_geometry)
       .def("resolved", write_case);
   module.def("parse_case", read_text, py::arg("text"), py::arg("path"), py::arg("has_lines"));

@@ -182,34 +182,10 @@ py::object result_of(const TimeStepper& stepper) {
   return result;
 }
 
-template <double EnergyBalance::*Member>
-double energy_of(const ExplicitRecord& row) {
-  return row.energy.*Member;
-}
-
 void bind_row(py::module_& module) {
-  py::class_<ExplicitRecord>(module, "TimeRow", "Row of an explicit run or a relaxation.")
-      .def_readonly("step", &ExplicitRecord::step, "Time step; relaxation: iterations so far.")
-      .def_readonly("time", &ExplicitRecord::time, "Time [time]; relaxation: load step.")
-      .def_readonly("load_factor", &ExplicitRecord::load_factor, "Load factor [-].")
-      .def_readonly("load", &ExplicitRecord::load, "Load, inertia included [force].")
-      .def_readonly("support_reaction", &ExplicitRecord::support_reaction,
-                    "Reaction of the supports along the load [force].")
-      .def_readonly("displacement", &ExplicitRecord::displacement,
-                    "Displacement of controlled or loaded particles [length].")
-      .def_readonly("broken_bonds", &ExplicitRecord::broken_bonds, "Broken bonds.")
-      .def_readonly("cracked_particles", &ExplicitRecord::cracked_particles,
-                    "State-based particles with damage.")
-      .def_property_readonly("kinetic_energy", energy_of<&EnergyBalance::kinetic>,
-                             "Kinetic energy [force length].")
-      .def_property_readonly("strain_energy", energy_of<&EnergyBalance::stored>,
-                             "Stored energy [force length].")
-      .def_property_readonly("dissipated_energy", energy_of<&EnergyBalance::fractured>,
-                             "Energy lost by breaks so far [force length].")
-      .def_property_readonly("damped_energy", energy_of<&EnergyBalance::external_damping>,
-                             "Energy lost by damping so far [force length].")
-      .def_property_readonly("external_work", energy_of<&EnergyBalance::external_work>,
-                             "Work of loads and reactions so far [force length].")
+  py::class_<ExplicitRecord> row(module, "TimeRow", "Row of an explicit run or a relaxation.");
+  bind_columns(row);
+  row.def_readonly("support_reaction", &ExplicitRecord::support_reaction, "As `reaction`.")
       .def("__repr__", [](const ExplicitRecord& row) {
         return fmt::format("TimeRow(step={}, time={:.6g}, load={:.6g}, broken_bonds={})", row.step,
                            row.time, row.load, row.broken_bonds);

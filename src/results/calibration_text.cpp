@@ -26,8 +26,8 @@ std::string calibration_line(const CalibrationReport& report) {
 }
 
 std::optional<std::string> calibration_shortfall(const Network& network) {
-  if (!network.calibration || network.calibration->unmet == 0) return std::nullopt;
-  const CalibrationReport& report = *network.calibration;
+  if (!network.report.calibration || network.report.calibration->unmet == 0) return std::nullopt;
+  const CalibrationReport& report = *network.report.calibration;
   const double worst = std::max(report.residual_after, report.moment_after);
   std::string text = fmt::format(
       "uniform strains leave {} out of balance, most (by {:.1e} of the force on a face "

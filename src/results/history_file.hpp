@@ -4,19 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "analysis/dynamics/explicit_run.hpp"
-#include "analysis/quasistatic/observer.hpp"
 #include "base/timer.hpp"
-#include "io/case/case_file.hpp"
 #include "io/text/csv.hpp"
+#include "results/history_columns.hpp"
 
 namespace perilink {
-
-/// Returns the columns of the history of a case, without gauges.
-std::vector<std::string> history_columns(const CaseFile& input);
-
-/// Whether a column is a standard column of some analysis type; otherwise it is a gauge.
-bool is_history_column(const std::string& name);
 
 /// Writes DIR/history.csv, the same in every run on a machine, and DIR/timing.csv with the time of
 /// each row. Rows are flushed at most twice a second, because runs have thousands of events per
@@ -53,10 +45,11 @@ class HistoryFile {
 
  private:
   void choose_columns(const CaseFile& input);
+  template <class Row>
+  std::vector<double> values_of(const Row& record) const;
   void write(std::vector<double> row, std::span<const double> gauges, double seconds);
 
-  bool bonds_break_;                ///< else particles crack
-  std::vector<std::size_t> shown_;  ///< columns of quasistatic runs
+  std::vector<std::size_t> shown_;  ///< of columns_of()
   CsvWriter history_;
   CsvWriter timing_;
   Timer since_row_;

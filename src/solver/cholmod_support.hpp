@@ -61,7 +61,6 @@ class CholmodRoute : public Factor {
   SingleFactor in_single(double unit) const override;
   std::vector<double> columns(std::span<const SparseVector> x) override;
   void compliance(std::span<const SparseVector> x, std::span<double> result) override;
-  int factorizations() const override { return factorizations_; }
   FactorStatistics statistics() const override;
 
  protected:

@@ -89,9 +89,6 @@ class Factor {
   /// Changes K to K + x x' (a ground spring); the pattern of x x' must lie in the pattern of K.
   virtual void update(const SparseVector& x) = 0;
 
-  /// Returns the number of numerical factorisations.
-  virtual int factorizations() const = 0;
-
   virtual FactorStatistics statistics() const = 0;
 };
 

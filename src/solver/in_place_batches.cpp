@@ -111,7 +111,7 @@ void InPlaceFactor::add_solution(const SparseVector& b, std::span<double> soluti
     forward_on(s, 0, p_.data(), local_.data());
     const Supernode<double> here = block(s);
     for (Index j = 0; is_wanted(s) && j < here.columns; ++j) {
-      vector_[here.first + j] = p_[here.first + j] / *diagonal(s, j);
+      vector_[here.first + j] = p_[here.first + j] / here.diagonal(j);
     }
   }
   descend(solution_threads_, [this](Index s, double* local) {

@@ -25,11 +25,6 @@ InPlaceFactor::InPlaceFactor(int threads)
       change_threads_(threads),
       factor_(nullptr, CholmodFactorDeleter{session_.get()}) {}
 
-double* InPlaceFactor::diagonal(Index supernode, Index column) const {
-  const Supernode<double> b = block(supernode);
-  return b.values + static_cast<std::size_t>(column) * (b.count + 1);
-}
-
 void InPlaceFactor::factorize(const SparseMatrix& matrix, std::span<const Index> groups) {
   size_ = static_cast<Index>(matrix.cols());
   factor_ = analyze_supernodal(session_, matrix, groups);
@@ -159,32 +154,29 @@ void InPlaceFactor::solve(std::span<const double> rhs, std::span<double> solutio
   for (Index s = 0; s < count; ++s) {
     forward_on(s, 0, vector_.data(), local_.data());
     const Supernode<double> b = block(s);
-    for (Index j = 0; j < b.columns; ++j) vector_[b.first + j] /= *diagonal(s, j);
+    for (Index j = 0; j < b.columns; ++j) vector_[b.first + j] /= b.diagonal(j);
   }
   descend(solution_threads_,
           [this](Index s, double* local) { backward_on(s, vector_.data(), local); });
   for (Index k = 0; k < size_; ++k) solution[k] = vector_[position_[k]];
 }
 
-/// Eliminates x along its path and stores p = L^-1 x in p_, unless p_ already holds it.
-void InPlaceFactor::forward_path(const SparseVector& permuted) {
-  if (permuted.size() > 0 && permuted == on_path_of_) return;
-  forward_path(permuted, permuted.size() == 0 ? no_index : permuted.rows[0]);
-}
-
-/// Eliminates x along the path from column `start`, at or before the first row of x; no_index: no
-/// path.
-void InPlaceFactor::forward_path(const SparseVector& permuted, Index start) {
+/// Eliminates x along a path and stores p = L^-1 x in p_.
+/// \param start  column where the path begins, at or before the first row of x; no_index: no path.
+///     Not given: the path of x, where nothing is done if p_ already holds p.
+void InPlaceFactor::forward_path(const SparseVector& permuted, std::optional<Index> start) {
+  if (!start && permuted.size() > 0 && permuted == on_path_of_) return;
+  Index from = start.value_or(permuted.size() == 0 ? no_index : permuted.rows[0]);
   clear_path();
   on_path_of_ = permuted;
-  if (start == no_index) return;
+  if (from == no_index) return;
   for (int k = 0; k < permuted.size(); ++k) p_[permuted.rows[k]] = permuted.values[k];
-  for (Index s = tree_.of_column[start]; s != no_index; s = tree_.parent[s]) {
+  for (Index s = tree_.of_column[from]; s != no_index; s = tree_.parent[s]) {
     path_.push_back(s);
     on_path_[s] = 1;
     const Index first = block(s).first;
-    forward_on(s, std::max<Index>(start - first, 0), p_.data(), local_.data());
-    start = 0;
+    forward_on(s, std::max<Index>(from - first, 0), p_.data(), local_.data());
+    from = 0;
   }
 }
 
@@ -206,7 +198,7 @@ void InPlaceFactor::start_change(double sign) {
   for (const Index s : path_) {
     const Supernode<double> b = block(s);
     for (Index j = 0; j < b.columns; ++j) {
-      double& d = *diagonal(s, j);
+      double& d = b.diagonal(j);
       const Index k = b.first + j;
       const double changed = d + sigma * p_[k] * p_[k];
       vector_[k] = p_[k] / d;
@@ -225,7 +217,7 @@ double InPlaceFactor::pivot(const SparseVector& x) {
     const Supernode<double> b = block(s);
     for (Index j = 0; j < b.columns; ++j) {
       const double p = p_[b.first + j];
-      removed += p * p / *diagonal(s, j);
+      removed += p * p / b.diagonal(j);
     }
   }
   return 1.0 - removed;
@@ -246,7 +238,7 @@ void InPlaceFactor::compliance(std::span<const SparseVector> x, std::span<double
     for (const Index s : path_) {
       const Supernode<double> b = block(s);
       for (Index j = 0; j < b.columns; ++j) {
-        scaled[a].push_back(p_[b.first + j] / std::sqrt(*diagonal(s, j)));
+        scaled[a].push_back(p_[b.first + j] / std::sqrt(b.diagonal(j)));
       }
     }
     for (std::size_t b = 0; b <= a; ++b) {
@@ -264,7 +256,7 @@ std::vector<double> InPlaceFactor::columns(std::span<const SparseVector> x) {
     for (const Index s : path_) {
       const Supernode<double> b = block(s);
       double* const motion = motions.data() + c * size_ + b.first;
-      for (Index j = 0; j < b.columns; ++j) motion[j] = p_[b.first + j] / *diagonal(s, j);
+      for (Index j = 0; j < b.columns; ++j) motion[j] = p_[b.first + j] / b.diagonal(j);
     }
   }
   descend(column_threads_, [&](Index s, double* local) {

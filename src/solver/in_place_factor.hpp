@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/thread_choice.hpp"
@@ -37,14 +38,12 @@ class InPlaceFactor final : public Factor {
   /// Eliminates along the paths of the rows, with one backward pass.
   void add_solution(const SparseVector& b, std::span<double> solution) override;
   void update(const SparseVector& x) override;
-  int factorizations() const override { return factorizations_; }
   FactorStatistics statistics() const override;
 
  private:
   Supernode<double> block(Index supernode) const { return supernode_of(*factor_, supernode); }
   Index num_supernodes() const { return static_cast<Index>(factor_->nsuper); }
 
-  double* diagonal(Index supernode, Index column) const;
   void adopt_pattern();
   void turn_into_ldl();
   void forward_on(Index supernode, Index start, double* vector, double* local) const;
@@ -54,8 +53,7 @@ class InPlaceFactor final : public Factor {
   template <typename Function>
   void descend(ThreadChoice& choice, const Function& on_supernode);
   bool is_wanted(Index supernode) const { return wanted_.empty() || wanted_[supernode]; }
-  void forward_path(const SparseVector& permuted);
-  void forward_path(const SparseVector& permuted, Index start);
+  void forward_path(const SparseVector& permuted, std::optional<Index> start = std::nullopt);
   void downdate_one(const SparseVector& x, double load_change, double pivot,
                     std::span<double> solution);
   void change_path(const SparseVector& permuted, double sign);

@@ -171,7 +171,7 @@ TEST_P(TiedPatches, UniformStrainIsExact) {
   EXPECT_EQ(model.embedded.has_value(), !patch.elements.empty());
   // In space the equal area fractions of tied facets prevent an exact calibration of bonds at their
   // edges.
-  const double rest = model.network.calibration->residual_after;
+  const double rest = model.network.report.calibration->residual_after;
   EXPECT_LT(rest, patch.dim == 2 ? 1e-10 : 1e-2);
   expect_linear_motion(model, 6.0, patch.dim == 2 ? 0.0 : rest);
 }

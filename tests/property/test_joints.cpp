@@ -98,7 +98,7 @@ class PiecewiseLinearFields : public testing::TestWithParam<JointCase> {};
 
 TEST_P(PiecewiseLinearFields, AreInEquilibrium) {
   const JointBody joint(GetParam(), GetParam().pattern == Pattern::hexagonal ? 10 : 8);
-  EXPECT_LT(joint.network.calibration->residual_after, 1e-9);
+  EXPECT_LT(joint.network.report.calibration->residual_after, 1e-9);
   for (int a = 0; a < GetParam().dim; ++a) {
     for (int b = a; b < GetParam().dim; ++b) {
       // Round-off of the calibration, which is met to 1e-10.
@@ -139,7 +139,7 @@ TEST(Joints, ThreeMaterialsInThinLayersAreInBalance) {
   input.horizon = lattice.horizon;
   input.materials = {{3.0}, {30.0}, {0.5}};
   const Network network = build_network(make_body(lattice), input);
-  EXPECT_LT(network.calibration->residual_after, 1e-9);
+  EXPECT_LT(network.report.calibration->residual_after, 1e-9);
   EXPECT_TRUE(find_loose_particles(network).empty());
 }
 
@@ -187,7 +187,7 @@ TEST_P(CutsBesideJoints, TakeTheEnergyOfTheirLayer) {
   joint.input.materials[0].fracture_energy = 1.0;
   joint.input.materials[1].fracture_energy = 0.5;
   joint.network = build_network(joint.body, joint.input);
-  EXPECT_LT(joint.network.calibration->residual_after, 1e-9);
+  EXPECT_LT(joint.network.report.calibration->residual_after, 1e-9);
   EXPECT_EQ(bonds_across(joint.network), 0);
   for (const double rows : {-2.5, -1.5, -0.5, 0.5, 1.5, 2.5}) {
     const double height = height_of_joint + 0.9 * rows / count;
@@ -232,7 +232,7 @@ TEST(Joints, WhatBreaksElsewhereLeavesThemInBalance) {
     };
     const Network network = breaks_below(0.2);
     EXPECT_EQ(bonds_across(network), 0);
-    EXPECT_LT(network.calibration->residual_after, 1e-9);
+    EXPECT_LT(network.report.calibration->residual_after, 1e-9);
     std::vector<double> stretches;
     for (Index b = 0; b < network.bonds.size(); ++b) {
       if (std::isfinite(network.critical_stretch[b])) {

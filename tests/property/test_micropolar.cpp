@@ -358,7 +358,7 @@ INSTANTIATE_TEST_SUITE_P(InPlaneAndSpace, Inflected, testing::Values(2, 3));
 TEST(UnstructuredMicropolar, BreaksByTheStrainAlone) {
   const Network network =
       build_network(make_unstructured(1, 10), unstructured_micropolar_input(10));
-  ASSERT_LT(network.calibration->smallest_weight, 0.5);
+  ASSERT_LT(network.report.calibration->smallest_weight, 0.5);
   const double b = network.ratio_of_bending(0) * std::pow(network.bonds.lengths[0], 2);
   const auto measure = [&](Index e, double exx, double eyy, double exy) {
     const auto n = network.bonds.direction(e);

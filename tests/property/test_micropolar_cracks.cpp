@@ -68,7 +68,7 @@ TEST_P(PulledPlate, BreaksAcrossTheHoleOnly) {
   const CaseFile input =
       parse_case(pulled_plate(GetParam()), PERILINK_SOURCE_DIR "/meshes/plate.toml");
   const Model model = build_model(input);
-  ASSERT_LT(model.network.calibration->smallest_weight, 0.1);
+  ASSERT_LT(model.network.report.calibration->smallest_weight, 0.1);
   CrackRecorder recorder;
   const DamageResult result = run_damage_analysis(model, damage_options(input, 1), recorder);
   const auto peak =

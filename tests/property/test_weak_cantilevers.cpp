@@ -67,7 +67,7 @@ TEST_P(WeakCantilevers, OpenAlongTheInterfaceAtTheLoadOfBeamTheory) {
   const std::vector<double> load = values_of(history, "load");
   const std::vector<double> opening = values_of(history, "displacement");
   const std::vector<double> element = values_of(history, "element");
-  const double limit = network.interfaces.at(0).strength.first_stretch;
+  const double limit = network.report.interfaces.at(0).strength.first_stretch;
   // G = 12 P^2 L^2 / (E h^3), and the opening is 8 P L^3 / (E h^3). L is the crack length plus the
   // effect of rotation at the roots of the arms. Without L: P^2 = 8 (G E h^3 / 12)^(3/2) / (E h^3
   // opening).

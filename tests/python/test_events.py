@@ -1,6 +1,7 @@
 """Damage analyses row by row."""
 
 import os
+import re
 import signal
 import tempfile
 import threading
@@ -46,15 +47,24 @@ class Events(unittest.TestCase):
         run = perilink.EventRun(perilink.build(case), threads=1)
         tops = []
         for k, row in enumerate(run):
-            for column in ("step", "load", "displacement", "load_factor", "broken_bonds",
-                           "element", "strain_energy", "dissipated_energy", "external_work"):
-                self.assertEqual(getattr(row, column), history[column][k], column)
+            for column in history:
+                if column != "top":
+                    self.assertEqual(getattr(row, column), history[column][k], column)
             tops.append(run.gauges["top"])
         self.assertEqual(tops, list(history["top"]))
         self.assertGreater(len(tops), 5)
         self.assertEqual(len(tops), len(history["load"]))
         self.assertEqual(run.result["status"], "collapsed")
         self.assertEqual(list(run), [])
+
+    def test_stubs_list_all_quantities_of_rows(self):
+        path = Path(os.environ["PERILINK_SOURCE_DIR"]) / "src/python/perilink/_core.pyi"
+        stubs = path.read_text(encoding="utf-8")
+        for row in (perilink.EventRow, perilink.TimeRow):
+            body = re.search(rf"^class {row.__name__}:(.*?)^\S", stubs, re.DOTALL | re.MULTILINE)
+            named = re.findall(r"def (\w+)\(self\)", body[1])
+            self.assertEqual(sorted(named),
+                             sorted(k for k, v in vars(row).items() if isinstance(v, property)))
 
     def test_arrays_are_of_the_last_row(self):
         case = strip_with_gauge()

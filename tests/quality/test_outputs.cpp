@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -13,6 +14,7 @@
 #include "io/fields/vtu.hpp"
 #include "io/text/csv.hpp"
 #include "quality/source_tree.hpp"
+#include "results/history_columns.hpp"
 #include "support/temporary_directory.hpp"
 
 namespace perilink::quality {
@@ -146,6 +148,20 @@ void expect_named(const std::string& text, const std::string& name, const std::s
       << "docs/outputs.md does not name the " << what << " `" << name << "`";
 }
 
+/// Returns the unit that a table of the page gives for a name; tables list names and their units as
+/// "| `load`, `displacement` | F, L |", or one unit for all.
+std::string unit_in(const std::string& text, const std::string& name) {
+  const std::size_t at = text.find("`" + name + "`");
+  const std::size_t line = text.rfind('\n', at) + 1, bar = text.find(" | ", at);
+  const auto commas = std::count(text.begin() + line, text.begin() + at, ',');
+  std::string units = text.substr(bar + 3, text.find(" | ", bar + 3) - bar - 3);
+  for (auto k = commas; k > 0 && units.find(", ") != std::string::npos; --k) {
+    units.erase(0, units.find(", ") + 2);
+  }
+  units = units.substr(0, units.find(", "));
+  return units == "–" ? "" : units;
+}
+
 void expect_keys(const std::string& text, const nlohmann::json& object) {
   for (const auto& [key, value] : object.items()) {
     expect_named(text, key, "key of summary.json");
@@ -199,6 +215,8 @@ TEST_P(Outputs, EveryFileIsDocumented) {
 TEST_P(Outputs, EveryColumnIsDocumented) {
   for (const std::string& column : read_csv((results() / "history.csv").string()).columns) {
     expect_named(section("history.csv"), column, "column of history.csv");
+    ASSERT_NE(find_history_column(column), nullptr) << column;
+    EXPECT_EQ(unit_in(section("history.csv"), column), find_history_column(column)->unit) << column;
   }
   for (const std::string& column : read_csv((results() / "timing.csv").string()).columns) {
     expect_named(page(), column, "column of timing.csv");

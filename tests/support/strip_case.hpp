@@ -119,7 +119,7 @@ inline void expect_refused(const CaseFile& input, const std::string& key, const 
     ADD_FAILURE() << "accepted; expected a refusal of " << key;
   } catch (const InputError& error) {
     EXPECT_EQ(error.where().key, key) << error.what();
-    EXPECT_EQ(error.where().file, input.path);
+    EXPECT_EQ(error.where().file, input.source.path);
     EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
   }
 }

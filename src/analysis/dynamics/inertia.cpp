@@ -18,7 +18,7 @@ using Blocks = std::vector<Eigen::Matrix<double, Width, Width>,
 /// sum of n extensions squares to at most n times the sum of their squares.
 std::vector<double> bounding_stiffness(const Network& network) {
   if (!network.has_states()) return network.stiffness;
-  std::vector<double> count(network.state_stiffness.size(), 0.0);
+  std::vector<double> count(network.states->stiffness.size(), 0.0);
   const auto each_state = [&](const auto& visit) {
     for (Index e = 0; e < network.num_elements(); ++e) {
       if (network.counts_for(e, first_end)) visit(e, network.bonds.first[e]);
@@ -28,7 +28,7 @@ std::vector<double> bounding_stiffness(const Network& network) {
   each_state([&](Index, Index i) { count[i] += 1.0; });
   std::vector<double> stiffness = network.stiffness;
   each_state([&](Index e, Index i) {
-    stiffness[e] += std::max(0.0, network.state_stiffness[i]) * count[i];
+    stiffness[e] += std::max(0.0, network.states->stiffness[i]) * count[i];
   });
   return stiffness;
 }

@@ -72,7 +72,7 @@ void visit_states(const Network& network, Visit visit) {
       }
       parts.push_back(far);
     }
-    visit(network.state_stiffness[i], std::span<const EnergyPart>(parts));
+    visit(network.states->stiffness[i], std::span<const EnergyPart>(parts));
   }
 }
 

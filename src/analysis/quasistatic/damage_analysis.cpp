@@ -103,25 +103,6 @@ void measure_permanent(PathState& path, const ReferenceLoad& load, const LoadWor
 
 }  // namespace
 
-/// Records the residual and, if it was summed over the elements, the stored energy.
-void EventRun::take_note_of(const Balance& balance) {
-  path_.row.residual = balance.residual;
-  path_.stored_by_elements = balance.stored_energy;
-  path_.stored_by_permanent = balance.stored_by_permanent;
-  path_.result.largest_residual = std::max(path_.result.largest_residual, balance.residual);
-  if (!std::isnan(balance.stored_energy)) path_.checked_compliance = path_.compliance;
-}
-
-/// Makes a full residual check after events that may harm the accuracy. Every tenth scheduled check
-/// is full, the others are cheap.
-void EventRun::look_after(const EventOutcome& outcome) {
-  if (outcome.pivot < 1e-3 || residual_may_be_large(path_)) {
-    check();
-  } else if (path_.events % check_interval(path_, options_) == 0) {
-    take_note_of(++path_.looks % 10 == 0 ? engine_->check_equilibrium() : engine_->check_cheaply());
-  }
-}
-
 /// Returns whether bonds have shortened beyond small strains.
 bool EventRun::is_beyond_small_strains(double load_factor) {
   return staged_ != nullptr
@@ -170,7 +151,8 @@ void EventRun::record(double load_factor, const LoadWork& work, const Event& eve
   row.released_energy = path_.energy.released();
   row.elements = path_.result.elements;
   row.constraint_energy = path_.energy.freed();
-  row.factorizations = path_.result.factor.factorizations + engine_->factorizations();
+  row.factorizations =
+      path_.result.factor.factorizations + engine_->factor_statistics().factorizations;
   row.element = event.element;
   row.others = event.others;
   const bool fails = event.element != no_index && !event.changes_side;
@@ -216,7 +198,13 @@ bool EventRun::pass(const Event& event) {
   path_.stored_by_elements = std::numeric_limits<double>::quiet_NaN();  // no longer current
   path_.compliance += outcome.compliance_growth;
   ++path_.events;
-  look_after(outcome);
+  // A full residual check follows events that may harm the accuracy. Every tenth scheduled check is
+  // full, the others are cheap.
+  if (outcome.pivot < 1e-3 || residual_may_be_large(path_)) {
+    check();
+  } else if (path_.events % check_interval(path_, options_) == 0) {
+    path_.note(++path_.looks % 10 == 0 ? engine_->check_equilibrium() : engine_->check_cheaply());
+  }
   if (outcome.exhausted != no_index) {
     // A bar without further limits forms a mechanism with the body.
     path_.end(
@@ -230,18 +218,17 @@ bool EventRun::pass(const Event& event) {
   return true;
 }
 
-bool EventRun::stop_rule_met() {
-  const StopRules& stop = *stop_;
-  if (is_stopped(path_, options_) || has_broken_enough(path_, stop)) return true;
+bool stop_rule_met(PathState& path, const DamageOptions& options, const StopRules& stop) {
+  if (is_stopped(path, options) || has_broken_enough(path, stop)) return true;
   if (stop.load_fraction &&
-      path_.rows_below >= (options_.load_factors.empty() ? stop.load_fraction_rows : 1)) {
-    path_.end(Termination::completed,
-              fmt::format("the load fell below {} of its peak", *stop.load_fraction));
-  } else if (stop.displacement && std::abs(path_.row.displacement) >= *stop.displacement) {
-    path_.end(Termination::completed,
-              fmt::format("the displacement reached {}", *stop.displacement));
-  } else if (const auto reason = options_.rule_met ? options_.rule_met() : std::nullopt) {
-    path_.end(Termination::completed, *reason);
+      path.rows_below >= (options.load_factors.empty() ? stop.load_fraction_rows : 1)) {
+    path.end(Termination::completed,
+             fmt::format("the load fell below {} of its peak", *stop.load_fraction));
+  } else if (stop.displacement && std::abs(path.row.displacement) >= *stop.displacement) {
+    path.end(Termination::completed,
+             fmt::format("the displacement reached {}", *stop.displacement));
+  } else if (const auto reason = options.rule_met ? options.rule_met() : std::nullopt) {
+    path.end(Termination::completed, *reason);
   } else {
     return false;
   }
@@ -255,19 +242,11 @@ void EventRun::record_separated(double load_factor, const LoadWork& work) {
   path_.over = true;
 }
 
-/// Returns the next event below a load factor once hosts that come before it have released. It has
-/// no element if there is none, or if a missed release ends the run.
-Event EventRun::next_event_below(double most) {
-  Event event = engine_->next_event_below(most);
-  while (converts(event, 1.0, most)) event = engine_->next_event_below(most);
-  return missed_ ? Event{} : event;
-}
-
 /// Goes to the next event; the load factor rises or falls to it.
 /// \return false at the end of the run
 bool EventRun::by_events() {
   if (const auto event = std::exchange(path_.pending, std::nullopt)) {
-    if (stop_rule_met() || !pass(*event)) return false;
+    if (stop_rule_met(path_, options_, *stop_) || !pass(*event)) return false;
   }
   LoadWork work;
   Event event;
@@ -295,7 +274,7 @@ bool EventRun::by_events() {
 /// The other stop rules need equilibrium at the end of a step.
 /// \return false at the end of the run
 bool EventRun::by_steps() {
-  if (path_.position > 0 && stop_rule_met()) return false;
+  if (path_.position > 0 && stop_rule_met(path_, options_, *stop_)) return false;
   if (path_.position == options_.load_factors.size()) {
     path_.end(Termination::completed, "all load steps are done");
     return false;
@@ -310,7 +289,13 @@ bool EventRun::by_steps() {
     path_.over = true;
     return true;
   };
-  Event event = next_event_below(load_factor);
+  // Hosts release before their bonds fail. A missed release ends the run.
+  const auto next_event = [&] {
+    Event event = engine_->next_event_below(load_factor);
+    while (converts(event, 1.0, load_factor)) event = engine_->next_event_below(load_factor);
+    return missed_ ? Event{} : event;
+  };
+  Event event = next_event();
   Index last = no_index;
   path_.following = path_.energy;
   while (event.element != no_index && event.load_factor <= load_factor) {
@@ -328,7 +313,7 @@ bool EventRun::by_steps() {
       record_separated(load_factor, work);
       return true;
     }
-    event = next_event_below(load_factor);
+    event = next_event();
   }
   if (missed_) return false;
   // Prescribed loads stay in the result, with a warning.

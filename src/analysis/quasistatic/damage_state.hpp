@@ -64,6 +64,14 @@ struct PathState {
     result.termination = termination;
     result.reason = std::move(reason);
   }
+  /// Records the residual and, if it was summed over the elements, the stored energy.
+  void note(const Balance& balance) {
+    row.residual = balance.residual;
+    stored_by_elements = balance.stored_energy;
+    stored_by_permanent = balance.stored_by_permanent;
+    result.largest_residual = std::max(result.largest_residual, balance.residual);
+    if (!std::isnan(balance.stored_energy)) checked_compliance = compliance;
+  }
   /// Adds the prescribed load factor to the reason of a collapse under forces.
   void note_overload(double load_factor) {
     if (result.termination != Termination::collapsed) return;

@@ -106,7 +106,7 @@ const StepRecord* EventRun::next() {
 
 void EventRun::fail(const std::exception& error) {
   path_.end(Termination::failed, failure_text(error));
-  if (!path_.result.stages.empty()) end_stage();
+  if (!path_.result.stages.empty()) end_stage(path_, network_);
 }
 
 DamageResult EventRun::result() const {

@@ -66,7 +66,7 @@ class EventRun final : public StateSource {
   void adopt(const Unknowns& unknowns);
 
   /// Checks the equilibrium in full. \throws SolverError if there is none
-  void check() { take_note_of(engine_->check_equilibrium()); }
+  void check() { path_.note(engine_->check_equilibrium()); }
 
  private:
   std::unique_ptr<EventEngine> make_engine();
@@ -78,22 +78,16 @@ class EventRun final : public StateSource {
   bool follow_stage();
   void begin_stage();
   void follow_rules();
-  void end_stage();
   const StageRules& stage() const { return options_.stages[path_.position]; }
   void record(double load_factor, const LoadWork& work, const Event& event);
-  void take_note_of(const Balance& balance);
-  void look_after(const EventOutcome& outcome);
   // Host releases: releasing_run.cpp.
   bool converts(const Event& event, double sense = 1.0,
                 double most = std::numeric_limits<double>::infinity());
   void take_over(const Unknowns& unknowns, double load_factor);
-  void note_missed_releases(const Event& event, double sense);
-  Event next_event_below(double most);
   bool is_beyond_small_strains(double load_factor);
   bool leaves_small_strains(const Event& event);
   void record_separated(double load_factor, const LoadWork& work);
   bool pass(const Event& event);
-  bool stop_rule_met();
 
   const Network& network_;
   const LoadedNetwork& problem_;
@@ -108,6 +102,14 @@ class EventRun final : public StateSource {
   bool is_checked_ = false;  ///< the equilibrium at the start has been checked
   std::optional<std::vector<std::uint8_t>> missed_;
 };
+
+/// Ends a run if one of its stop rules is met after the last row.
+/// \param stop  rules of the run or the present stage
+/// \return whether the run has ended
+bool stop_rule_met(PathState& path, const DamageOptions& options, const StopRules& stop);
+
+/// Writes the result of the present stage at its end.
+void end_stage(PathState& path, const Network& network);
 
 /// Makes a body begin with other active hosts, as an analysis that starts again after a missed
 /// release.

@@ -9,6 +9,29 @@ namespace {
 /// Hosts at this fraction of the bond or strain that triggers a release are released too [-].
 constexpr double as_near = 0.9;
 
+/// Notes missed releases. A freed bond that fails before the load factor of its release exceeded
+/// its limit by more than the release threshold allows.
+/// \param sense  1 if the load factor grows, -1 if it falls
+/// \return whether the analysis must begin again
+bool note_missed_releases(PathState& path, const DamageOptions& options, const Event& event,
+                          double sense) {
+  for (const auto& [bonds, released_at] : path.freed) {
+    const auto is_freed = [&](Index element) {
+      return std::binary_search(bonds.begin(), bonds.end(), element);
+    };
+    const bool freed = is_freed(event.element) || std::ranges::any_of(event.others, is_freed);
+    const double near = std::max(tie_tolerance, options.engine.event_tolerance);
+    const bool earlier = event.at_constant_load ||
+                         sense * (released_at - event.load_factor) > near * std::abs(released_at);
+    const bool begins = path.row.step == 0 && path.events == 0;  // no event by then
+    if (begins || !freed || !earlier) continue;
+    if (options.begins_again) return true;
+    ++path.result.missed_releases;
+  }
+  path.freed.clear();
+  return false;
+}
+
 }  // namespace
 
 /// Releases hosts if that comes before the event. They are the hosts of the next bond and of bonds
@@ -34,7 +57,7 @@ bool EventRun::converts(const Event& event, double sense, double most) {
   failing.push_back(event.element);
   const auto is_embedded = [&](Index element) { return host_release_->is_embedded(element); };
   if (std::ranges::none_of(failing, is_embedded)) {
-    note_missed_releases(event, sense);
+    if (note_missed_releases(path_, options_, event, sense)) missed_ = host_release_->whole();
     return false;
   }
   std::vector<Index> near = engine_->near_events(event, as_near);
@@ -52,29 +75,6 @@ void EventRun::take_over(const Unknowns& unknowns, double load_factor) {
   ++path_.result.conversions;
   path_.result.unknowns = unknowns.count;
   path_.result.elements = host_release_->num_whole();
-}
-
-/// Records missed releases. A freed bond that fails before the load factor of its release exceeded
-/// its limit by more than the release threshold allows.
-/// It ends the run if DamageOptions::begins_again.
-void EventRun::note_missed_releases(const Event& event, double sense) {
-  for (const auto& [bonds, released_at] : path_.freed) {
-    const auto is_freed = [&](Index element) {
-      return std::binary_search(bonds.begin(), bonds.end(), element);
-    };
-    const bool freed = is_freed(event.element) || std::ranges::any_of(event.others, is_freed);
-    const double near = std::max(tie_tolerance, options_.engine.event_tolerance);
-    const bool earlier = event.at_constant_load ||
-                         sense * (released_at - event.load_factor) > near * std::abs(released_at);
-    const bool begins = path_.row.step == 0 && path_.events == 0;  // no event by then
-    if (begins || !freed || !earlier) continue;
-    if (options_.begins_again) {
-      missed_ = host_release_->whole();
-      return;
-    }
-    ++path_.result.missed_releases;
-  }
-  path_.freed.clear();
 }
 
 void begin_with_hosts(LoadedNetwork& problem, const std::vector<std::uint8_t>& whole) {

@@ -40,6 +40,17 @@ void note_mechanism(PathState& path, const StageRules& stage) {
 
 }  // namespace
 
+void end_stage(PathState& path, const Network& network) {
+  StageResult& stage = path.result.stages.back();
+  stage.termination = path.result.termination;
+  stage.reason = path.result.reason;
+  stage.last = path.row;
+  find_peaks(network, path.rows, path.result);
+  stage.peak = {path.result.peak_displacement, path.result.peak_load};
+  stage.largest = path.result.peaks.highest();
+  stage.smoothed_peak_load = path.result.smoothed_peak_load;
+}
+
 /// Goes to the next row, of the present stage or a later one.
 /// \return false at the end of the run
 bool EventRun::by_stages() {
@@ -49,7 +60,7 @@ bool EventRun::by_stages() {
   if (path_.position == options_.stages.size()) return false;
   if (!path_.in_stage) begin_stage();
   if (follow_stage()) return true;
-  end_stage();
+  end_stage(path_, network_);
   return false;
 }
 
@@ -57,20 +68,20 @@ bool EventRun::by_stages() {
 /// \return false at the end of the run
 bool EventRun::leave_row(const Event& event) {
   const StageRules& rules = stage();
-  if (!stop_rule_met()) {
+  if (!stop_rule_met(path_, options_, *stop_)) {
     if (event.element != no_index) {
       if (pass(event)) return true;
       if ((rules.to || rules.to_load) && !reference_->driven) {
         path_.note_overload(path_.row.load_factor);
       }
-      end_stage();
+      end_stage(path_, network_);
       return false;
     }
     path_.end(Termination::completed, rules.to
                                           ? fmt::format("the load factor reached {}", *rules.to)
                                           : fmt::format("the load reached {}", *rules.to_load));
   }
-  end_stage();
+  end_stage(path_, network_);
   ++path_.position;
   path_.in_stage = false;
   return path_.result.termination == Termination::completed;
@@ -108,17 +119,6 @@ void EventRun::begin_stage() {
   path_.energy.begin_stage(staged_->load_factor(), engine_->load_work(), flowed);
 }
 
-void EventRun::end_stage() {
-  StageResult& stage = path_.result.stages.back();
-  stage.termination = path_.result.termination;
-  stage.reason = path_.result.reason;
-  stage.last = path_.row;
-  find_peaks(network_, path_.rows, path_.result);
-  stage.peak = {path_.result.peak_displacement, path_.result.peak_load};
-  stage.largest = path_.result.peaks.highest();
-  stage.smoothed_peak_load = path_.result.smoothed_peak_load;
-}
-
 /// Goes to the next row of a stage.
 /// \return false if the stage ends without a further row, and the run with it
 bool EventRun::follow_stage() {
@@ -130,7 +130,7 @@ bool EventRun::follow_stage() {
     if (work.separated) {
       record_separated(staged_->load_factor(), work);
       note_mechanism(path_, stage());
-      end_stage();
+      end_stage(path_, network_);
       return true;
     }
     aim = end_of_stage(stage(), *reference_, work);

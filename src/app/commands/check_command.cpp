@@ -41,8 +41,8 @@ std::string time_text(double seconds) {
 /// Whether bonds fail by more than one event.
 bool softens(const Network& network) {
   const auto many = [](const MaterialStrength& strength) { return strength.segments > 1; };
-  return std::any_of(network.strengths.begin(), network.strengths.end(), many) ||
-         std::any_of(network.interfaces.begin(), network.interfaces.end(),
+  return std::any_of(network.report.strengths.begin(), network.report.strengths.end(), many) ||
+         std::any_of(network.report.interfaces.begin(), network.report.interfaces.end(),
                      [&](const InterfaceBonds& face) { return many(face.strength); });
 }
 
@@ -108,7 +108,7 @@ void print_cost(const CaseFile& input, const Network& network,
                 const std::optional<FactorStatistics>& factor) {
   const bool events = input.analysis.type != AnalysisType::elastic;
   fmt::print("# expected cost of a run\n");
-  double memory = network.calibration ? network.calibration->bytes : 0.0;
+  double memory = network.report.calibration ? network.report.calibration->bytes : 0.0;
   if (factor) {
     fmt::print("#   factor             {:.3g} M numbers, {:.3g} MB\n", factor->entries / 1e6,
                factor->bytes / 1e6);

@@ -134,7 +134,7 @@ void print_bars(const CaseFile& input, const Model& model) {
         "#   rebar {:<12} {}, area {:.5g}, length {:.6g} in all, {:.2g} % of the volume, "
         "bond {}\n",
         k + 1, counted(std::ranges::count(model.entry_of_bar, k), "bar"), section.area, length,
-        100.0 * section.area * length / volume, word_of(section.bond));
+        100.0 * section.area * length / volume, word_of(section.bond.type));
   }
 }
 

@@ -48,7 +48,7 @@ void print_breakable(const Network& network, const std::vector<double>& crack_co
     fmt::print("\n");
   }
   for (std::size_t m = 0; m < crack_cost.size() && breakable > 0; ++m) {
-    if (network.strengths[m].segments != 1) continue;  // unbreakable or softening
+    if (network.report.strengths[m].segments != 1) continue;  // unbreakable or softening
     fmt::print(
         "#   energy correction  a crack dissipates {:.4g} of the energy of its "
         "bonds, material {}\n",
@@ -106,17 +106,18 @@ void print_elements(const Model& model) {
   if (network.cells) {
     fmt::print("#   linear elements    {} tied to the bonds\n", network.cells->cells.size());
   }
-  if (network.calibration) {
+  if (network.report.calibration) {
     fmt::print("#   calibration        of {}, about {} at the start of the run\n",
-               counted(network.calibration->free_bonds, "bond"),
-               format_duration(network.calibration->seconds));
+               counted(network.report.calibration->free_bonds, "bond"),
+               format_duration(network.report.calibration->seconds));
   }
-  for (std::size_t k = 0; k < network.cut_by_crack.size(); ++k) {
-    fmt::print("#   crack {}            {} cut\n", k + 1, counted(network.cut_by_crack[k], "bond"));
+  for (std::size_t k = 0; k < network.report.cut_by_crack.size(); ++k) {
+    fmt::print("#   crack {}            {} cut\n", k + 1,
+               counted(network.report.cut_by_crack[k], "bond"));
   }
-  print_interfaces(network.interfaces);
+  print_interfaces(network.report.interfaces);
   print_breakable(network, model.crack_cost);
-  print_strengths(network.strengths);
+  print_strengths(network.report.strengths);
 }
 
 void print_spacing(const Model& model) {

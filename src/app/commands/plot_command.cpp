@@ -269,13 +269,10 @@ void plot_series(const PlottedRun& run, const PlotOptions& options, Index last,
   }
 }
 
-/// Whether a column is not zero in the undeformed state, or has no value there. Reports have the
-/// list too (curves.js).
-bool begins_at_first_row(const std::string& column) {
-  constexpr std::array<std::string_view, 9> others = {"residual",    "factorizations", "element",
-                                                      "events",      "stage",          "avalanche",
-                                                      "side_change", "elements",       "step"};
-  return std::ranges::find(others, column) != others.end();
+/// Whether a column is zero in the undeformed state. Gauges are.
+bool begins_at_zero(const std::string& name) {
+  const HistoryColumn* column = find_history_column(name);
+  return column == nullptr || column->begins_at_zero;
 }
 
 /// Draws a column of the history over another. \throws FileError where one is missing
@@ -301,7 +298,7 @@ void plot_columns(const CsvTable& table, std::size_t rows, const PlottedRun& run
   for (const std::vector<double>& row : std::span(table.rows).first(rows)) {
     curve.points.push_back({row[at_x], row[at_y]});
   }
-  curve.from_origin = !begins_at_first_row(x) && !begins_at_first_row(y);
+  curve.from_origin = begins_at_zero(x) && begins_at_zero(y);
   curve.note = note_of_tail(table.rows.size() - rows);
   pictures.save(draw_columns(curve, run.labels.title),
                 fmt::format("{}_over_{}", file_word(y), file_word(x)));

@@ -68,7 +68,7 @@ CsvTable read_rows(const fs::path& directory, RunResult& result) {
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     const std::string& name = table.columns[c];
     result.last_row.emplace_back(name, table.rows.back()[c]);
-    if (is_history_column(name)) continue;
+    if (find_history_column(name) != nullptr) continue;
     result.gauges.push_back(result.last_row.back());
   }
   return table;

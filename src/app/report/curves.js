@@ -5,9 +5,6 @@ const lineColors = () => isDark()
   : ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00"];
 const escaped = (text) => text.replace(/[&<>"']/g, (letter) => "&#" + letter.charCodeAt(0) + ";");
 
-// Columns that are not zero in the undeformed state, or have no value there (plot_command.cpp).
-const beginsAtZero = (name) => !["residual", "factorizations", "element", "events", "stage",
-  "avalanche", "side_change", "elements", "step"].includes(name);
 const stageOf = (run, number) => listOf(run.summary.stages)[number - 1] || {};
 
 // Curves of some columns over another one, for all runs. `pick` is called with a run and a row.
@@ -37,6 +34,10 @@ class Chart {
     select.value = axis === "x" ? this.x : this.y[0];
     return make("label", {}, label + " ", select);
   }
+  // Whether a column is zero in the undeformed state.
+  beginsAtZero(run, name) {
+    return run.rows.columns.find((column) => column.name === name).begins_at_zero;
+  }
   unit(name) {
     const known = this.runs.flatMap((run) => run.rows.columns).find((c) => c.name === name && c.unit);
     return known ? known.unit : "";
@@ -57,7 +58,8 @@ class Chart {
       const base = of + (this.y.length > 1 || !of ? words(name) : "");
       const envelope = this.x === "displacement" && name === "load" && run.rows.envelope;
       // Before the first row the body is at rest.
-      const origin = beginsAtZero(this.x) && beginsAtZero(name) ? [[0, 0, -1]] : [];
+      const isZero = [this.x, name].every((column) => this.beginsAtZero(run, column));
+      const origin = isZero ? [[0, 0, -1]] : [];
       let curve = null;
       for (let row = 0; row < x.length; ++row) {
         const number = stage ? stage[row] : 0;

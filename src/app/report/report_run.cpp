@@ -109,10 +109,11 @@ double add_rows(ReportedRun& run, ReportStreams& streams, const std::string& fir
   rows["stream"] = streams.add(text_of_rows(read_regular_file(path), shown));
   rows["columns"] = Json::array();
   for (const std::string& column : table.columns) {
-    const bool is_gauge = !is_history_column(column);
+    const HistoryColumn* known = find_history_column(column);
     rows["columns"].push_back({{"name", printable(column)},
                                {"unit", unit_of_column(column, run.root, run.units)},
-                               {"is_gauge", is_gauge}});
+                               {"begins_at_zero", known == nullptr || known->begins_at_zero},
+                               {"is_gauge", known == nullptr}});
   }
   if (records.empty()) {
     note(run, "history.csv has no row yet");

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "io/text/input_text.hpp"
-#include "results/history_file.hpp"
+#include "results/history_columns.hpp"
 
 namespace perilink {
 namespace {
@@ -67,6 +67,20 @@ constexpr auto endings = std::to_array<Ending>({
     {"time", "T"},
 });
 
+/// Returns a product of units such as "F/L"; empty where the unit of a part is unknown.
+std::string in_units(std::string_view dimension, const UnitNames& units) {
+  std::string unit;
+  for (const char letter : dimension) {
+    const std::string* part = letter == 'F'   ? &units.force
+                              : letter == 'L' ? &units.length
+                              : letter == 'T' ? &units.time
+                                              : nullptr;
+    if (part != nullptr && part->empty()) return "";
+    unit += part != nullptr ? *part : std::string(1, letter);
+  }
+  return unit;
+}
+
 }  // namespace
 
 UnitNames UnitNames::of(const std::string& units) {
@@ -84,21 +98,12 @@ UnitNames UnitNames::of(const std::string& units) {
 std::string unit_of_quantity(std::string_view name, const UnitNames& units) {
   const auto found = std::ranges::find_if(
       endings, [&](const auto& ending) { return name.ends_with(ending.first); });
-  if (found == endings.end()) return "";
-  std::string unit;
-  for (const char letter : found->second) {
-    const std::string* part = letter == 'F'   ? &units.force
-                              : letter == 'L' ? &units.length
-                              : letter == 'T' ? &units.time
-                                              : nullptr;
-    if (part != nullptr && part->empty()) return "";
-    unit += part != nullptr ? *part : std::string(1, letter);
-  }
-  return unit;
+  return found == endings.end() ? "" : in_units(found->second, units);
 }
 
 std::string unit_of_column(const std::string& name, const TomlValue& root, const UnitNames& units) {
-  if (is_history_column(name)) return unit_of_quantity(name, units);
+  const HistoryColumn* column = find_history_column(name);
+  if (column != nullptr) return in_units(column->unit, units);
   const TomlValue* gauges = root.find("gauges");
   for (const TomlValue& gauge : gauges == nullptr ? std::vector<TomlValue>{} : gauges->items) {
     const TomlValue* known = gauge.find("name");

@@ -202,7 +202,7 @@ void DamageRun::tell_stresses(Summary& summary, Equilibria& found) const {
     summary.add("diffuse_energy", softened_.diffuse);
   }
   const bool short_horizon = std::ranges::any_of(
-      model_.network.strengths,
+      model_.network.report.strengths,
       [&](const MaterialStrength& strength) { return is_short_horizon(model_.horizon, strength); });
   for (auto& warning : {warning_about_compression(compression_at(result_.peaks.highest())),
                         warning_about_diffuse_softening(softened_, short_horizon)}) {

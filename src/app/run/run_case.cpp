@@ -106,7 +106,7 @@ std::shared_ptr<spdlog::logger> open_files(RunKind& run, const fs::path& directo
     write_running_summary(directory, seen, run.meshes);
     write_whole_file((directory / "case.toml").string(), write_case(seen));
     const auto log = open_log(directory, run.callbacks, checkpoint.has_value());
-    log->info("{} : {}, {}", run.input.path, run.plan, counted(run.threads, "thread"));
+    log->info("{} : {}, {}", run.input.source.path, run.plan, counted(run.threads, "thread"));
     if (run.calibration) log->info("calibration: {}", *run.calibration);
     for (const std::string& note : run.notes) log->info("note: {}", note);
     run.open(directory, run.callbacks, checkpoint ? checkpoint->state : "");
@@ -139,7 +139,7 @@ void write_summary(RunKind& run, const fs::path& directory, RunEnd& end) {
 
 RunEnd run_case(const CaseFile& input, const fs::path& directory, const RunSettings& settings) {
   const RunCallbacks& calls = settings.callbacks;
-  refuse_own_file(directory, "case.toml", input.path, "this case with its resolved form");
+  refuse_own_file(directory, "case.toml", input.source.path, "this case with its resolved form");
   // All before the model is built, which may take minutes.
   const bool goes_on = settings.old_results == OldResults::kept && holds_a_run(directory);
   refuse_old_results(directory, goes_on || settings.old_results == OldResults::removed);

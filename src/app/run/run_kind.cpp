@@ -67,9 +67,9 @@ NetworkRun::NetworkRun(const CaseFile& of_case, int on_threads, const RunCallbac
     : RunKind(of_case, on_threads, calls), model_(build_model_visibly(of_case, calls)) {
   plan = size_text(model_);
   notes = model_.notes;
-  if (!model_.network.calibration) return;
-  calibration = calibration_line(*model_.network.calibration);
-  seconds.parts.emplace_back("calibration", model_.network.calibration->seconds);
+  if (!model_.network.report.calibration) return;
+  calibration = calibration_line(*model_.network.report.calibration);
+  seconds.parts.emplace_back("calibration", model_.network.report.calibration->seconds);
 }
 
 std::string NetworkRun::bond_rate(Index steps) const {
@@ -98,7 +98,7 @@ Summary summary_of(RunKind& run, const std::filesystem::path& directory) {
   Summary summary;
   summary.notes = run.notes;
   summary.json = summary_head(run.input, run.meshes, status, run_outcome.reason);
-  summary.text = (run.input.title.empty() ? run.input.path : run.input.title) + "\n";
+  summary.text = (run.input.title.empty() ? run.input.source.path : run.input.title) + "\n";
   summary.line("ended", "{}{}", status,
                run_outcome.reason == status ? "" : " (" + run_outcome.reason + ")");
   run.tell(summary);

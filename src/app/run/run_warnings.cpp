@@ -154,8 +154,9 @@ Compression largest_compression(const Network& network, std::span<const double> 
   if (network.has_crushing()) return worst;
   for (std::size_t i = 0; 3 * i < principal.size(); ++i) {
     const Index material = network.particles.material[i];
-    if (material == no_index || network.strengths.empty() || damage[i] > most_damage) continue;
-    const double strength = network.strengths[material].tensile_strength;
+    if (material == no_index || network.report.strengths.empty() || damage[i] > most_damage)
+      continue;
+    const double strength = network.report.strengths[material].tensile_strength;
     if (!(strength > 0.0)) continue;
     const double stress = -*std::min_element(&principal[3 * i], &principal[3 * i] + 3);
     if (stress > worst.times * strength) worst = {stress, stress / strength};

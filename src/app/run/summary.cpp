@@ -141,7 +141,8 @@ void tell_body(Summary& summary, const Model& model, const std::string& more) {
   if (network.cells) summary.add("cells", network.cells->cells.size());
   summary.add("unknowns", model.unknowns.count);
   if (model.particle_fit) summary.add("constants", fit_json(*model.particle_fit));
-  if (network.calibration) summary.add("calibration", calibration_json(*network.calibration));
+  if (network.report.calibration)
+    summary.add("calibration", calibration_json(*network.report.calibration));
   summary.add("spacing", model.lattice.spacing);
   summary.add("horizon", model.horizon);
   summary.line("size", "{}{}", size_text(model), more);

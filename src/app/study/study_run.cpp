@@ -129,8 +129,8 @@ Repeat run_once(const StudyFile& study, const std::vector<TomlValue>& keys, int 
   repeat.input.trust_geometry = study.trust_geometry;
   repeat.model = build_model(repeat.input, {on_search});
   repeat.seconds.set_up = timer.seconds();
-  if (repeat.model.network.calibration) {
-    repeat.seconds.calibration = repeat.model.network.calibration->seconds;
+  if (repeat.model.network.report.calibration) {
+    repeat.seconds.calibration = repeat.model.network.report.calibration->seconds;
     repeat.seconds.set_up -= repeat.seconds.calibration;
   }
   timer.restart();

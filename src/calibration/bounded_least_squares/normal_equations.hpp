@@ -38,12 +38,7 @@ class NormalEquations final : public NormalSystem, private NormalEquationsLimits
             static_cast<std::size_t>(std::min(equations.num_variables(), equations.one_ended))),
         scaled_(size_),
         kept_(kept),
-        by_factor_(options.preconditioner == Preconditioner::factor ||
-                   (options.preconditioner == Preconditioner::blocks_then_factor && kept.factor)),
-        // The first steps of the interior-point method have other near-null-space modes: blocks are
-        // better.
-        with_boxes_(options.preconditioner == Preconditioner::blocks_then_boxes && kept.boxes &&
-                    options.method == Method::newton) {
+        by_(first_means(options, kept)) {
     if (std::isfinite(options.penalty)) compliance.assign(size_, 0.0);
     if (options.preconditioner == Preconditioner::blocks_then_boxes &&
         PackedProduct::serves(equations)) {
@@ -81,10 +76,20 @@ class NormalEquations final : public NormalSystem, private NormalEquationsLimits
   bool iterate(DirectionSearch& search, int most);
   void apply_system(const Vector& shift, const Vector& y, Vector& result);
   void precondition(const Vector& residual, Vector& result) const;
-  /// Whether blocks have no coarse space or factor yet, but may get one.
-  bool alone() const {
-    return !by_factor_ && !with_boxes_ && !boxes_failed_ &&
-           options_.preconditioner != Preconditioner::blocks;
+  /// Means of the preconditioner: blocks, which may get a coarse space or give way to a factor;
+  /// blocks with a coarse space; a factor; blocks to the end.
+  enum class Means { blocks, boxes, factor, only_blocks };
+  static Means first_means(const LeastSquaresOptions& options, const KeptPreconditioner& kept) {
+    switch (options.preconditioner) {
+      case Preconditioner::factor: return Means::factor;
+      case Preconditioner::blocks_then_factor: return kept.factor ? Means::factor : Means::blocks;
+      case Preconditioner::blocks_then_boxes:
+        // The first steps of the interior-point method have other near-null-space modes: blocks are
+        // better.
+        return kept.boxes && options.method == Method::newton ? Means::boxes : Means::blocks;
+      case Preconditioner::blocks: break;
+    }
+    return Means::only_blocks;
   }
   void build_blocks();
   template <class Make>
@@ -100,9 +105,7 @@ class NormalEquations final : public NormalSystem, private NormalEquationsLimits
   Vector scaled_;
   std::vector<Block> inverse_blocks_;
   KeptPreconditioner& kept_;
-  bool by_factor_;
-  bool with_boxes_;
-  bool boxes_failed_ = false;            // only blocks are used
+  Means by_;
   std::optional<PackedProduct> packed_;  // for the steps of conjugate gradients
   bool last_ = false;                    // whether the step must satisfy the equations
   int last_iterations_ = 0;
@@ -224,7 +227,7 @@ void NormalEquations<Rows, Odd, Grouped>::build_blocks() {
     inverse_blocks_[p] = Eigen::Map<const Block>(blocks.data() + p * Rows * Rows);
   }
   // The coarse system can be kept for other weights; the blocks are cheap.
-  if (with_boxes_ && last_iterations_ > (kept_.boxes->is_nested() ? 2 : 1) * stale_coarse) {
+  if (by_ == Means::boxes && last_iterations_ > (kept_.boxes->is_nested() ? 2 : 1) * stale_coarse) {
     renew_coarse();
   }
 }
@@ -235,12 +238,11 @@ template <class Make>
 void NormalEquations<Rows, Odd, Grouped>::use_boxes(Make make) {
   try {
     make();
-    with_boxes_ = true;
+    by_ = Means::boxes;
     prepared_for_ = active_weight;
   } catch (const SolverError&) {
     kept_.boxes.reset();
-    with_boxes_ = false;
-    boxes_failed_ = true;
+    by_ = Means::only_blocks;
   }
 }
 
@@ -255,7 +257,7 @@ auto NormalEquations<Rows, Odd, Grouped>::diagonal() const -> Vector {
   Vector result(size_);
   for (std::size_t k = 0; k < size_; ++k) {
     result[k] = equations_.ridge_of(k % Rows) +
-                std::max(regularisation, by_factor_                    ? factor_regularisation
+                std::max(regularisation, by_ == Means::factor          ? factor_regularisation
                                          : last_ && equations_.killing ? settled_regularisation
                                                                        : least_regularisation) +
                 (compliance.empty() ? 0.0 : compliance[k]);
@@ -274,7 +276,7 @@ void NormalEquations<Rows, Odd, Grouped>::build_factor() {
 
 template <int Rows, int Odd, bool Grouped>
 void NormalEquations<Rows, Odd, Grouped>::prepare() {
-  if (!by_factor_) {
+  if (by_ != Means::factor) {
     build_blocks();
   } else if (!kept_.factor || last_iterations_ > worth_of_factor) {
     build_factor();
@@ -284,7 +286,7 @@ void NormalEquations<Rows, Odd, Grouped>::prepare() {
 template <int Rows, int Odd, bool Grouped>
 void NormalEquations<Rows, Odd, Grouped>::prepare_if_stale(bool settled, bool last) {
   last_ = last;
-  if (!by_factor_) {
+  if (by_ != Means::factor) {
     if (!settled) build_blocks();
   } else if (!kept_.factor || last_iterations_ > stale_iterations ||
              compliance_of_factor_ != compliance) {
@@ -296,13 +298,13 @@ template <int Rows, int Odd, bool Grouped>
 void NormalEquations<Rows, Odd, Grouped>::precondition(const Vector& residual,
                                                        Vector& result) const {
   using Column = Eigen::Matrix<double, Rows, 1>;
-  if (by_factor_) return kept_.factor->solve(residual, result);
+  if (by_ == Means::factor) return kept_.factor->solve(residual, result);
 #pragma omp parallel for schedule(static) if (threads_share())
   for (std::size_t p = 0; p < inverse_blocks_.size(); ++p) {
     Eigen::Map<Column>(result.data() + p * Rows).noalias() =
         inverse_blocks_[p] * Eigen::Map<const Column>(residual.data() + p * Rows);
   }
-  if (with_boxes_) kept_.boxes->add_correction(residual.data(), result.data());
+  if (by_ == Means::boxes) kept_.boxes->add_correction(residual.data(), result.data());
 }
 
 template <int Rows, int Odd, bool Grouped>
@@ -329,18 +331,20 @@ void NormalEquations<Rows, Odd, Grouped>::find_direction(DirectionSearch& search
     return;
   }
   const int times = kept_.boxes && kept_.boxes->is_nested() ? 2 : 1;
-  if (with_boxes_ && prepared_for_ != active_weight) {
+  if (by_ == Means::boxes && prepared_for_ != active_weight) {
     if (iterate(search, times * stale_coarse)) return;
     renew_coarse();
   }
   const int most_alone = kept_.boxes ? patience_with_fields : patience;
-  const int most = with_boxes_ ? times * stale_fields : alone() ? most_alone : options_.iterations;
-  if (iterate(search, most) || (!alone() && !with_boxes_)) return;
+  const int most = by_ == Means::boxes    ? times * stale_fields
+                   : by_ == Means::blocks ? most_alone
+                                          : options_.iterations;
+  if (iterate(search, most) || by_ == Means::factor || by_ == Means::only_blocks) return;
   if (options_.preconditioner == Preconditioner::blocks_then_factor) {
-    by_factor_ = true;
+    by_ = Means::factor;
     build_factor();
   } else {
-    if (!with_boxes_ && kept_.boxes) {
+    if (by_ == Means::blocks && kept_.boxes) {
       renew_coarse();
       if (iterate(search, times * stale_coarse)) return;
     }
@@ -358,7 +362,8 @@ template <int Rows, int Odd, bool Grouped>
 bool NormalEquations<Rows, Odd, Grouped>::iterate(DirectionSearch& search, int most) {
   const Vector shift = diagonal();
   const int before = search.iterations;
-  search.cheap_iterations = !by_factor_ && !with_boxes_ ? cheap_iterations : 0;
+  search.cheap_iterations =
+      by_ == Means::blocks || by_ == Means::only_blocks ? cheap_iterations : 0;
   const bool reached = descend(
       search, most, [&](const Vector& y, Vector& result) { apply_system(shift, y, result); },
       [&](const Vector& y, Vector& result) {

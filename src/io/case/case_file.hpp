@@ -199,6 +199,18 @@ struct BarLayout {
   std::optional<double> spacing;  ///< between stirrups, about [length]
 };
 
+/// Bond of a bar to the solid, of [[rebar]].
+struct RebarBondSection {
+  RebarBond type = RebarBond::perfect;
+  bool slip_springs_break = true;                 ///< concrete; false: slip springs cannot break
+  std::optional<double> stiffness = {};           ///< linear [force/length^3]
+  std::optional<double> strength = {};            ///< linear [force/length^2]
+  std::vector<std::array<double, 2>> curve = {};  ///< slip and bond stress
+  ModelCodeBond model_code = {};
+  std::optional<double> perimeter = {};  ///< absent: perimeter of a round bar
+  Hooks hooks = Hooks::none;
+};
+
 /// [[rebar]]: points, a layout or curves of a mesh.
 struct RebarSection {
   std::vector<Vector3> points;  ///< ends and bends
@@ -214,14 +226,7 @@ struct RebarSection {
   double hardening_modulus = 0.0;             ///< slope of stress over strain after yielding
   std::optional<double> rupture_strain = {};
   std::vector<std::array<double, 2>> curve = {};  ///< strain and stress from the end of elasticity
-  RebarBond bond = RebarBond::perfect;
-  bool slip_springs_break = true;             ///< bond = concrete; false: slip springs cannot break
-  std::optional<double> bond_stiffness = {};  ///< linear [force/length^3]
-  std::optional<double> bond_strength = {};   ///< linear [force/length^2]
-  std::vector<std::array<double, 2>> bond_curve = {};  ///< slip and bond stress
-  ModelCodeBond model_code = {};
-  std::optional<double> perimeter = {};  ///< absent: perimeter of a round bar
-  Hooks hooks = Hooks::none;
+  RebarBondSection bond = {};
   bool bends = false;      ///< resists bending
   double prestrain = 0.0;  ///< at load factor 1
   std::string stage = {};  ///< stage in which the prestrain grows
@@ -315,9 +320,19 @@ struct OutputSection {
   std::optional<int> checkpoint_every;
 };
 
+/// File that a case was read from.
+struct CaseSource {
+  std::string path;
+  /// Line of every key path in the file. Entries of a list of tables count from one:
+  /// "materials[2].region" belongs to the second [[materials]].
+  std::map<std::string, int> lines;
+  /// Keys and tables of other types of analysis, which this one ignores.
+  std::vector<std::string> unused;
+};
+
 /// A whole case.
 struct CaseFile {
-  std::string path;
+  CaseSource source;
   std::string title;
   std::string units;  ///< label of plots, "kip, in"
   BodySection body;
@@ -342,13 +357,7 @@ struct CaseFile {
   std::vector<StageSection> stages;
   OutputSection output;
 
-  /// Keys and tables of other types of analysis, which this one ignores.
-  std::vector<std::string> unused;
   bool trust_geometry = false;  ///< from the command line: any gmsh script is allowed as `mesh`
-
-  /// Line of every key path in the file. Entries of a list of tables count from one:
-  /// "materials[2].region" belongs to the second [[materials]].
-  std::map<std::string, int> lines;
 
   /// Returns the location of a key, with the line of the nearest table above it where the file
   /// lacks the key.

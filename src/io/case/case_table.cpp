@@ -200,7 +200,7 @@ double CaseTable::energy(const std::string& key) const {
     refuse(key, fmt::format("is {}", describe(*value)),
            fmt::format("write {} = \"infinite\"", key));
   }
-  return *positive(key);
+  return *number(key, allowed::positive);
 }
 
 const TomlValue* CaseTable::array(const std::string& key, const char* of) const {

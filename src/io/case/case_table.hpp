@@ -53,9 +53,6 @@ class CaseTable {
   /// \param hint  suggestion for numbers out of range; empty: the range
   std::optional<double> number(const std::string& key, const Range& range = {},
                                std::string_view hint = {}) const;
-  std::optional<double> positive(const std::string& key) const {
-    return number(key, allowed::positive);
-  }
   /// Reads a positive number, or infinity for the word "infinite", where the table has the key.
   double energy(const std::string& key) const;
   std::optional<std::vector<double>> numbers(const std::string& key) const;

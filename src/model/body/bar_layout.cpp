@@ -121,10 +121,10 @@ void refuse_too_many(const CaseFile& input, std::size_t k, double count) {
 
 /// Refuses hooks on closed bars, which have no ends.
 void refuse_hooks_of_closed(const CaseFile& input, std::size_t k, const Points& bar) {
-  if (input.rebar[k].hooks == Hooks::none || bar.front() != bar.back()) return;
+  if (input.rebar[k].bond.hooks == Hooks::none || bar.front() != bar.back()) return;
   throw InputError(input.where(item_key("rebar", k, "hooks")),
                    fmt::format("is \"{}\", but the bar is closed: it has no ends",
-                               word_of(input.rebar[k].hooks)),
+                               word_of(input.rebar[k].bond.hooks)),
                    "delete the key; closed bars are anchored by their corners");
 }
 
@@ -162,17 +162,18 @@ void copy_bars(const RebarSection& section, std::vector<Points>& bars) {
 
 BarBond bond_of(const RebarSection& section) {
   BarBond bond;
-  bond.perimeter = section.perimeter.value_or(std::sqrt(4.0 * std::numbers::pi * section.area));
-  bond.hook_from = section.hooks == Hooks::from || section.hooks == Hooks::both;
-  bond.hook_to = section.hooks == Hooks::to || section.hooks == Hooks::both;
-  if (section.bond == RebarBond::linear) {
-    const double strength = section.bond_strength.value_or(*section.bond_stiffness);
-    bond.curve = ForceCurve{{{strength / *section.bond_stiffness, strength}}};
-    bond.elastic = !section.bond_strength;
-  } else if (section.bond == RebarBond::curve) {
-    bond.curve = ForceCurve{section.bond_curve};
-  } else if (section.bond == RebarBond::model_code) {
-    bond.curve = model_code_curve(section.model_code);
+  bond.perimeter =
+      section.bond.perimeter.value_or(std::sqrt(4.0 * std::numbers::pi * section.area));
+  bond.hook_from = section.bond.hooks == Hooks::from || section.bond.hooks == Hooks::both;
+  bond.hook_to = section.bond.hooks == Hooks::to || section.bond.hooks == Hooks::both;
+  if (section.bond.type == RebarBond::linear) {
+    const double strength = section.bond.strength.value_or(*section.bond.stiffness);
+    bond.curve = ForceCurve{{{strength / *section.bond.stiffness, strength}}};
+    bond.elastic = !section.bond.strength;
+  } else if (section.bond.type == RebarBond::curve) {
+    bond.curve = ForceCurve{section.bond.curve};
+  } else if (section.bond.type == RebarBond::model_code) {
+    bond.curve = model_code_curve(section.bond.model_code);
   }
   return bond;
 }
@@ -181,7 +182,7 @@ BarBond bond_of(const RebarSection& section) {
 /// \param staged  whether loads may decrease
 BarMaterial material_of(const RebarSection& section, bool damage, bool staged) {
   BarMaterial material{section.youngs_modulus, section.area};
-  material.slip_springs_break = section.slip_springs_break;
+  material.slip_springs_break = section.bond.slip_springs_break;
   material.bond = bond_of(section);
   if (!damage) material.bond.elastic = true;
   material.bends = section.bends;
@@ -273,7 +274,7 @@ LaidBars lay_bars(const CaseFile& input, const Body& body) {
     if (section.across_gaps) inside = inside_of(input, body);
     for (const Points& points : bars) {
       RebarLine line{points.front(), points.back(), {points.begin() + 1, points.end() - 1}};
-      line.embedded = section.bond != RebarBond::concrete;
+      line.embedded = section.bond.type != RebarBond::concrete;
       line.inside = inside;
       laid.lines.push_back(std::move(line));
       laid.materials.push_back(material);
@@ -290,7 +291,7 @@ void refuse_bars_outside(const CaseFile& input, const Body& body, const LaidBars
     const std::size_t k = bars.sections[bar];
     const RebarSection& section = input.rebar[k];
     // Nodes outside the body are connected only to their bar.
-    const bool stays_in_line = section.bends || section.bond == RebarBond::concrete;
+    const bool stays_in_line = section.bends || section.bond.type == RebarBond::concrete;
     if (section.across_gaps && stays_in_line) continue;
     const auto point = first_outside(bars.lines[bar], look_step * body.lattice.spacing, inside);
     if (!point) continue;
@@ -300,7 +301,7 @@ void refuse_bars_outside(const CaseFile& input, const Body& body, const LaidBars
                     joined({point->data(), static_cast<std::size_t>(body.particles.dim)})),
         section.across_gaps
             ? "set bends = true: outside the body a bar without bending stiffness is a mechanism"
-        : section.bond == RebarBond::concrete
+        : section.bond.type == RebarBond::concrete
             ? "move the bar into the body; a bar that runs through air needs another bond"
             : "move the bar into the body, or set across_gaps = true for one that runs through "
               "air");

@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path seen_from_case(const CaseFile& input, const std::string& file) {
-  return fs::path(input.path).parent_path() / file;
+  return fs::path(input.source.path).parent_path() / file;
 }
 
 fs::path mesh_path(const CaseFile& input) { return seen_from_case(input, *input.body.mesh); }

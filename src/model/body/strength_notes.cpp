@@ -132,8 +132,9 @@ std::optional<std::string> path_note(const CaseFile& input, const Model& model) 
 
 std::optional<std::string> unnotched_note(const CaseFile& input, const Model& model) {
   const Network& network = model.network;
-  const bool softens = std::ranges::any_of(
-      network.strengths, [](const MaterialStrength& strength) { return strength.segments > 1; });
+  const bool softens =
+      std::ranges::any_of(network.report.strengths,
+                          [](const MaterialStrength& strength) { return strength.segments > 1; });
   const bool scatters = std::ranges::any_of(input.fields.random, [](const RandomSection& random) {
     return random.property == VaryingProperty::tensile_strength;
   });
@@ -157,8 +158,8 @@ std::optional<std::string> unnotched_note(const CaseFile& input, const Model& mo
 
 std::optional<std::string> joint_note(const NetworkInput& input, const Model& model) {
   const Network& network = model.network;
-  if (input.elastic || input.draft || !input.interfaces.empty()) return std::nullopt;
-  if (!network.calibration || network.has_sections()) return std::nullopt;
+  if (input.elastic || input.is_draft() || !input.interfaces.empty()) return std::nullopt;
+  if (!network.report.calibration || network.has_sections()) return std::nullopt;
   constexpr double negligible = 1.05;
   double largest = 1.0;
   const Facets& facets = network.facets;
@@ -170,7 +171,7 @@ std::optional<std::string> joint_note(const NetworkInput& input, const Model& mo
     const auto [least, most] = std::minmax(one.youngs_modulus, other.youngs_modulus);
     largest = std::max(largest, most / least);
   }
-  if (largest <= negligible || network.calibration->in_parts) return std::nullopt;
+  if (largest <= negligible || network.report.calibration->in_parts) return std::nullopt;
   return fmt::format(
       "materials of unlike stiffness (moduli 1 and {:.3g}) meet, and are calibrated as a whole: a "
       "crack along their joint dissipates less than the smaller fracture energy, 0.4 of it at "
@@ -252,10 +253,10 @@ std::vector<std::string> strength_notes(const CaseFile& input, const Model& mode
       reach_of(model.network.particles, model.horizon, model.lattice.spacing);
   const double body = *std::max_element(reach.extents.begin(), reach.extents.end());
   std::vector<std::string> notes;
-  for (std::size_t m = 0; m < model.network.strengths.size(); ++m) {
+  for (std::size_t m = 0; m < model.network.report.strengths.size(); ++m) {
     const MaterialSection& material = input.materials[m];
-    for (const std::string& note :
-         strength_notes(model.network.strengths[m], material.youngs_modulus, model.horizon, body)) {
+    for (const std::string& note : strength_notes(model.network.report.strengths[m],
+                                                  material.youngs_modulus, model.horizon, body)) {
       notes.push_back(fmt::format("material \"{}\": {}", material.name, note));
     }
   }

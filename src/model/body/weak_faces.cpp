@@ -76,8 +76,8 @@ std::vector<WeakInterface> weak_interfaces(const CaseFile& input, const Body& bo
 }
 
 void refuse_interfaces_without_bonds(const CaseFile& input, const Network& network) {
-  for (std::size_t k = 0; k < network.interfaces.size(); ++k) {
-    if (network.interfaces[k].count > 0) continue;
+  for (std::size_t k = 0; k < network.report.interfaces.size(); ++k) {
+    if (network.report.interfaces[k].count > 0) continue;
     const bool regions = !input.interfaces[k].between.empty();
     throw InputError(
         input.where(key_of(input, k, network.dim())),

@@ -51,7 +51,7 @@ void refuse_cracks_without_bonds(const CaseFile& input, const Model& model) {
   refuse_interfaces_without_bonds(input, model.network);
   std::vector<Index> cut(input.cracks.size(), 0);  // bonds, by entry of [[cracks]]
   for (std::size_t c = 0; c < model.cracks.size(); ++c) {
-    cut[model.entry_of_crack[c]] += model.network.cut_by_crack[c];
+    cut[model.entry_of_crack[c]] += model.network.report.cut_by_crack[c];
   }
   for (std::size_t k = 0; k < cut.size(); ++k) {
     if (cut[k] > 0) continue;
@@ -144,7 +144,7 @@ void refuse_before_calibration(const CaseFile& input, const Body& body, NetworkI
   if (repeats_smaller_box(body, network)) return;
   const bool lattice = body.lattice.pattern != Pattern::irregular;
   if (lattice && body.particles.dim == 2 && network.model == BondModel::bond_based) return;
-  network.draft = true;
+  network.calibrating = Calibrating::never;
   Model draft = model;
   draft.network = build_case_network(input, body, network);
   draft.facets = draft.network.shell ? draft.network.facets : body.facets;
@@ -200,7 +200,7 @@ void build_bonds(const CaseFile& input, const BondOptions& options,
   add_slits(body, network);
   network.calibration = options.calibration;
   network.interfaces = weak_interfaces(input, body);
-  network.draft = network.estimates_cost = options.draft;
+  if (options.draft) network.calibrating = Calibrating::estimated;
   if (body.spans.empty()) refuse_poissons_ratios(input, body, network);
   if (network.shell) refuse_impossible_shell(input, body, network);
   model.crack_cost = count_on_the_path(input, body, network);

@@ -90,7 +90,7 @@ struct Outside {
 
 std::shared_ptr<const PointField> read_field_file(const CaseFile& input, std::size_t entry) {
   const GradedSection& section = input.fields.graded[entry];
-  const std::string path = beside(input.path, *section.file);
+  const std::string path = beside(input.source.path, *section.file);
   std::vector<int> lines;
   try {
     const int dim = dimension_of(input.body);

@@ -223,7 +223,7 @@ void refuse_small_rounds(const CaseFile& input, double spacing) {
   };
   for (std::size_t m = 0; m < input.materials.size(); ++m) {
     const std::string list = item_key("materials", m, "regions");
-    refuse(input.lines.count(list) > 0 ? list : item_key("materials", m, "region"),
+    refuse(input.source.lines.count(list) > 0 ? list : item_key("materials", m, "region"),
            input.materials[m].regions);
     refuse(item_key("materials", m, "holes"), input.materials[m].holes);
   }

@@ -167,7 +167,7 @@ ClosingCracks cut_bonds(const Body& body, const NetworkInput& input, Network& ne
   ClosingCracks closing{cracks_on_weaker_sides(body, input, network), {}};
   const std::vector<Crack>& cracks = closing.cracks;
   CutBonds cut = find_cut_bonds(network.particles, network.bonds, cracks, body.lattice.spacing);
-  network.cut_by_crack = std::move(cut.count);
+  network.report.cut_by_crack = std::move(cut.count);
   const CrackCutter cutter(cracks, network.dim(), body.lattice.spacing);
   const auto closes = [&](Index bond, const Crack& crack) {
     if (network.particles.kind[network.bonds.second[bond]] != ParticleKind::solid) return false;

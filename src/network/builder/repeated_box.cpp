@@ -57,7 +57,7 @@ std::optional<Network> repeat_smaller_box(
   std::optional<LatticePattern> pattern = find_pattern(body, input);
   if (!pattern) return std::nullopt;
   NetworkInput small_input = input;
-  small_input.only_alike = true;
+  if (!input.is_draft()) small_input.calibrating = Calibrating::only_alike;
   small_input.cracks.clear();
   small_input.solid = {{pattern->small.lower, pattern->small.upper}};
   Body small = body_of(pattern->small, body.lattice, input.thickness);
@@ -65,13 +65,13 @@ std::optional<Network> repeat_smaller_box(
   pattern->sample = make(small, small_input);
   share_directions(pattern->sample.bonds);
   const Network& sample = pattern->sample;
-  if (!input.draft && !sample.calibration->alike) return std::nullopt;
+  if (!input.is_draft() && !sample.report.calibration->alike) return std::nullopt;
 
   Network network;
   network.particles = body.particles;
   network.facets = body.facets;
-  network.calibration = sample.calibration;
-  if (network.calibration) network.calibration->alike = true;
+  network.report.calibration = sample.report.calibration;
+  if (network.report.calibration) network.report.calibration->alike = true;
   network.torsion = sample.torsion;
   const LatticeGrid& grid = pattern->grid;
   std::vector<Index> like;

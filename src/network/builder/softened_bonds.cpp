@@ -133,7 +133,7 @@ std::map<LawKind, MaterialBonds> laws_of(const Body& body, const NetworkInput& i
     if (laws.contains(kind)) continue;
     const auto [a, b] = kind.materials;
     const SolidMaterial mean = mean_of(input.materials[a], input.materials[b]);
-    if (!can_soften(mean) && !mean.softening.closes && !input.draft) continue;
+    if (!can_soften(mean) && !mean.softening.closes && !input.is_draft()) continue;
     for (const int number : {0, kind.energy_class}) {
       const double energy = energy_of_class(number);
       SolidMaterial own = mean;
@@ -156,12 +156,13 @@ std::map<LawKind, MaterialBonds> laws_of(const Body& body, const NetworkInput& i
 void soften_bonds(const Body& body, const NetworkInput& input, Network& network) {
   const LawKinds kinds(input, network);
   const std::map<LawKind, MaterialBonds> laws = laws_of(body, input, kinds, network);
-  network.strengths.resize(input.materials.size());
+  network.report.strengths.resize(input.materials.size());
   std::map<LawKind, Index> number;
   for (const auto& [kind, bonds] : laws) {
     const auto [a, b] = kind.materials;
     const bool mean = a == b && kind.energy_class == 0;
-    if (mean && network.strengths[a].segments == 0) network.strengths[a] = bonds.strength;
+    if (mean && network.report.strengths[a].segments == 0)
+      network.report.strengths[a] = bonds.strength;
     if (bonds.law.is_brittle()) continue;
     number[kind] = static_cast<Index>(network.laws.size());
     network.laws.push_back(bonds.law);

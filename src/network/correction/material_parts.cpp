@@ -290,7 +290,7 @@ void put_back(const MaterialPart& part, NewBonds& made, Network& whole) {
 }
 
 void add_report(const MaterialPart& part, CalibrationReport& sum) {
-  const CalibrationReport& own = *part.network.calibration;
+  const CalibrationReport& own = *part.network.report.calibration;
   if (own.residual_after >= sum.residual_after && own.worst_particle != no_index) {
     sum.worst_particle = part.particle_of[own.worst_particle];
   }
@@ -346,7 +346,7 @@ bool calibrate_parts(const Body& body, const NetworkInput& input, const PartCali
   for (const MaterialPart& part : parts) put_back(part, made, whole);
   whole.stiffness = std::move(made.stiffness);
   whole.critical_stretch = std::move(made.stretch);
-  whole.calibration = report;
+  whole.report.calibration = report;
   std::vector<std::uint8_t> keep;
   for (const double k : whole.stiffness) keep.push_back(k > 0.0 ? 1 : 0);
   keep_elements(whole, keep);

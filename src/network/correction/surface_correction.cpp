@@ -233,7 +233,7 @@ void Correction::calibrate(bool give_up) {
   const LatticeNeighbourhoods* neighbourhood = neighbourhoods ? &*neighbourhoods : nullptr;
   CalibrationInput calibration{network_.particles, network_.bonds, {}, {}};
   calibration.give_up = give_up;
-  calibration.only_alike = input_.only_alike;
+  calibration.only_alike = input_.calibrating == Calibrating::only_alike;
   if (neighbourhood) {
     calibration.free = free_bonds(*neighbourhood, of_kinds);
     if (network_.hinged.empty()) {
@@ -250,11 +250,11 @@ void Correction::calibrate(bool give_up) {
   }
   // Later changes of single bonds do not affect their strength.
   if (!input_.elastic) network_.bending_ratio = own_bending_ratios(network_);
-  if (input_.estimates_cost) {
-    network_.calibration = expected_calibration(calibration, micropolar());
-  } else if (!input_.draft) {
+  if (input_.calibrating == Calibrating::estimated) {
+    network_.report.calibration = expected_calibration(calibration, micropolar());
+  } else if (!input_.is_draft()) {
     balance(calibration);
-    network_.calibration->seconds = timer.seconds();
+    network_.report.calibration->seconds = timer.seconds();
   }
   if (!input_.elastic) set_strength(neighbourhood);
 }
@@ -283,7 +283,7 @@ void Correction::set_strength(const LatticeNeighbourhoods* neighbourhoods) {
 /// Calibrates the parts of a body that differ in stiffness, each as a separate body.
 bool Correction::calibrate_parts() {
   if (input_.materials.size() < 2 || !input_.interfaces.empty()) return false;
-  if (input_.draft || input_.shell) return false;
+  if (input_.is_draft() || input_.shell) return false;
   if (can_break(input_) && on_lattice() && input_.critical_stretch != Constants::lattice) {
     return false;
   }
@@ -298,7 +298,7 @@ bool Correction::calibrate_parts() {
     toughen_tied_faces(input_.horizon, body_.lattice.spacing, part);
   };
   if (!perilink::calibrate_parts(body_, input_, calibrate_part, network_)) return false;
-  network_.calibration->seconds = timer.seconds();
+  network_.report.calibration->seconds = timer.seconds();
   return true;
 }
 
@@ -308,12 +308,12 @@ void Correction::balance(const CalibrationInput& calibration) {
                           std::move(network_.inflection)};
   CalibrationOptions options;
   options.on_search = input_.calibration.on_search;
-  network_.calibration =
+  network_.report.calibration =
       calibrate_once(input_.calibration.store, calibration, options, network_.facets, stiffness);
   network_.stiffness = std::move(stiffness.axial);
   network_.bending = std::move(stiffness.bending);
   network_.inflection = std::move(stiffness.inflection);
-  if (network_.calibration->dropped > 0) {
+  if (network_.report.calibration->dropped > 0) {
     std::vector<std::uint8_t> keep;
     for (const double k : network_.stiffness) keep.push_back(k > 0.0);
     keep_elements(network_, keep);

@@ -85,7 +85,8 @@ LatticeNetwork lattice_network(const LatticeRows& lattice, std::span<const doubl
     if (stays[i]) result.slots.push_back(lattice.particle_slot[i]);
   }
   result.left_out = lattice.particles() - network.particles.size();
-  network.state_stiffness.assign(result.slots.size(), sum_modulus / (2.0 * lattice.spacing));
+  network.states.emplace().stiffness.assign(result.slots.size(),
+                                            sum_modulus / (2.0 * lattice.spacing));
   network.first_slip_spring = network.first_bar_element = network.bonds.size();
   return result;
 }

@@ -135,7 +135,7 @@ void keep_neighbours(const Bonds& candidates, std::span<const double> stiffness,
     if (state_of[e] == 0) continue;
     network.bonds.append(network.particles, candidates.first[e], candidates.second[e]);
     network.stiffness.push_back(stiffness[e]);
-    network.state_of.push_back(state_of[e]);
+    network.states->ends.push_back(state_of[e]);
   }
   network.first_slip_spring = network.first_bar_element = network.bonds.size();
 }
@@ -150,6 +150,7 @@ ParticleNetwork make_particle_network(const Body& body, Problem problem,
   network.particles = body.particles;
   network.particles.volumes = voronoi_volumes(body.particles, body.cells, thickness);
   network.facets = body.facets;
+  network.states.emplace();
   const int count = body.particles.dim == 2 ? neighbors_in_plane : neighbors_in_space;
   const Bonds candidates = find_candidates(body, count);
   const Neighbourhoods neighbourhoods(candidates, network.particles, problem, materials);
@@ -166,7 +167,7 @@ ParticleNetwork make_particle_network(const Body& body, Problem problem,
       stiffness[e] += 0.5 * own / neighbourhood.bonds[k].length;
       state_of[e] |= candidates.first[e] == i ? first_end : second_end;
     }
-    network.state_stiffness.push_back(0.5 * neighbourhood.fit.moduli.state);
+    network.states->stiffness.push_back(0.5 * neighbourhood.fit.moduli.state);
   }
   result.report.mean_residual /= std::max<Index>(1, size);
   keep_neighbours(candidates, stiffness, state_of, network);

@@ -21,6 +21,7 @@ struct Supernode {
 
   Index below() const { return count - columns; }
   Number* column(Index j) const { return values + static_cast<std::size_t>(j) * count; }
+  Number& diagonal(Index j) const { return column(j)[j]; }
 };
 
 /// \param values  numbers of the supernode, shape (count, columns)

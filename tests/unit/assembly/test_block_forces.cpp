@@ -52,7 +52,8 @@ TEST(BlockForces, AreThoseOfEachMotion) {
 
 TEST(BlockForces, StatesCountAsWell) {
   Network network = make_network({"", Pattern::rectangular, Surface::none}, 4);
-  network.state_stiffness = random_vector(static_cast<std::size_t>(network.particles.size()), 4);
+  network.states.emplace().stiffness =
+      random_vector(static_cast<std::size_t>(network.particles.size()), 4);
   expect_forces_of_each(network);
 }
 

@@ -57,7 +57,7 @@ TEST(InternalForce, ElasticSupportsPullBackAndStoreEnergy) {
 
 TEST(InternalForce, WithoutSecantsAllIsIntact) {
   Network trusses = make_network({"", Pattern::cubic, Surface::none}, 3), states = trusses;
-  states.state_stiffness.assign(static_cast<std::size_t>(states.particles.size()), 0.3);
+  states.states.emplace().stiffness.assign(static_cast<std::size_t>(states.particles.size()), 0.3);
   Network frames = trusses;
   frames.bending.assign(frames.stiffness.size(), 2.0);
   for (const Network* network : {&trusses, &states, &frames}) {

@@ -51,7 +51,7 @@ TEST(ExpectedEvents, LeaveOutBondsThatCannotBreak) {
 
 TEST(ExpectedEvents, FollowWeakInterfaces) {
   Network plate = long_plate();
-  plate.interfaces = {{.count = 7, .strength = {.segments = 4}}};
+  plate.report.interfaces = {{.count = 7, .strength = {.segments = 4}}};
   EXPECT_EQ(expected_crack(plate)->events, 28.0);
 }
 

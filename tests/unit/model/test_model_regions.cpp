@@ -70,7 +70,7 @@ TEST(ModelRegions, HoldBarNodesToo) {
   CaseFile input = strip_case();
   RebarSection bar;
   bar.points = {{15.0, 5.0, 0.0}, {15.0, 75.0, 0.0}};
-  bar.bond = RebarBond::concrete;
+  bar.bond.type = RebarBond::concrete;
   bar.youngs_modulus = 29000.0;
   bar.area = 1.0;
   input.rebar.push_back(bar);
@@ -88,8 +88,8 @@ TEST(ModelRegions, HoldBarNodesOnPointsLinesAndTheSurface) {
   CaseFile input = strip_case();
   RebarSection bar;
   bar.points = {{15.0, 0.0, 0.0}, {15.0, 60.0, 0.0}};
-  bar.bond = RebarBond::linear;
-  bar.bond_stiffness = 1.0;
+  bar.bond.type = RebarBond::linear;
+  bar.bond.stiffness = 1.0;
   bar.youngs_modulus = 29000.0;
   bar.area = 1.0;
   input.rebar.push_back(bar);

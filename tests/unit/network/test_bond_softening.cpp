@@ -126,8 +126,8 @@ TEST_P(SofteningLattice, HasTheStrengthAndTheEnergyAskedFor) {
   const Network brittle = build_network(body, input);
   input.materials[0].softening = softening(Softening::bilinear, 0.6, 1e-3);
   const Network network = build_network(body, input);
-  ASSERT_EQ(network.strengths.size(), 1U);
-  const MaterialStrength& strength = network.strengths[0];
+  ASSERT_EQ(network.report.strengths.size(), 1U);
+  const MaterialStrength& strength = network.report.strengths[0];
   EXPECT_NEAR(strength.tensile_strength, 0.6, sought * 0.6);
   EXPECT_NEAR(strength.fracture_energy, 0.02, round_off);
   EXPECT_NEAR(strength.process_zone, 30.0 * 0.02 / 0.36, 1e-3 * 30.0 * 0.02 / 0.36);
@@ -156,7 +156,7 @@ TEST(UnstructuredSoftening, HasTheStrengthAndTheEnergyAskedFor) {
   for (const Softening kind : {Softening::linear, Softening::exponential}) {
     input.materials[0].softening = softening(kind, 0.5);
     const Network network = build_network(body, input);
-    const MaterialStrength& strength = network.strengths.at(0);
+    const MaterialStrength& strength = network.report.strengths.at(0);
     EXPECT_NEAR(strength.tensile_strength, 0.5, sought * 0.5);
     EXPECT_NEAR(strength.fracture_energy, 0.02, round_off);
     expect_law(network, brittle, strength);
@@ -195,8 +195,8 @@ TEST(SofteningPairs, HaveTheMeanConstantsAndTheStrengthOfTheWeaker) {
   const Halves halves({30.0, 0.02, 0.0, softening(Softening::linear, 0.6)},
                       {40.0, 0.05, 0.0, softening(Softening::exponential, 0.8)});
   const Network network = halves.network(), brittle = halves.brittle();
-  EXPECT_NEAR(network.strengths.at(0).tensile_strength, 0.6, sought * 0.6);
-  EXPECT_NEAR(network.strengths.at(1).tensile_strength, 0.8, sought * 0.8);
+  EXPECT_NEAR(network.report.strengths.at(0).tensile_strength, 0.6, sought * 0.6);
+  EXPECT_NEAR(network.report.strengths.at(1).tensile_strength, 0.8, sought * 0.8);
   const SolidMaterial mean = {35.0, 0.02, 0.0, softening(Softening::linear, 0.6)};
   int between = 0;
   for (Index e = 0; e < network.num_elements(); ++e) {
@@ -233,7 +233,7 @@ TEST(SofteningPairs, StayUnbreakableBesideUnbreakableBonds) {
     EXPECT_EQ(network.has_limit(e), materials_of(network, e) == 0);
     EXPECT_NE(network.law(e).is_brittle(), materials_of(network, e) == 0);
   }
-  EXPECT_EQ(network.strengths.at(1).segments, 0) << "nothing can break";
+  EXPECT_EQ(network.report.strengths.at(1).segments, 0) << "nothing can break";
 }
 
 TEST(SofteningBonds, TieBarsAsTheirSolidDoes) {
@@ -281,9 +281,9 @@ TEST(SofteningBonds, TieBarsInLayersAsTheInsideOfTheirLayer) {
     ++ties[own];
     int segments = 0;
     while (network.law(e).segment(segments).secant > 0.0) ++segments;
-    EXPECT_EQ(segments, network.strengths[own].segments);
+    EXPECT_EQ(segments, network.report.strengths[own].segments);
     EXPECT_GT(segments, 1);
-    EXPECT_EQ(network.critical_stretch[e], network.strengths[own].first_stretch);
+    EXPECT_EQ(network.critical_stretch[e], network.report.strengths[own].first_stretch);
   }
   EXPECT_GT(ties[0], 0);
   EXPECT_GT(ties[1], 0);
@@ -319,13 +319,13 @@ TEST(SofteningBonds, TakeStretchesAsTheyAreGiven) {
   SofteningMaterial& material = input.materials[0].softening;
   material.shape.kind = Softening::linear;
   material.stretches = {0.01, 0.12};
-  const MaterialStrength given = build_network(body, input).strengths.at(0);
+  const MaterialStrength given = build_network(body, input).report.strengths.at(0);
   EXPECT_EQ(given.first_stretch, 0.01);
   EXPECT_NEAR(given.last_stretch, 0.12, round_off);
   // Strength and energy that it reports have the same stretches.
   input.materials[0].fracture_energy = given.fracture_energy;
   material = softening(Softening::linear, given.tensile_strength);
-  const MaterialStrength again = build_network(body, input).strengths.at(0);
+  const MaterialStrength again = build_network(body, input).report.strengths.at(0);
   EXPECT_NEAR(again.first_stretch, 0.01, sought * 0.01);
   EXPECT_NEAR(again.last_stretch, 0.12, 3.0 * sought * 0.12);
 }
@@ -335,10 +335,10 @@ TEST(BrittleBonds, TellTheirStrengthToADraft) {
   const LatticeInput body_of = body_input({"", Pattern::rectangular, Surface::none}, 8);
   const Body body = make_body(body_of);
   NetworkInput input = network_input(body_of);
-  EXPECT_EQ(build_network(body, input).strengths.at(0).segments, 0) << "nobody asked";
-  input.draft = true;
+  EXPECT_EQ(build_network(body, input).report.strengths.at(0).segments, 0) << "nobody asked";
+  input.calibrating = Calibrating::never;
   const Network network = build_network(body, input);
-  const MaterialStrength& strength = network.strengths.at(0);
+  const MaterialStrength& strength = network.report.strengths.at(0);
   EXPECT_EQ(strength.segments, 1);
   EXPECT_EQ(strength.first_stretch, network.critical_stretch[0]);
   EXPECT_NEAR(strength.fracture_energy, 0.02, round_off);
@@ -353,9 +353,9 @@ TEST(BrittleBonds, OfVeryLongHorizonsAreThoseOfAContinuum) {
   const auto strength_at = [&](double ratio) {
     body_of.horizon = ratio * body_of.spacing;
     NetworkInput input = network_input(body_of);
-    input.draft = true;
+    input.calibrating = Calibrating::never;
     const Network network = build_network(make_body(body_of), input);
-    return network.strengths.at(0).tensile_strength / network.critical_stretch[0];
+    return network.report.strengths.at(0).tensile_strength / network.critical_stretch[0];
   };
   const double many = strength_at(16.0), all = strength_at(40.0);
   EXPECT_NEAR(many, all, 0.01 * all);

@@ -62,7 +62,7 @@ Sums sums_of(const Network& network, Index a, Index b) {
 TEST(BondStrength, OfACloudReleasesTheFractureEnergy) {
   const NetworkInput input = unstructured_micropolar_input(14);
   const Network network = build_network(make_unstructured(1, 14), input);
-  ASSERT_LT(network.calibration->smallest_weight, 0.9);
+  ASSERT_LT(network.report.calibration->smallest_weight, 0.9);
   const Sums inner = sums_of(network, 0, 0);
   ASSERT_GT(inner.volume, 0.0);
   const double energy = 0.5 * std::pow(network.critical_stretch[0], 2) * 2.0 / std::numbers::pi *

@@ -73,9 +73,9 @@ class FacesOfBodies : public testing::TestWithParam<FaceCase> {};
 TEST_P(FacesOfBodies, HaveTheAreaThatTheBodyHasThere) {
   const FaceBody face(GetParam());
   const Network network = build_network(face.body, face.input);
-  ASSERT_EQ(network.interfaces.size(), 1u);
+  ASSERT_EQ(network.report.interfaces.size(), 1u);
   // 1 %: at the sides the normals at single bonds are not quite that of the face.
-  EXPECT_NEAR(network.interfaces[0].area, face.area(), 0.01 * face.area());
+  EXPECT_NEAR(network.report.interfaces[0].area, face.area(), 0.01 * face.area());
 }
 
 TEST_P(FacesOfBodies, TakeTheirFractureEnergy) {
@@ -100,7 +100,7 @@ TEST_P(FacesOfBodies, HaveTheirStrength) {
   face.input.interfaces[0].softening.shape.kind = Softening::linear;
   face.input.interfaces[0].softening.tensile_strength = strength;
   const Network network = build_network(face.body, face.input);
-  const MaterialStrength& own = network.interfaces[0].strength;
+  const MaterialStrength& own = network.report.interfaces[0].strength;
   EXPECT_NEAR(own.tensile_strength, strength, 1e-3 * strength);  // sought to 1e-4
   EXPECT_GT(own.segments, 5);
   EXPECT_LT(own.first_stretch, strength / youngs_modulus);
@@ -136,8 +136,8 @@ TEST(WeakInterfaces, AreTheSameBesideBarsThatBend) {
     face.input.bar_materials[0].bends = true;
     const Network bending = build_network(face.body, face.input);
     ASSERT_TRUE(bending.carries_moments() && !straight.carries_moments());
-    EXPECT_EQ(bending.interfaces[0].count, straight.interfaces[0].count);
-    EXPECT_EQ(bending.interfaces[0].area, straight.interfaces[0].area);
+    EXPECT_EQ(bending.report.interfaces[0].count, straight.report.interfaces[0].count);
+    EXPECT_EQ(bending.report.interfaces[0].area, straight.report.interfaces[0].area);
     EXPECT_EQ(bending.critical_stretch, straight.critical_stretch);
   }
 }
@@ -146,7 +146,7 @@ TEST(WeakInterfaces, CostNothingWhereThereAreNone) {
   FaceBody face({"", Pattern::rectangular, BondModel::bond_based, 2});
   face.input.interfaces.clear();
   const Network network = build_network(face.body, face.input);
-  EXPECT_TRUE(network.interfaces.empty());
+  EXPECT_TRUE(network.report.interfaces.empty());
   EXPECT_TRUE(network.law_of.empty());
 }
 

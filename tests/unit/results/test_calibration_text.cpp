@@ -30,21 +30,21 @@ TEST(CalibrationText, TellsWhatWasReached) {
 
 TEST(CalibrationText, TellsWhereItFellShort) {
   Network network = make_network({"", Pattern::rectangular, Surface::calibrated}, 8);
-  ASSERT_TRUE(network.calibration.has_value());
+  ASSERT_TRUE(network.report.calibration.has_value());
   EXPECT_FALSE(calibration_shortfall(network).has_value());
-  network.calibration->unmet = 3;
-  network.calibration->residual_after = 0.004;
-  network.calibration->worst_particle = 0;
+  network.report.calibration->unmet = 3;
+  network.report.calibration->residual_after = 0.004;
+  network.report.calibration->worst_particle = 0;
   const std::string text = calibration_shortfall(network).value_or("");
   EXPECT_NE(text.find("3 particles"), std::string::npos);
   EXPECT_NE(text.find("4.0e-03"), std::string::npos);
   EXPECT_NE(text.find("at (0, 0)"), std::string::npos) << text;
   EXPECT_EQ(text.find("WARNING"), std::string::npos) << text;
-  network.calibration->moment_after = 0.02;
+  network.report.calibration->moment_after = 0.02;
   const std::string warning = calibration_shortfall(network).value_or("");
   EXPECT_NE(warning.find("2.0e-02"), std::string::npos) << warning;
   EXPECT_NE(warning.find("WARNING"), std::string::npos) << warning;
-  network.calibration.reset();
+  network.report.calibration.reset();
   EXPECT_FALSE(calibration_shortfall(network).has_value());
 }
 

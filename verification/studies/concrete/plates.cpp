@@ -95,7 +95,7 @@ PlateResult load_plate(const Plate& plate) {
   const double volume = side * side * (plate.body == "slab" ? thickness : 1.0);
   const double strain_of_length = model.reference.value / volume;
   for (auto& point : recorder.curve) point.first *= strain_of_length;
-  const MaterialStrength& cell = model.network.strengths.front();
+  const MaterialStrength& cell = model.network.report.strengths.front();
   return {recorder.strength,     recorder.strain * strain_of_length,
           cell.tensile_strength, cell.compressive_strength,
           run.energy_error,      recorder.events,

@@ -190,7 +190,7 @@ std::string measure(const Series& series, int columns, LinearSolver solver) {
   const Timer timer;
   const Model model =
       build_model(parse_case(case_text(series, columns) + "type = \"elastic\"\n", "body"));
-  const double set_up = timer.seconds(), calibration = model.network.calibration->seconds;
+  const double set_up = timer.seconds(), calibration = model.network.report.calibration->seconds;
   const ElasticResult found = run_elastic_analysis(model, {.threads = 1, .solver = solver});
   const ElasticSeconds& took = found.seconds;
   return fmt::format("{},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.1e},{:.2f}\n", series.name,

@@ -234,7 +234,7 @@ PatchResult run_patch(const PatchBody& body) {
   result.body = body;
   result.particles = model.network.particles.size();
   result.bonds = model.network.num_elements();
-  result.before = model.network.calibration->residual_before;
+  result.before = model.network.report.calibration->residual_before;
   result.residual = patch_residual(model);
   result.traction_error = traction_error(model);
   result.displacement_error = displacement_error(model);

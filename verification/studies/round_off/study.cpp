@@ -47,8 +47,8 @@ bool perilink::verification::run_program(const std::vector<std::string>& argumen
     const ChangedBody plain = run_changed(body, Change::none, broken, directory);
     fmt::print("{} ({}): peak {:.10g}, {:.3f} s, {} iterations, unbalanced {:.1e}\n", body.name,
                plain.model.network.particles.size(), plain.peak, plain.seconds,
-               plain.model.network.calibration->iterations,
-               plain.model.network.calibration->residual_after);
+               plain.model.network.report.calibration->iterations,
+               plain.model.network.report.calibration->residual_after);
     table += fmt::format("\"{}\",{},{:.6g}", body.name, plain.model.network.particles.size(),
                          plain.peak);
     double seconds = plain.seconds;
@@ -58,7 +58,7 @@ bool perilink::verification::run_program(const std::vector<std::string>& argumen
       const double weights = stiffness_difference(body, plain.model, other.model, change);
       fmt::print("  {}: stiffness {:.1e} peak {:.1e} {:.3f} s {} iterations\n",
                  static_cast<int>(change), weights, peak, other.seconds,
-                 other.model.network.calibration->iterations);
+                 other.model.network.report.calibration->iterations);
       std::fflush(stdout);
       largest = std::max({largest, peak});
       table += fmt::format(",{:.0e}", peak);

@@ -189,7 +189,7 @@ double StateParticles<Dim>::half_energy(Index i, double time_step, const BondMot
     now += factor.mine * e;
     before += factor.mine * past;
   }
-  return energy + 0.5 * network_.state_stiffness[i] * now * before;
+  return energy + 0.5 * network_.states->stiffness[i] * now * before;
 }
 
 template <int Dim>
@@ -270,7 +270,7 @@ BondLosses StateParticles<Dim>::forces(Index begin, Index end, double /*time_ste
                                        const BondMotion& motion, std::span<double> force) {
   for (Index i = begin; i < end; ++i) {
     double inner[Dim] = {};
-    const double own = network_.state_stiffness[i] * sum_[i];
+    const double own = network_.states->stiffness[i] * sum_[i];
     for (std::size_t h = offsets_[i]; h < offsets_[i + 1]; ++h) {
       const StateHalf<Dim>& half = halves_[h];
       const double e = half.extension_in(motion.displacement, i);
@@ -278,7 +278,7 @@ BondLosses StateParticles<Dim>::forces(Index begin, Index end, double /*time_ste
       double pull = factor.bond * half.k * e;
       if (half.mine) pull += factor.mine * own;
       if (half.others) {
-        pull += factor.other * network_.state_stiffness[half.other] * sum_[half.other];
+        pull += factor.other * network_.states->stiffness[half.other] * sum_[half.other];
       }
       for (int c = 0; c < Dim; ++c) inner[c] -= pull * half.n[c];
     }

@@ -193,7 +193,7 @@ bool ContactChanges::follow(const std::vector<Index>& wrong, EventOutcome& outco
     before.push_back({element, contact_.extension_of(element), body_.is_closed(element)});
   }
   Update& update = solution_.update();
-  const int factors = update.inverse().factorizations();
+  const int factors = update.inverse().statistics().factorizations;
   const bool found = search(wrong);
   const std::vector<Index> changed = found ? wrong : change(wrong);
   if (changed.empty()) return false;
@@ -201,7 +201,7 @@ bool ContactChanges::follow(const std::vector<Index>& wrong, EventOutcome& outco
   std::erase_if(before,
                 [&](const Before& bond) { return body_.is_closed(bond.element) == bond.closed; });
   if (!found && (!update.adds_solutions() || !solution_.growing().is_whole() ||
-                 update.inverse().factorizations() != factors)) {
+                 update.inverse().statistics().factorizations != factors)) {
     solution_.refresh();
   } else if (!found) {
     ForceOfElements forces(body_.num_unknowns());

@@ -74,9 +74,6 @@ class EventEngine {
   /// ascending.
   virtual std::vector<Index> near_events(const Event& event, double fraction) = 0;
 
-  /// Returns the number of numerical factorisations so far.
-  virtual int factorizations() const = 0;
-
   virtual FactorStatistics factor_statistics() const = 0;
 
   /// Returns what an engine needs to go on from here. It makes a new factor, so that results

@@ -59,13 +59,23 @@ Event SingleEventEngine::next_event_below(double most) {
   };
   BreakSearch::Hit hit = find();
   const Solution& solution = equilibrium_.solution();
+  // The extension of the element may be noise, or round-off of the motion of its ends. No element
+  // is then in tension, and the load factor would be meaningless.
+  const auto is_within = [&](double noise) {
+    if (network_.carries_moments()) {  // the search includes shear and bending
+      return hit.ratio * limit_of(hit.element) * network_.bonds.length(hit.element) <= noise;
+    }
+    const NoisyExtension change =
+        extension_of(network_, hit.element, equilibrium_.where_elements_fail());
+    return std::abs(change.value) <= change.round_off + noise;
+  };
   const double noise = solution.noise(), noise_of_events = solution.noise_of_events();
-  if (hit.element != no_index && noise_of_events > noise && is_within(noise_of_events, hit)) {
+  if (hit.element != no_index && noise_of_events > noise && is_within(noise_of_events)) {
     equilibrium_.check();
     hit = find();
   }
   if (hit.element == no_index) return {};
-  if (is_within(noise, hit)) {
+  if (is_within(noise)) {
     refuse_hidden_strains(noise, hit);
     return {};
   }
@@ -128,17 +138,6 @@ void SingleEventEngine::limit_batch(const Event& event, double energy,
   hits.resize(std::min(hits.size(), std::max<std::size_t>(count, 1)));
   progress_.last_count = std::max(1.0, static_cast<double>(hits.size()));
   progress_.last_factor = factor;
-}
-
-/// Returns whether the extension of the next element is noise, or round-off of the motion of its
-/// ends. No element is then in tension, and the load factor would be meaningless.
-bool SingleEventEngine::is_within(double noise, const BreakSearch::Hit& hit) const {
-  const Index element = hit.element;
-  if (network_.carries_moments()) {  // the search includes shear and bending
-    return hit.ratio * limit_of(element) * network_.bonds.length(element) <= noise;
-  }
-  const NoisyExtension change = extension_of(network_, element, equilibrium_.where_elements_fail());
-  return std::abs(change.value) <= change.round_off + noise;
 }
 
 /// Accepts that no element is in tension only if other elements are strained far more. Otherwise

@@ -40,7 +40,6 @@ class SingleEventEngine : public EventEngine {
   }
   void set_release_threshold(std::span<const Index> elements, double fraction) override;
   std::vector<Index> near_events(const Event& event, double fraction) override;
-  int factorizations() const override { return factor_statistics().factorizations; }
   FactorStatistics factor_statistics() const override { return equilibrium_.update().statistics(); }
   BodyState state() const override { return {equilibrium_.state(), progress_, {}}; }
 
@@ -79,7 +78,6 @@ class SingleEventEngine : public EventEngine {
   /// Passes the next limits of an element to the search after its event.
   void set_limits(Index element);
 
-  bool is_within(double noise, const BreakSearch::Hit& hit) const;
   void refuse_hidden_strains(double noise, const BreakSearch::Hit& hit);
 
   const Network& network_;

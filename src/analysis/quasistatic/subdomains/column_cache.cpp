@@ -188,7 +188,12 @@ void SubdomainFactor::take_in(std::span<const SparseVector> x) {
   compliance_.conservativeResize(size, size);
   compliance_.rightCols(size - before) =
       on_columns(window_, blocks_.size() - 1).leftCols(size - before);
-  mirror_compliance(before);
+  // The rest of the compliance follows by symmetry.
+  const Eigen::Index count = size - before;
+  compliance_.bottomLeftCorner(count, before) =
+      compliance_.topRightCorner(before, count).transpose();
+  const Eigen::MatrixXd own = compliance_.bottomRightCorner(count, count);
+  compliance_.bottomRightCorner(count, count) = 0.5 * (own + own.transpose());
 }
 
 /// Returns x'y for vectors x and the columns y of a block.
@@ -202,15 +207,6 @@ Eigen::MatrixXd SubdomainFactor::on_columns(std::span<const SparseVector> x,
     }
   }
   return result;
-}
-
-/// Completes the compliance of the columns from `before` on by symmetry.
-void SubdomainFactor::mirror_compliance(Eigen::Index before) {
-  const Eigen::Index count = compliance_.cols() - before;
-  compliance_.bottomLeftCorner(count, before) =
-      compliance_.topRightCorner(before, count).transpose();
-  const Eigen::MatrixXd own = compliance_.bottomRightCorner(count, count);
-  compliance_.bottomRightCorner(count, count) = 0.5 * (own + own.transpose());
 }
 
 void SubdomainFactor::fill_right_sides(std::span<const SparseVector> x) {

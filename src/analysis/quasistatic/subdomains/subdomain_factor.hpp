@@ -54,7 +54,6 @@ class SubdomainFactor final : public Factor {
   void downdate(std::span<const SparseVector> x, std::span<const double> load_changes,
                 std::span<const double> pivots, std::span<double> solution) override;
   void update(const SparseVector& x) override;
-  int factorizations() const override { return begun_; }
   FactorStatistics statistics() const override;
 
   std::size_t num_blocks() const { return blocks_.size(); }
@@ -71,7 +70,6 @@ class SubdomainFactor final : public Factor {
   void take_in(std::span<const SparseVector> x);
   void fill_right_sides(std::span<const SparseVector> x);
   Eigen::MatrixXd on_columns(std::span<const SparseVector> x, std::size_t block) const;
-  void mirror_compliance(Eigen::Index before);
   Eigen::VectorXd in_window(const SparseVector& x);
   std::vector<double> motion_of(const Eigen::VectorXd& weights) const;
   void change(const Eigen::VectorXd& d, double pivot, double sign);

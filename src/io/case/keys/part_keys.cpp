@@ -77,7 +77,7 @@ std::vector<KeySchema> face_keys(void (*write)(TomlWriter&, const Section&, Kind
 /// Returns keys of bars; words of the key `bond` allow them.
 KeySchema code_key(const char* name, double ModelCodeBond::*member) {
   return key<Bar>(
-             name, [member](Bar& bar) -> double& { return bar.model_code.*member; }, positive)
+             name, [member](Bar& bar) -> double& { return bar.bond.model_code.*member; }, positive)
       .only_with("bond", {"model_code"});
 }
 
@@ -123,30 +123,34 @@ std::vector<KeySchema> steel_keys() {
 }
 
 std::vector<KeySchema> bond_keys() {
-  const auto code = [](auto member) {
-    return [member](Bar & bar) -> auto& { return bar.model_code.*member; };
+  using Bond = RebarBondSection;
+  const auto of = [](auto member) {
+    return [member](Bar & bar) -> auto& { return bar.bond.*member; };
   };
-  return {key("bond", &Bar::bond),
-          key("ties_break", &Bar::slip_springs_break).only_with("bond", {"concrete"}),
-          key("bond_stiffness", &Bar::bond_stiffness, positive)
+  const auto code = [](auto member) {
+    return [member](Bar & bar) -> auto& { return bar.bond.model_code.*member; };
+  };
+  return {key<Bar>("bond", of(&Bond::type)),
+          key<Bar>("ties_break", of(&Bond::slip_springs_break)).only_with("bond", {"concrete"}),
+          key<Bar>("bond_stiffness", of(&Bond::stiffness), positive)
               .only_with("bond", {"linear"})
               .needed("the bond stress over the slip"),
-          key("bond_strength", &Bar::bond_strength, positive).only_with("bond", {"linear"}),
-          key("bond_curve", &Bar::bond_curve, Kind::pairs)
+          key<Bar>("bond_strength", of(&Bond::strength), positive).only_with("bond", {"linear"}),
+          key<Bar>("bond_curve", of(&Bond::curve), Kind::pairs)
               .only_with("bond", {"curve"})
               .needed("slips and bond stresses: [[0.1, 4], [1, 10]]"),
           code_key("concrete_strength", &ModelCodeBond::mean_strength)
               .needed("the mean compressive strength of the concrete"),
           code_key("rib_spacing", &ModelCodeBond::rib_spacing).written_if(+[](const Bar& bar) {
-            return bar.model_code.rib_spacing > 0.0;
+            return bar.bond.model_code.rib_spacing > 0.0;
           }),
           key<Bar>("bond_failure", code(&ModelCodeBond::failure)).only_with("bond", {"model_code"}),
           key<Bar>("bond_conditions", code(&ModelCodeBond::conditions))
               .only_with("bond", {"model_code"}),
           code_key("megapascal", &ModelCodeBond::megapascal),
           code_key("millimetre", &ModelCodeBond::millimetre),
-          key("perimeter", &Bar::perimeter, positive).only_with("bond", not_concrete),
-          key("hooks", &Bar::hooks).only_with("bond", not_concrete),
+          key<Bar>("perimeter", of(&Bond::perimeter), positive).only_with("bond", not_concrete),
+          key<Bar>("hooks", of(&Bond::hooks)).only_with("bond", not_concrete),
           key("bends", &Bar::bends).only_with("bond", not_concrete),
           key("prestrain", &Bar::prestrain)
               .only_with("bond", not_concrete)

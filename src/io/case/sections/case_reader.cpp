@@ -120,12 +120,12 @@ std::string item_key(const std::string& table, std::size_t index, const std::str
 SourceLocation CaseFile::where(const std::string& key) const {
   std::string above = key;
   while (!above.empty()) {
-    const auto found = lines.find(above);
-    if (found != lines.end()) return {path, found->second, key};
+    const auto found = source.lines.find(above);
+    if (found != source.lines.end()) return {source.path, found->second, key};
     const std::size_t end = above.find_last_of(".[");
     above.resize(end == std::string::npos ? 0 : end);
   }
-  return {path, 0, key};
+  return {source.path, 0, key};
 }
 
 CaseFile parse_case(const std::string& text, const std::string& path) {
@@ -149,12 +149,12 @@ CaseFile parse_case(const std::string& text, const std::string& path,
   const Document document(root, path);
 
   CaseFile input;
-  input.path = path;
-  collect_lines(root, "", input.lines);
+  input.source.path = path;
+  collect_lines(root, "", input.source.lines);
   input = read_section("", document.top(), Kinds{}, std::move(input));
   read_kind(document, input);
   const Kinds kind = kinds_of(input);
-  input.unused = find_unused(root, input);
+  input.source.unused = find_unused(root, input);
   input.body = read_body(document.table("body"), input.body, kind);
   const auto each = [&](const char* name, auto reader, const auto& known) {
     return document.list(name,
@@ -188,7 +188,7 @@ CaseFile parse_case(const std::string& text, const std::string& path,
   input.gauges = each("gauges", read_gauge, kind);
   input.elements = read_elements(document.table("elements"), kind);
   input.analysis = read_analysis(document.table("analysis"), kind);
-  for (std::string& key : unused_fields(input)) input.unused.push_back(std::move(key));
+  for (std::string& key : unused_fields(input)) input.source.unused.push_back(std::move(key));
   input.stop = read_stop(document.table("stop"), kind);
   input.stages = each("stages", read_stage, kind);
   input.output = read_section<OutputSection>("output", document.table("output"), kind);

@@ -140,9 +140,9 @@ RebarSection read_rebar(const CaseTable& table, Kinds kind) {
   auto bar = read_section<RebarSection>("rebar", table, kind);
   read_place(table, dimension_of(kind), bar);
   check_steel(table, bar);
-  if (bar.model_code.failure == BondFailure::splitting) {
-    bar.model_code.rib_spacing = 0.0;
-  } else if (bar.bond == RebarBond::model_code && !table.has("rib_spacing")) {
+  if (bar.bond.model_code.failure == BondFailure::splitting) {
+    bar.bond.model_code.rib_spacing = 0.0;
+  } else if (bar.bond.type == RebarBond::model_code && !table.has("rib_spacing")) {
     table.refuse_missing("rib_spacing", "the clear distance between ribs");
   }
   if (bar.bends && (bar.rupture_strain || (!bar.curve.empty() && bar.curve.back()[1] == 0.0))) {
@@ -160,7 +160,7 @@ RebarSection read_rebar(const CaseTable& table, Kinds kind) {
 void check_rebar(const CaseFile& input) {
   for (std::size_t k = 0; k < input.rebar.size(); ++k) {
     const RebarSection& bar = input.rebar[k];
-    if (bar.bond == RebarBond::concrete) {
+    if (bar.bond.type == RebarBond::concrete) {
       refuse_flow_without_factor(input, k);
       continue;
     }

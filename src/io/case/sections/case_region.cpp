@@ -70,7 +70,7 @@ std::optional<int> axis_of_cylinder(const CaseTable& table, int dim) {
 Region read_round(const CaseTable& table, Region region, int dim) {
   Round round;
   round.axis = axis_of_cylinder(table, dim);
-  round.radius = table.need("radius", table.positive("radius"), "the radius");
+  round.radius = table.need("radius", table.number("radius", allowed::positive), "the radius");
   const std::vector<double> center =
       table.need("center", table.numbers("center"), "the center of the radius");
   const std::size_t size = static_cast<std::size_t>(round.axis ? 2 : dim);

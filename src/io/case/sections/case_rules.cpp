@@ -201,7 +201,8 @@ void check_materials(const CaseFile& input, const std::set<std::string>& names) 
   std::map<std::string, std::size_t> owner;
   for (std::size_t i = 0; i < input.materials.size(); ++i) {
     const std::string list = item_key("materials", i, "regions");
-    const std::string key = input.lines.count(list) > 0 ? list : item_key("materials", i, "region");
+    const std::string key =
+        input.source.lines.count(list) > 0 ? list : item_key("materials", i, "region");
     for (const std::string& region : input.materials[i].regions) {
       check_reference(input, names, key, region, Reserved::refused);
       check_shape(input, key, region);

@@ -48,9 +48,9 @@ std::vector<std::string> find_unused(const TomlValue& document, const CaseFile& 
 }
 
 std::optional<std::string> note_of_unused(const CaseFile& input) {
-  if (input.unused.empty()) return std::nullopt;
+  if (input.source.unused.empty()) return std::nullopt;
   return fmt::format("not used by type = \"{}\": {}", word_of(input.analysis.type),
-                     joined(input.unused));
+                     joined(input.source.unused));
 }
 
 }  // namespace perilink

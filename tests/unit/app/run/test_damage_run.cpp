@@ -163,7 +163,7 @@ TEST_F(DamageRunTest, ALoadStepThatPassesACountWritesTheNextOne) {
 TEST_F(DamageRunTest, YieldingBreaksNothing) {
   RebarSection bar;
   bar.points = {{22.0, 5.0, 0.0}, {22.0, 75.0, 0.0}};
-  bar.bond = RebarBond::concrete;
+  bar.bond.type = RebarBond::concrete;
   bar.youngs_modulus = 29000.0;
   bar.area = 3.0;
   bar.yield_strength = 60.0;

@@ -71,7 +71,7 @@ TEST(Equilibria, TellEveryFigureUnderItsKey) {
       {"particles", 45},
       {"bonds", model.network.num_elements()},
       {"unknowns", 60},
-      {"calibration", calibration_json(model.network.calibration.value())},
+      {"calibration", calibration_json(model.network.report.calibration.value())},
       {"spacing", 10.0},
       {"horizon", 31.0},
       {"notes", std::vector<std::string>{"mind the gap"}},

@@ -59,7 +59,7 @@ TEST(RunWarnings, NameWorkThatIsStillMotion) {
 TEST(RunWarnings, NameCompressionBeyondTenTimesTheTensileStrength) {
   Network network;
   network.particles.material = {0, 1, no_index, 0, 0};
-  network.strengths = {{4.0}, {}};  // the second material cannot break
+  network.report.strengths = {{4.0}, {}};  // the second material cannot break
   const std::vector<double> principal = {1.0, -41.0, 0.0, 0.0,  -90.0, 0.0,   0.0, -80.0,
                                          0.0, 2.0,   0.0, -8.0, 0.0,   -50.0, 0.0};
   const std::vector<double> damage = {0.4, 0.0, 0.0, 0.0, 0.6};  // the last one is a loose piece

@@ -56,7 +56,8 @@ TEST_F(KeptCalibrations, ServeBodiesThatDifferInStrengthOnly) {
     EXPECT_EQ(second.network.inflection, fresh.network.inflection);
     EXPECT_EQ(second.network.facets.shares, fresh.network.facets.shares);
     EXPECT_EQ(second.network.critical_stretch, fresh.network.critical_stretch);
-    EXPECT_EQ(second.network.calibration->iterations, fresh.network.calibration->iterations);
+    EXPECT_EQ(second.network.report.calibration->iterations,
+              fresh.network.report.calibration->iterations);
     EXPECT_NE(second.network.critical_stretch, first.network.critical_stretch);
   }
 }

@@ -21,7 +21,7 @@ class CaseTableTest : public testing::Test {
 TEST_F(CaseTableTest, ReadsEveryType) {
   EXPECT_EQ(table_.integer("i", 0, 5), 3);
   EXPECT_EQ(table_.number("i"), 3.0) << "integers are numbers";
-  EXPECT_EQ(table_.positive("n"), 2.5);
+  EXPECT_EQ(table_.number("n", allowed::positive), 2.5);
   EXPECT_EQ(table_.boolean("b"), true);
   EXPECT_EQ(table_.text("t"), "word");
   EXPECT_EQ(table_.choice("t", {"other", "word"}), "word");
@@ -47,8 +47,8 @@ TEST_F(CaseTableTest, RefusesOtherTypesAndRanges) {
   EXPECT_THROW(table_.integer("n", 0, 5), InputError);
   EXPECT_THROW(table_.integer("i", 4, 5), InputError);
   EXPECT_THROW(table_.number("t"), InputError);
-  EXPECT_THROW(table_.positive("neg"), InputError);
-  EXPECT_THROW(table_.positive("zero"), InputError);
+  EXPECT_THROW(table_.number("neg", allowed::positive), InputError);
+  EXPECT_THROW(table_.number("zero", allowed::positive), InputError);
   EXPECT_THROW(table_.boolean("i"), InputError);
   EXPECT_THROW(table_.text("i"), InputError);
   EXPECT_THROW(table_.choice("t", {"other"}), InputError);

@@ -47,7 +47,7 @@ TEST(FractureRule, IsNotAskedInElasticAnalyses) {
   input.analysis.type = AnalysisType::elastic;
   const Model model = build_model(input);
   EXPECT_TRUE(model.network.critical_stretch.empty());
-  EXPECT_TRUE(model.network.strengths.empty());
+  EXPECT_TRUE(model.network.report.strengths.empty());
   EXPECT_TRUE(model.crack_cost.empty());
 }
 

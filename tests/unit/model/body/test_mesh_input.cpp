@@ -260,7 +260,7 @@ TEST_F(MeshInput, CracksCutBonds) {
   input.cracks = {{{{1.0, -1.0, 0.0}, {1.0, 0.5, 0.0}}}};  // only the lower side is crossed
   const Model model = build_model(input);
   EXPECT_EQ(model.network.bonds.size(), 10 - 1);
-  EXPECT_THAT(model.network.cut_by_crack, ElementsAre(1));
+  EXPECT_THAT(model.network.report.cut_by_crack, ElementsAre(1));
 }
 
 /// Bonds of meshes that can break have the critical stretches of a continuum at first.

@@ -19,7 +19,7 @@ TEST(WeakFaces, AreWhereRegionsMeet) {
   const CaseFile input =
       case_with("between = [\"strip\", \"upper end\"]\nfracture_energy = 0.002\n");
   const Model model = build_model(input);
-  ASSERT_EQ(model.network.interfaces.size(), 1u);
+  ASSERT_EQ(model.network.report.interfaces.size(), 1u);
   const Network& network = model.network;
   Index crossing = 0;
   for (Index e = 0; e < network.num_bonds(); ++e) {
@@ -29,7 +29,7 @@ TEST(WeakFaces, AreWhereRegionsMeet) {
     crossing += crosses;
     EXPECT_EQ(network.critical_stretch[e] == network.critical_stretch[0], !crosses) << e;
   }
-  EXPECT_EQ(network.interfaces[0].count, crossing);
+  EXPECT_EQ(network.report.interfaces[0].count, crossing);
 }
 
 TEST(WeakFaces, AreTheSameByALine) {
@@ -37,14 +37,14 @@ TEST(WeakFaces, AreTheSameByALine) {
       build_model(case_with("between = [\"strip\", \"upper end\"]\nfracture_energy = 0.002\n"));
   const Model line =
       build_model(case_with("points = [[-5, 55], [45, 55]]\nfracture_energy = 0.002\n"));
-  EXPECT_EQ(line.network.interfaces[0].count, regions.network.interfaces[0].count);
+  EXPECT_EQ(line.network.report.interfaces[0].count, regions.network.report.interfaces[0].count);
   EXPECT_EQ(line.network.critical_stretch, regions.network.critical_stretch);
 }
 
 TEST(WeakFaces, AreLeftOutOfElasticAnalyses) {
   CaseFile input = case_with("points = [[-5, 55], [45, 55]]\nfracture_energy = 0.002\n");
   input.analysis.type = AnalysisType::elastic;
-  EXPECT_TRUE(build_model(input).network.interfaces.empty());
+  EXPECT_TRUE(build_model(input).network.report.interfaces.empty());
 }
 
 TEST(WeakFaces, AreRefusedWhereNoBondCrossesThem) {

@@ -73,7 +73,7 @@ TEST(BoundaryConditions, LoadsGoToTheSolidAndSupportsToBarsToo) {
   CaseFile input = strip_case();
   RebarSection bar;
   bar.points = {{15.0, 5.0, 0.0}, {15.0, 75.0, 0.0}};
-  bar.bond = RebarBond::concrete;
+  bar.bond.type = RebarBond::concrete;
   bar.youngs_modulus = 29000.0;
   bar.area = 1.0;
   input.rebar.push_back(bar);
@@ -276,7 +276,7 @@ TEST(BoundaryConditions, LooseParticlesAreRefused) {
   input.body.horizon = 14.2;
   RebarSection bar;  // its outer node, off the corner of the body, has a single element
   bar.points = {{40.0, 80.0, 0.0}, {47.0, 87.0, 0.0}};
-  bar.bond = RebarBond::concrete;
+  bar.bond.type = RebarBond::concrete;
   bar.across_gaps = true;
   bar.youngs_modulus = 29000.0;
   bar.area = 1.0;

@@ -195,7 +195,7 @@ CaseFile barred_case() {
   CaseFile input = strip_case();
   RebarSection bar;
   bar.points = {{22.0, 5.0, 0.0}, {22.0, 75.0, 0.0}};
-  bar.bond = RebarBond::concrete;
+  bar.bond.type = RebarBond::concrete;
   bar.youngs_modulus = 29000.0;
   bar.area = 3.0;
   bar.yield_strength = 58.0;
@@ -213,7 +213,7 @@ TEST(Configure, BarsYieldAndTiesBreakUnlessTheCaseSaysOtherwise) {
   EXPECT_TRUE(std::isfinite(network.critical_stretch[network.first_slip_spring]));
 
   input.rebar[0].yields = false;
-  input.rebar[0].slip_springs_break = false;
+  input.rebar[0].bond.slip_springs_break = false;
   const Network perfect = build_model(input).network;
   EXPECT_TRUE(std::isinf(perfect.critical_stretch[perfect.first_bar_element]));
   for (Index tie = perfect.first_slip_spring; tie < perfect.first_bar_element; ++tie) {
@@ -223,7 +223,7 @@ TEST(Configure, BarsYieldAndTiesBreakUnlessTheCaseSaysOtherwise) {
 
 TEST(Configure, BarsStayInTheBodyUnlessTheyAreWantedAcrossGaps) {
   CaseFile input = barred_case();
-  input.rebar[0].bond = RebarBond::perfect;
+  input.rebar[0].bond.type = RebarBond::perfect;
   EXPECT_NO_THROW(build_model(input));
   input.rebar[0].points[0][1] = -9.0;
   expect_refused(input, "rebar[1]", "leaves the body at (22, -9)");
@@ -307,10 +307,11 @@ TEST(DraftModel, HasTheSizesOfTheModel) {
   EXPECT_EQ(draft.network.bonds.size(), model.network.bonds.size());
   EXPECT_EQ(draft.unknowns.count, model.unknowns.count);
   EXPECT_EQ(draft.network.critical_stretch, model.network.critical_stretch);
-  ASSERT_TRUE(draft.network.calibration.has_value());
-  EXPECT_EQ(draft.network.calibration->free_bonds, model.network.calibration->free_bonds);
-  EXPECT_GE(draft.network.calibration->bytes, 100.0 * draft.network.num_elements());
-  EXPECT_EQ(draft.network.calibration->iterations, 0);
+  ASSERT_TRUE(draft.network.report.calibration.has_value());
+  EXPECT_EQ(draft.network.report.calibration->free_bonds,
+            model.network.report.calibration->free_bonds);
+  EXPECT_GE(draft.network.report.calibration->bytes, 100.0 * draft.network.num_elements());
+  EXPECT_EQ(draft.network.report.calibration->iterations, 0);
   EXPECT_NE(draft.network.stiffness, model.network.stiffness);
 }
 

@@ -58,7 +58,7 @@ TEST(SeparatedBody, IsRefusedWhereItSlidesAcrossABar) {
     input.materials[0].softening.closes = false;
     RebarSection bar;
     bar.points = {{20.0, 5.0, 0.0}, {20.0, 75.0, 0.0}};
-    bar.bond = RebarBond::concrete;
+    bar.bond.type = RebarBond::concrete;
     bar.youngs_modulus = 29000.0;
     bar.area = 1.0;
     input.rebar.push_back(bar);

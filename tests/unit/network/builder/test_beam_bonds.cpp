@@ -92,7 +92,7 @@ TEST(BeamBonds, OfMaterialsWithAStrengthSoften) {
     if (!softens) continue;
     EXPECT_NEAR(beam.critical_stretch[e], 0.1 / 8.0, 1e-12);  // beta is one
   }
-  EXPECT_NEAR(beam.strengths[1].tensile_strength, 0.1, 1e-12);
+  EXPECT_NEAR(beam.report.strengths[1].tensile_strength, 0.1, 1e-12);
 }
 
 }  // namespace

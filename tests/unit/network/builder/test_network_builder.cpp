@@ -199,7 +199,7 @@ TEST(BuildNetwork, CracksCutBondsAndTiesButNoBars) {
   EXPECT_EQ(across(cracked, 0, cracked.first_bar_element), 0);
   EXPECT_EQ(across(cracked, cracked.first_bar_element, cracked.num_elements()), 1);
   EXPECT_EQ(cracked.first_slip_spring, whole.first_slip_spring - bonds);
-  EXPECT_EQ(cracked.cut_by_crack, std::vector<Index>{bonds});
+  EXPECT_EQ(cracked.report.cut_by_crack, std::vector<Index>{bonds});
   EXPECT_EQ(cracked.stiffness.size(), static_cast<std::size_t>(cracked.num_elements()));
 }
 

@@ -74,8 +74,8 @@ TEST_P(RepeatedBoxes, AreThoseThatAreMadeInOnePiece) {
       ASSERT_NEAR(repeated.bonds.direction(b)[a], whole.bonds.direction(b)[a], 1e-13);
     }
   }
-  EXPECT_EQ(repeated.cut_by_crack, whole.cut_by_crack);
-  EXPECT_GT(repeated.cut_by_crack.front(), 0);
+  EXPECT_EQ(repeated.report.cut_by_crack, whole.report.cut_by_crack);
+  EXPECT_GT(repeated.report.cut_by_crack.front(), 0);
   expect_same(repeated.stiffness, whole.stiffness);
   EXPECT_GT(repeated.num_contacts, 0);
   expect_same(repeated.critical_stretch, whole.critical_stretch);
@@ -83,8 +83,8 @@ TEST_P(RepeatedBoxes, AreThoseThatAreMadeInOnePiece) {
   expect_same(repeated.bending_ratio, whole.bending_ratio);
   expect_same(repeated.inflection, whole.inflection);
   EXPECT_EQ(repeated.bending.empty(), input.model == BondModel::bond_based);
-  EXPECT_LT(repeated.calibration->free_bonds, whole.calibration->free_bonds);
-  EXPECT_LT(repeated.calibration->residual_after, 1e-11);
+  EXPECT_LT(repeated.report.calibration->free_bonds, whole.report.calibration->free_bonds);
+  EXPECT_LT(repeated.report.calibration->residual_after, 1e-11);
 }
 
 INSTANTIATE_TEST_SUITE_P(

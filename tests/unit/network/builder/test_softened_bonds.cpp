@@ -77,7 +77,8 @@ TEST(SoftenedBonds, OfRandomStrengthKeepTheirEnergyAndHaveTheirStrength) {
     EXPECT_NEAR(network.critical_stretch[b] / alone.strength.first_stretch, 1.0, 2e-3);
   }
   EXPECT_EQ(network.stiffness, even.stiffness);
-  EXPECT_EQ(network.strengths[0].tensile_strength, even.strengths[0].tensile_strength);
+  EXPECT_EQ(network.report.strengths[0].tensile_strength,
+            even.report.strengths[0].tensile_strength);
 }
 
 TEST(SoftenedBonds, OfRandomEnergyKeepTheirStrength) {

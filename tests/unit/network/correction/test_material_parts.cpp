@@ -109,12 +109,12 @@ TEST(MaterialParts, BondsAlongTheJointAreThoseOfBothPartsAndNoneCross) {
   const auto calibrate = [&](const Body& body, Network& part) {
     EXPECT_EQ(body.particles.size(), part.particles.size());
     part.stiffness.assign(part.stiffness.size(), 1.0);
-    part.calibration.emplace();
-    part.calibration->free_bonds = ++calls;
+    part.report.calibration.emplace();
+    part.report.calibration->free_bonds = ++calls;
   };
   ASSERT_TRUE(calibrate_parts(squares.body, squares.input, calibrate, squares.network));
   EXPECT_EQ(calls, 2);
-  EXPECT_EQ(squares.network.calibration->free_bonds, 3);
+  EXPECT_EQ(squares.network.report.calibration->free_bonds, 3);
   for (Index b = 0; b < squares.network.bonds.size(); ++b) {
     const double from = squares.height(squares.network.bonds.first[b]) - 1.0;
     const double to = squares.height(squares.network.bonds.second[b]) - 1.0;
@@ -128,12 +128,12 @@ TEST(MaterialParts, ABodyWithoutBalanceStaysAsItWas) {
   TwoSquares squares;
   const std::vector<double> before = squares.network.stiffness;
   const auto calibrate = [](const Body&, Network& part) {
-    part.calibration.emplace();
-    part.calibration->sum_after = 10.0;
+    part.report.calibration.emplace();
+    part.report.calibration->sum_after = 10.0;
   };
   EXPECT_FALSE(calibrate_parts(squares.body, squares.input, calibrate, squares.network));
   EXPECT_EQ(squares.network.stiffness, before);
-  EXPECT_FALSE(squares.network.calibration);
+  EXPECT_FALSE(squares.network.report.calibration);
 }
 
 /// A square of nine stiff cells in the middle of a soft one.

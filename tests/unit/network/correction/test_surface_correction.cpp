@@ -82,9 +82,9 @@ TEST_P(EveryLattice, CalibratedBondsPassThePatchTest) {
   const Body body = make_body(of_body);
   const NetworkInput input = network_input(of_body);
   const Network network = build_network(body, input);
-  ASSERT_TRUE(network.calibration.has_value());
-  EXPECT_LT(network.calibration->residual_after, 1e-10);
-  EXPECT_GT(network.calibration->residual_before, 1e-2);
+  ASSERT_TRUE(network.report.calibration.has_value());
+  EXPECT_LT(network.report.calibration->residual_after, 1e-10);
+  EXPECT_GT(network.report.calibration->residual_before, 1e-2);
   EXPECT_GT(*std::min_element(network.stiffness.begin(), network.stiffness.end()), 0.0);
   const LameConstants c = lame_constants(input, input.materials[0]);
   const int dim = network.dim();
@@ -125,9 +125,9 @@ TEST(SurfaceCorrection, InThePlaneTheInteriorPointIsTheLastResort) {
   const Network network = build_network(make_body(of_body), input);
   ASSERT_EQ(unbalanced.size(), 2U) << "another body is needed to test the last resort";
   EXPECT_GT(unbalanced[1], 1e-7) << "left by Newton's method";
-  EXPECT_LT(network.calibration->residual_after, 1e-10);
-  EXPECT_EQ(network.calibration->unmet, 0);
-  EXPECT_EQ(network.calibration->dropped, 0);
+  EXPECT_LT(network.report.calibration->residual_after, 1e-10);
+  EXPECT_EQ(network.report.calibration->unmet, 0);
+  EXPECT_EQ(network.report.calibration->dropped, 0);
 }
 
 /// Few bonds for each equation: the factor of all equations takes over from blocks in the midst of
@@ -140,10 +140,10 @@ TEST(SurfaceCorrection, OfAFaceCentredLGoesOnWithAFactor) {
   NetworkInput input = network_input(of_body);
   input.horizon = 2.0 * of_body.spacing;
   const Network network = build_network(make_body(of_body), input);
-  EXPECT_GT(network.calibration->residual_before, 0.1);
-  EXPECT_LT(network.calibration->residual_after, 1e-10);
-  EXPECT_EQ(network.calibration->unmet, 0);
-  EXPECT_GT(network.calibration->dropped, 0);
+  EXPECT_GT(network.report.calibration->residual_before, 0.1);
+  EXPECT_LT(network.report.calibration->residual_after, 1e-10);
+  EXPECT_EQ(network.report.calibration->unmet, 0);
+  EXPECT_GT(network.report.calibration->dropped, 0);
 }
 
 /// Bonds of particles that lack neighbours may change, and where neighbours are few (32 with two
@@ -166,8 +166,8 @@ TEST(SurfaceCorrection, FreesAThinnerLayerWhereNeighboursAreMany) {
       free += std::min(depth(network.bonds.first[b]), depth(network.bonds.second[b])) < layer;
     }
     ASSERT_LT(free, network.bonds.size());
-    EXPECT_EQ(network.calibration->free_bonds, free + network.calibration->dropped);
-    EXPECT_LT(network.calibration->residual_after, 1e-10);
+    EXPECT_EQ(network.report.calibration->free_bonds, free + network.report.calibration->dropped);
+    EXPECT_LT(network.report.calibration->residual_after, 1e-10);
   }
 }
 
@@ -177,11 +177,13 @@ TEST(SurfaceCorrection, CalibrationOfABoxInSpaceDoesNotDependOnItsSize) {
     const int columns = pattern == Pattern::face_centred ? 20 : 13;
     const Network small = make_network({"", pattern, Surface::calibrated}, columns);
     const Network large = make_network({"", pattern, Surface::calibrated}, columns + 4);
-    EXPECT_GT(large.calibration->free_bonds, 1.2 * small.calibration->free_bonds);
-    EXPECT_NEAR(large.calibration->smallest_weight, small.calibration->smallest_weight, 1e-9);
-    EXPECT_NEAR(large.calibration->largest_weight, small.calibration->largest_weight, 1e-9);
-    EXPECT_EQ(large.calibration->dropped, small.calibration->dropped);
-    EXPECT_LT(large.calibration->residual_after, 1e-10);
+    EXPECT_GT(large.report.calibration->free_bonds, 1.2 * small.report.calibration->free_bonds);
+    EXPECT_NEAR(large.report.calibration->smallest_weight,
+                small.report.calibration->smallest_weight, 1e-9);
+    EXPECT_NEAR(large.report.calibration->largest_weight, small.report.calibration->largest_weight,
+                1e-9);
+    EXPECT_EQ(large.report.calibration->dropped, small.report.calibration->dropped);
+    EXPECT_LT(large.report.calibration->residual_after, 1e-10);
   }
 }
 
@@ -261,7 +263,7 @@ TEST(SurfaceCorrection, StrengthIsNothingToTheCalibration) {
   of_body.material.push_back(1);
   const Network halves = build_network(make_body(of_body), input);
   ASSERT_NE(halves.particles.material.front(), halves.particles.material.back());
-  EXPECT_EQ(halves.calibration->free_bonds, plain.calibration->free_bonds);
+  EXPECT_EQ(halves.report.calibration->free_bonds, plain.report.calibration->free_bonds);
   EXPECT_EQ(halves.stiffness, plain.stiffness);
 }
 

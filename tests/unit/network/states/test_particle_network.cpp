@@ -159,7 +159,7 @@ TEST(ParticleNetworksOfLattices, AreThoseOfHexagonalLatticesInside) {
   for (Index i = 0; i < body.particles.size(); ++i) {
     if (!is_inside(i)) continue;
     ++inside;
-    EXPECT_NEAR(built.network.state_stiffness[i], exact.sum / (2.0 * 0.1), 1e-9 * exact.own);
+    EXPECT_NEAR(built.network.states->stiffness[i], exact.sum / (2.0 * 0.1), 1e-9 * exact.own);
   }
   EXPECT_GE(built.report.exact, inside);
   for (Index e = 0; e < built.network.num_elements(); ++e) {

@@ -72,12 +72,12 @@ class Relaxation {
   }
 
   RelaxationResult run() {
-    for (; step_ < options_.load_factors.size() && !next_.done; ++step_) {
+    for (; step_ < options_.load_factors.size() && next_.then != AfterIteration::end_run; ++step_) {
       start(options_.load_factors[step_]);
-      while (!next_.at_rest && !next_.done) {
+      while (next_.iterates()) {
         threads_.run([&](int threads) { iterate_round(threads); });
       }
-      if (next_.at_rest) rest();
+      if (next_.then == AfterIteration::end_load_step) rest();
     }
     result_.last = record_;
     result_.displacement = body_.motion.displacement;
@@ -95,12 +95,12 @@ class Relaxation {
       body_.motion.velocity[slot] = 0.0;
     }
     iteration_ = 0;
-    next_.at_rest = false;
+    next_.then = AfterIteration::iterate;
   }
 
   void iterate_round(int threads) {
 #pragma omp parallel num_threads(threads)
-    for (int k = 0; k < iterations_of_a_round && !next_.at_rest && !next_.done; ++k) iterate();
+    for (int k = 0; k < iterations_of_a_round && next_.iterates(); ++k) iterate();
   }
 
   /// Run by every thread; loops end in barriers.
@@ -149,8 +149,7 @@ class Relaxation {
     RestSums all;
     for (const RestSums& block : rest_) all += block;
     judge(all);
-    if (next_.examines) observe([&] { examine_pieces(); });
-    next_.examines = false;
+    if (next_.then == AfterIteration::examine) observe([&] { examine_pieces(); });
     ++iteration_;
     ++result_.iterations;
   }
@@ -172,8 +171,9 @@ class Relaxation {
     result_.error = moves ? std::sqrt(all.push / all.size) / square_ : 0.0;
     // Loads and reactions are round-off beside the forces in the bonds, and so is the residual.
     if (moves && result_.error <= 1e-6 * options_.tolerance) result_.residual = 0.0;
-    next_.at_rest = !gave_way && std::max(result_.residual, result_.error) <= options_.tolerance;
-    if (!next_.at_rest) look(all, rest);
+    const bool at_rest = std::max(result_.residual, result_.error) <= options_.tolerance;
+    next_.then = at_rest && !gave_way ? AfterIteration::end_load_step : AfterIteration::iterate;
+    if (next_.then == AfterIteration::iterate) look(all, rest);
   }
 
   void look(const RestSums& all, double rest) {
@@ -198,9 +198,10 @@ class Relaxation {
     }
     // Before the first iteration all contact springs are open.
     const bool follows = separation_.follows_contact();
-    next_.examines = !next_.done && !(follows && iteration_ == 0) &&
-                     ((is_due && (ends || checks)) || (follows && checks));
-    if (!checks || next_.done) return;
+    if (next_.then == AfterIteration::end_run) return;
+    const bool examines = (is_due && (ends || checks)) || (follows && checks);
+    if (examines && !(follows && iteration_ == 0)) next_.then = AfterIteration::examine;
+    if (!checks) return;
     observe([&] {
       observer_.on_iteration(static_cast<Index>(step_) + 1, iteration_, result_.residual);
       if (observer_.stop_requested()) end(Termination::interrupted, "interrupted");
@@ -242,7 +243,7 @@ class Relaxation {
   void end(Termination termination, const std::string& reason) {
     result_.termination = termination;
     result_.reason = reason;
-    next_.done = true;
+    next_.then = AfterIteration::end_run;
   }
 
   void damp(const RestSums& all) {
@@ -263,7 +264,7 @@ class Relaxation {
   }
 
   void advance(Index block) {
-    if (next_.at_rest || next_.done) return;
+    if (!next_.iterates()) return;
     const double dt = body_.time_step;
     body_.blocks.for_slots(block, [&](std::size_t slot) {
       if (body_.is_held(slot)) return;
@@ -289,7 +290,7 @@ class Relaxation {
     observe([&] {
       note_row();
       if (separation_.is_due(fractured_) || separation_.follows_contact()) examine_pieces();
-      if (next_.done) return;
+      if (next_.then == AfterIteration::end_run) return;
       if (separation_.is_unstrained()) {
         note_end();
         return collapse("the body is in pieces and no longer resists the displacements");

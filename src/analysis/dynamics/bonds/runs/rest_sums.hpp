@@ -25,12 +25,22 @@ struct RestSums {
   }
 };
 
+/// What follows an iteration of a dynamic relaxation.
+enum class AfterIteration {
+  iterate,
+  examine,        ///< the pieces of the body, then iterate
+  end_load_step,  ///< the body is in equilibrium
+  end_run
+};
+
 /// Decision after the forces of an iteration of a dynamic relaxation.
 struct Decision {
   double keep = 1.0, lose = 1.0;  ///< damping: factors of velocities
   bool restart = true;            ///< the damping is measured from here
-  bool at_rest = false, done = false;
-  bool examines = false;  ///< the pieces of the body are to be examined
+  AfterIteration then = AfterIteration::iterate;
+  bool iterates() const {
+    return then == AfterIteration::iterate || then == AfterIteration::examine;
+  }
 };
 
 /// A residual that has grown by this factor since the first iteration has diverged.

@@ -68,7 +68,7 @@ void check_property(const CaseFile& input, const VaryingSection& section,
                      "delete it, or the line method = \"linear_elements\"");
   }
   for (std::size_t k = 0; k < input.rebar.size(); ++k) {
-    if (input.rebar[k].bond != RebarBond::concrete) continue;
+    if (input.rebar[k].bond.type != RebarBond::concrete) continue;
     throw InputError(input.where(item_key("rebar", k, "bond")),
                      fmt::format("is \"concrete\", whose springs have one stiffness, but {} varies "
                                  "Young's modulus",

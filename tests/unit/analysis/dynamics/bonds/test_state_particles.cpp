@@ -87,17 +87,17 @@ class ExplicitParticles : public testing::TestWithParam<int> {
     InternalForce result;
     result.forces.assign(u.size(), 0.0);
     for (Index i = 0; i < size_; ++i) {
-      result.energy += 0.5 * network_.state_stiffness[i] * sum[i] * sum[i];
+      result.energy += 0.5 * network_.states->stiffness[i] * sum[i] * sum[i];
     }
     for (Index e = 0; e < network_.num_elements(); ++e) {
       const Index i = bonds.first[e], j = bonds.second[e];
       double pull = two_spring_factor(damage[i], damage[j]) * network_.stiffness[e] * extension[e];
       result.energy += 0.5 * pull * extension[e];
       if (network_.counts_for(e, first_end)) {
-        pull += half_bond_weight(damage[i], damage[j]) * network_.state_stiffness[i] * sum[i];
+        pull += half_bond_weight(damage[i], damage[j]) * network_.states->stiffness[i] * sum[i];
       }
       if (network_.counts_for(e, second_end)) {
-        pull += half_bond_weight(damage[j], damage[i]) * network_.state_stiffness[j] * sum[j];
+        pull += half_bond_weight(damage[j], damage[i]) * network_.states->stiffness[j] * sum[j];
       }
       for (std::size_t c = 0; c < dim; ++c) {
         result.forces[i * dim + c] -= pull * bonds.direction(e)[c];

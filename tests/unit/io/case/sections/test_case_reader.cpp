@@ -17,7 +17,7 @@ using testing::HasSubstr;
 
 TEST(CaseFile, FillsInDefaults) {
   const CaseFile input = parse_case(small_case, "case.toml");
-  EXPECT_EQ(input.path, "case.toml");
+  EXPECT_EQ(input.source.path, "case.toml");
   EXPECT_EQ(input.title, "");
   EXPECT_EQ(input.body.problem, Problem::plane_stress);
   EXPECT_EQ(input.body.thickness, 1.0);
@@ -72,10 +72,10 @@ TEST(CaseFile, ReadsEveryKey) {
   EXPECT_EQ(input.rebar[0].points.at(1), (Vector3{0.5, 3.0, 0.05}));
   EXPECT_EQ(input.rebar[0].yield_strength, 500e3);
   EXPECT_FALSE(input.rebar[0].yields);
-  EXPECT_FALSE(input.rebar[0].slip_springs_break);
+  EXPECT_FALSE(input.rebar[0].bond.slip_springs_break);
   EXPECT_EQ(input.rebar[1].yield_strength, std::nullopt);
   EXPECT_TRUE(input.rebar[1].yields);
-  EXPECT_TRUE(input.rebar[1].slip_springs_break);
+  EXPECT_TRUE(input.rebar[1].bond.slip_springs_break);
   EXPECT_EQ(input.analysis.control, LoadControl::steps);
   EXPECT_THAT(input.analysis.load_factors, ElementsAre(0.1, 0.2, 1.0));
   EXPECT_EQ(input.analysis.rigid_body_modes, RigidBodyModes::pin);

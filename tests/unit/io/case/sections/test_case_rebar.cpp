@@ -28,9 +28,9 @@ void expect_read_back(const CaseFile& input) {
 TEST(CaseRebar, IsPerfectlyBondedUnlessItSaysOtherwise) {
   const CaseFile input = with_bar("from = [0, 0]\nto = [1, 2]\n");
   const RebarSection& bar = input.rebar.at(0);
-  EXPECT_EQ(bar.bond, RebarBond::perfect);
+  EXPECT_EQ(bar.bond.type, RebarBond::perfect);
   EXPECT_EQ(bar.points.size(), 2u);
-  EXPECT_EQ(bar.hooks, Hooks::none);
+  EXPECT_EQ(bar.bond.hooks, Hooks::none);
   EXPECT_FALSE(bar.across_gaps || bar.bends);
   expect_read_back(input);
 }
@@ -43,7 +43,7 @@ TEST(CaseRebar, HasBendsCopiesAndABondCurve) {
   const RebarSection& bar = input.rebar.at(0);
   EXPECT_EQ(bar.points.at(2), (Vector3{1.0, 1.0, 0.0}));
   EXPECT_THAT(bar.copies, testing::ElementsAre(2, 3));
-  EXPECT_EQ(bar.bond_curve.at(1)[1], 10.0);
+  EXPECT_EQ(bar.bond.curve.at(1)[1], 10.0);
   EXPECT_EQ(bar.curve.at(1)[0], 0.05);
   expect_read_back(input);
 }
@@ -53,7 +53,7 @@ TEST(CaseRebar, FollowsTheModelCode) {
       "from = [0, 0]\nto = [1, 2]\nbond = \"model_code\"\nconcrete_strength = 38e6\n"
       "rib_spacing = 8e-3\nbond_failure = \"splitting_stirrups\"\nbond_conditions = \"other\"\n"
       "megapascal = 1e6\nmillimetre = 1e-3\nbends = true\n");
-  const ModelCodeBond& code = input.rebar.at(0).model_code;
+  const ModelCodeBond& code = input.rebar.at(0).bond.model_code;
   EXPECT_EQ(code.failure, BondFailure::splitting_stirrups);
   EXPECT_EQ(code.conditions, BondConditions::other);
   EXPECT_EQ(code.megapascal, 1e6);

@@ -78,8 +78,8 @@ TEST(DrawnGroups, ACrackOfAGroupCutsWhatItsPointsCut) {
       drawn_model(replaced(drawn_case, "group = \"crack\"", "points = [[2, 0], [2, 1]]"));
   ASSERT_EQ(drawn.cracks.size(), 1u);
   EXPECT_EQ(drawn.cracks[0].points, (std::vector<Vector3>{{2, 0, 0}, {2, 1, 0}}));
-  EXPECT_GT(drawn.network.cut_by_crack[0], 0);
-  EXPECT_EQ(drawn.network.cut_by_crack, given.network.cut_by_crack);
+  EXPECT_GT(drawn.network.report.cut_by_crack[0], 0);
+  EXPECT_EQ(drawn.network.report.cut_by_crack, given.network.report.cut_by_crack);
   EXPECT_EQ(drawn.network.stiffness, given.network.stiffness);
 }
 
@@ -123,7 +123,7 @@ group = "joint"
 )");
   ASSERT_EQ(model.cracks.size(), 4u) << "two of four squares, from the lower side up";
   EXPECT_THAT(model.entry_of_crack, Each(0u));
-  EXPECT_THAT(model.network.cut_by_crack, Each(Gt(0)));
+  EXPECT_THAT(model.network.report.cut_by_crack, Each(Gt(0)));
   const Network& network = model.network;
   for (Index b = 0; b < network.bonds.size(); ++b) {
     const auto from = network.particles.position(network.bonds.first[b]);

@@ -44,7 +44,7 @@ TEST(CaseRandom, IsReadAgainAsItIsWritten) {
 
 TEST(CaseRandom, IsSetAsideByElasticAnalyses) {
   const CaseFile input = random_case(random_energy + "[analysis]\ntype = \"elastic\"\n");
-  EXPECT_THAT(input.unused, ElementsAre("random[1]"));
+  EXPECT_THAT(input.source.unused, ElementsAre("random[1]"));
 }
 
 TEST(CaseRandom, OfStiffnessIsUsedByElasticAnalyses) {
@@ -53,7 +53,7 @@ TEST(CaseRandom, OfStiffnessIsUsedByElasticAnalyses) {
                   "[[graded]]\nproperty = \"youngs_modulus\"\nfactor = \"1 + y / 80\"\n"
                   "[[graded]]\nproperty = \"fracture_energy\"\nfactor = 2\n"
                   "[analysis]\ntype = \"elastic\"\n");
-  EXPECT_THAT(input.unused, ElementsAre("graded[2]"));
+  EXPECT_THAT(input.source.unused, ElementsAre("graded[2]"));
   EXPECT_TRUE(is_used(input, input.fields.random[0]));
   EXPECT_TRUE(is_used(input, input.fields.graded[0]));
   EXPECT_FALSE(is_used(input, input.fields.graded[1]));
