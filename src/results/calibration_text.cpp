@@ -37,7 +37,7 @@ std::optional<std::string> calibration_shortfall(const Network& network) {
   if (worst > harmful) {
     text +=
         "; WARNING: strains around it have about this relative error; mesh "
-        "that region more evenly or choose a longer horizon";
+        "that region more evenly, choose another seed or a longer horizon";
   }
   return text;
 }

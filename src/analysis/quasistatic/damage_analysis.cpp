@@ -260,7 +260,9 @@ bool EventRun::by_events() {
   } while (converts(event));
   if (missed_) return false;
   if (event.element == no_index) {
-    path_.end(Termination::nothing_breaks, "no bond can break under this load");
+    path_.end(Termination::nothing_breaks, path_.events > 0
+                                               ? "no further bond can break under this load"
+                                               : "no bond can break under this load");
     return false;
   }
   if (leaves_small_strains(event)) return false;

@@ -140,7 +140,9 @@ bool EventRun::follow_stage() {
   if (missed_) return false;
   const bool arrived = event.element == no_index;
   if (arrived && !aim) {
-    path_.end(Termination::nothing_breaks, "no bond can break under this load");
+    path_.end(Termination::nothing_breaks, path_.events > 0
+                                               ? "no further bond can break under this load"
+                                               : "no bond can break under this load");
     return false;
   }
   const double load_factor = arrived ? *aim : event.load_factor;

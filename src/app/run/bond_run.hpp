@@ -2,7 +2,7 @@
 
 #include "analysis/dynamics/bonds/runs/bond_analysis.hpp"
 #include "analysis/dynamics/time_state.hpp"
-#include "app/run/crack_overlap.hpp"
+#include "app/run/face_overlap.hpp"
 #include "app/run/run_kind.hpp"
 #include "base/csr.hpp"
 
@@ -44,7 +44,7 @@ class MovingBondsRun : public NetworkRun, protected BondRunObserver {
   Index checkpoint_rows_ = 0;       ///< rows between checkpoints; 0: none
   std::optional<TimeState> from_;   ///< state to go on from
   std::vector<GrownCrack> cracks_;  ///< in the last field file
-  CrackOverlap overlap_;            ///< at the end
+  FaceOverlap overlap_;             ///< at the end
   Index loose_pieces_ = 0;          ///< unsupported parts of the broken body at the end
 
  private:

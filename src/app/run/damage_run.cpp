@@ -163,6 +163,11 @@ void DamageRun::tell(Summary& summary) const {
                         warning_about_overlap(records_.overlap, model_.network.dim())}) {
     if (warning) found.warnings.push_back(*warning);
   }
+  if (input.analysis.control == LoadControl::steps) {
+    if (auto text = warning_about_steps(result_.last, records_.area)) {
+      found.warnings.push_back(std::move(*text));
+    }
+  }
   if (records_.missed_releases > 0) {
     summary.add_note(
         fmt::format("{}: a bond was past its limit before its host element "
@@ -175,8 +180,9 @@ void DamageRun::tell(Summary& summary) const {
   if (const auto text = text_of_peaks(result_, model_, records_.broken)) {
     (input.rebar.empty() ? found.warnings : summary.notes).push_back(*text);
   }
-  if (result_.termination == Termination::completed && result_.last.step > 1 &&
-      result_.last.load == result_.peak_load) {
+  const bool ended = result_.termination == Termination::completed ||
+                     result_.termination == Termination::nothing_breaks;
+  if (ended && result_.last.step > 1 && result_.last.load == result_.peak_load) {
     summary.add_note(
         "the load was still growing at the end: peak_load is the load of the last row, not a "
         "strength");
@@ -312,6 +318,10 @@ void DamageRun::add_row(const StepRecord& record, StateSource& source) {
   show_progress(record);
   if (input.output.fields_at_peak) note_peak(record, source);
   if (wants_fields(record)) write_state(record, source);
+  const CurvePoint now{record.displacement, record.load};
+  records_.area +=
+      0.5 * (records_.before.load + now.load) * (now.displacement - records_.before.displacement);
+  records_.before = now;
   records_.last_element = record.element;
   records_.last_events = record.events;
   records_.last_stage = record.stage;

@@ -4,7 +4,7 @@
 
 #include "analysis/quasistatic/event_run.hpp"
 #include "analysis/quasistatic/peak_states.hpp"
-#include "app/run/crack_overlap.hpp"
+#include "app/run/face_overlap.hpp"
 #include "app/run/quasistatic.hpp"
 #include "app/run/run_kind.hpp"
 #include "app/run/run_warnings.hpp"
@@ -61,6 +61,8 @@ class DamageRun final : public NetworkRun {
     Index broken_at_fields = 0;       ///< number of broken bonds in the last field file
     Index last_stage = 0;             ///< stage of the last row
     double highest = 0.0;             ///< |load| so far
+    CurvePoint before;                ///< last row
+    double area = 0.0;                ///< under the rows [force length]
     std::vector<double> gauges;       ///< of the last row
     std::vector<double> set_factors;  ///< per set of Model::sets, in the last row
     std::vector<GrownCrack> cracks;   ///< in the last field file
@@ -68,14 +70,14 @@ class DamageRun final : public NetworkRun {
     PeakStates peaks;
     Index written_peak = 0;  ///< row of the fields written as those of the peak so far; 0: none
     std::vector<FieldCompression> compressions;  ///< of all field files
-    CrackOverlap overlap;                        ///< deepest one in all field files
+    FaceOverlap overlap;                         ///< deepest one in all field files
     ReactionBalance balance;
 
     template <class Archive>
     void serialize(Archive& archive) {
       archive(missed_releases, whole, checkpoint_rows, broken, last_element, last_events,
-              broken_at_fields, last_stage, highest, gauges, set_factors, cracks, high_rows, peaks,
-              written_peak, compressions, overlap, balance);
+              broken_at_fields, last_stage, highest, before, area, gauges, set_factors, cracks,
+              high_rows, peaks, written_peak, compressions, overlap, balance);
     }
   };
 

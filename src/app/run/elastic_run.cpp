@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "app/run/crack_overlap.hpp"
+#include "app/run/face_overlap.hpp"
 #include "app/run/quasistatic.hpp"
 #include "app/run/run_kind.hpp"
 #include "app/run/run_warnings.hpp"
@@ -115,7 +115,7 @@ class ElasticRun final : public NetworkRun {
     if (!answer_.solution.displacement.empty()) {
       const double share = share_of_large_motion(model_, answer_.solution.displacement);
       if (auto warning = warning_about_motion(share)) found.warnings.push_back(std::move(*warning));
-      const CrackOverlap overlap = deepest_overlap(model_, answer_.solution.displacement);
+      const FaceOverlap overlap = deepest_overlap(model_, answer_.solution.displacement);
       if (auto warning = warning_about_overlap(overlap, model_.network.dim())) {
         found.warnings.push_back(std::move(*warning));
       }

@@ -80,6 +80,11 @@ struct Compression {
   }
 };
 
+/// Returns a warning where load steps dissipate more than the curve through their rows: elements
+/// fail at the load factor at the end of a step.
+/// \param area  under the rows [force length]
+std::optional<std::string> warning_about_steps(const StepRecord& last, double area);
+
 /// Returns the largest compression of particles without a crushing law.
 /// \param principal  stresses, shape (particles, 3)
 /// \param damage     of the particles; those above one half are left out: loose pieces of a crack

@@ -5,9 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <tuple>
+#include <vector>
 
 #include "base/error.hpp"
 #include "base/plain_text.hpp"
+#include "discretization/facet_geometry.hpp"
+#include "discretization/mesh_faces.hpp"
+#include "discretization/neighbor_search.hpp"
 #include "io/case/case_schema.hpp"
 #include "io/case/sections/laws/case_softening.hpp"
 #include "model/body/groups/drawn_groups.hpp"
@@ -47,6 +52,41 @@ std::string key_of(const CaseFile& input, std::size_t k, int dim) {
   return item_key("interfaces", k, place);
 }
 
+/// Refuses regions with particles of the body between them.
+/// \param side  per particle: 1 and 2 in one of the regions, 3 in both
+void refuse_apart(const CaseFile& input, std::size_t k, const Particles& particles,
+                  std::span<const std::uint8_t> side) {
+  constexpr double way_round = 1.2;  // over the distance of the nearest two particles
+  const auto at = [&](Index i) { return point_of(particles.positions, particles.dim, i); };
+  std::vector<double> positions;
+  std::vector<Index> first, second;
+  for (Index i = 0; i < particles.size(); ++i) {
+    if (side[i] == 3) return;
+    if (side[i] == 2) second.push_back(i);
+    if (side[i] != 1) continue;
+    const auto x = particles.position(i);
+    positions.insert(positions.end(), x.begin(), x.end());
+    first.push_back(i);
+  }
+  if (first.empty() || second.empty()) return;
+  const NearestPoint nearest(std::move(positions), particles.dim);
+  Vector3 from{}, to{};
+  double least = infinity;
+  for (const Index j : second) {
+    const Vector3 other = at(first[nearest.at(particles.position(j))]);
+    const double distance = norm(minus(at(j), other));
+    if (distance < least) std::tie(least, from, to) = std::tuple(distance, other, at(j));
+  }
+  for (Index i = 0; i < particles.size(); ++i) {
+    if (particles.kind[i] != ParticleKind::solid || side[i] != 0) continue;
+    const double way = norm(minus(at(i), from)) + norm(minus(at(i), to));
+    if (way > way_round * least) continue;
+    throw InputError(input.where(key_of(input, k, particles.dim)),
+                     "names two regions with particles between them",
+                     "name regions that touch; particles in both belong to the second");
+  }
+}
+
 }  // namespace
 
 std::vector<WeakInterface> weak_interfaces(const CaseFile& input, const Body& body) {
@@ -63,6 +103,7 @@ std::vector<WeakInterface> weak_interfaces(const CaseFile& input, const Body& bo
       face.side.assign(static_cast<std::size_t>(body.particles.size()), 0);
       mark(input, body, section.between[0], 1, face.side);
       mark(input, body, section.between[1], 2, face.side);
+      refuse_apart(input, k, body.particles, face.side);
     } else {
       try {
         check_crack(face.faces[0], body.particles.dim);

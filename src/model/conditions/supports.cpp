@@ -95,10 +95,12 @@ std::vector<Index> particles_in_plane(const CaseFile& input, const Model& model,
   }
   const Particles& particles = model.network.places();
   std::vector<Index> inside;
-  double nearest = INFINITY;
+  double nearest = INFINITY, low = INFINITY, high = -INFINITY;
   for (Index i = 0; i < particles.size(); ++i) {
     if (!is_material(particles.kind[i])) continue;
     const double coordinate = particles.position(i)[section.axis];
+    low = std::min(low, coordinate);
+    high = std::max(high, coordinate);
     if (std::abs(coordinate - *section.at) < std::abs(nearest - *section.at)) nearest = coordinate;
     if (std::abs(coordinate - *section.at) <= in_plane * model.lattice.spacing) inside.push_back(i);
   }
@@ -107,6 +109,14 @@ std::vector<Index> particles_in_plane(const CaseFile& input, const Model& model,
         input.where(item_key("symmetry", k, "at")),
         fmt::format("is {}, but no particle lies in that plane", *section.at),
         fmt::format("the nearest particle has {} = {:.6g}", "xyz"[section.axis], nearest));
+  }
+  const double width = in_plane * model.lattice.spacing;
+  if (low < *section.at - width && high > *section.at + width) {
+    throw InputError(
+        input.where(item_key("symmetry", k, "at")),
+        fmt::format("is {}, but the body lies on both sides of that plane", *section.at),
+        fmt::format("give the plane of a face, {0} = {1:.6g} or {0} = {2:.6g}", "xyz"[section.axis],
+                    low, high));
   }
   return inside;
 }

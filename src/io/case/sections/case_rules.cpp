@@ -195,6 +195,24 @@ void check_shape(const CaseFile& input, const std::string& key, const std::strin
   }
 }
 
+/// Refuses a hole whose box meets that of no region of the material.
+void refuse_hole_outside(const CaseFile& input, const MaterialSection& material,
+                         const std::string& key, const std::string& hole) {
+  const auto meets = [&](const std::string& name) {
+    const Region& cut = *std::ranges::find(input.regions, hole, &Region::name);
+    const Region& region = *std::ranges::find(input.regions, name, &Region::name);
+    bool meet = true;
+    for (int a = 0; a < dimension_of(input.body); ++a) {
+      meet = meet && std::max(cut.box.lower[a], region.box.lower[a]) <
+                         std::min(cut.box.upper[a], region.box.upper[a]);
+    }
+    return meet || !region.group.empty() || !cut.group.empty();
+  };
+  if (std::ranges::any_of(material.regions, meets)) return;
+  throw InputError(input.where(key), fmt::format("is {}, outside of the material", quoted(hole)),
+                   "move the hole, or delete it");
+}
+
 /// Refuses two materials of one region: the first would have no effect. Different regions may
 /// overlap (a weak patch within a body).
 void check_materials(const CaseFile& input, const std::set<std::string>& names) {
@@ -218,6 +236,7 @@ void check_materials(const CaseFile& input, const std::set<std::string>& names) 
       const std::string where = item_key("materials", i, "holes");
       check_reference(input, names, where, hole, Reserved::refused);
       if (!is_lattice(input.body)) check_shape(input, where, hole);
+      refuse_hole_outside(input, input.materials[i], where, hole);
       if (owner.count(hole) == 0) continue;
       throw InputError(input.where(where),
                        fmt::format("is {}, a region of the material", quoted(hole)),

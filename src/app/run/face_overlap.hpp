@@ -13,7 +13,7 @@
 namespace perilink {
 
 /// Overlap of the faces of a pre-crack.
-struct CrackOverlap {
+struct FaceOverlap {
   double depth = 0.0;     ///< [length]; 0: none
   Vector3 place{};        ///< of the deepest overlap
   std::size_t entry = 0;  ///< in [[cracks]]
@@ -29,10 +29,10 @@ struct CrackOverlap {
 /// largest shortening of bonds up to this length: such particles approach each other in sound
 /// material too. Shells are left out.
 /// \param motion  displacements, shape (particles, width) [length]
-CrackOverlap deepest_overlap(const Model& model, std::span<const double> motion,
-                             const CrackOverlap& so_far = {});
+FaceOverlap deepest_overlap(const Model& model, std::span<const double> motion,
+                            const FaceOverlap& so_far = {});
 
 /// Returns a warning about an overlap.
-std::optional<std::string> warning_about_overlap(const CrackOverlap& overlap, int dim);
+std::optional<std::string> warning_about_overlap(const FaceOverlap& overlap, int dim);
 
 }  // namespace perilink

@@ -1,4 +1,4 @@
-#include "app/run/crack_overlap.hpp"
+#include "app/run/face_overlap.hpp"
 
 #include <fmt/format.h>
 
@@ -8,6 +8,7 @@
 
 #include "base/plain_text.hpp"
 #include "discretization/facet_geometry.hpp"
+#include "discretization/mesh_faces.hpp"
 #include "discretization/neighbor_search.hpp"
 
 namespace perilink {
@@ -65,8 +66,8 @@ std::vector<Index> particles_near(const CrackCutter& cutter, const Network& netw
 
 }  // namespace
 
-CrackOverlap deepest_overlap(const Model& model, std::span<const double> motion,
-                             const CrackOverlap& so_far) {
+FaceOverlap deepest_overlap(const Model& model, std::span<const double> motion,
+                            const FaceOverlap& so_far) {
   const Network& network = model.network;
   const int dim = network.dim();
   std::vector<Crack> cracks;
@@ -89,7 +90,7 @@ CrackOverlap deepest_overlap(const Model& model, std::span<const double> motion,
   const Csr pairs =
       find_neighbors_within(places, places, dim, std::vector<double>(near.size(), longest));
   const double least = noticeable * largest_shortening(body, longest);
-  CrackOverlap deepest = so_far;
+  FaceOverlap deepest = so_far;
   for (std::size_t k = 0; k < near.size(); ++k) {
     for (const Index l : pairs.row(static_cast<Index>(k))) {
       const Index i = near[k], j = near[l];
@@ -107,7 +108,7 @@ CrackOverlap deepest_overlap(const Model& model, std::span<const double> motion,
   return deepest;
 }
 
-std::optional<std::string> warning_about_overlap(const CrackOverlap& overlap, int dim) {
+std::optional<std::string> warning_about_overlap(const FaceOverlap& overlap, int dim) {
   if (overlap.depth == 0.0) return std::nullopt;
   return fmt::format(
       "the faces of crack {} pass through each other, by up to {:.3g} near ({}): let them press on "
