@@ -13,6 +13,7 @@
 #include "model/conditions/formula_field.hpp"
 #include "model/conditions/loads.hpp"
 #include "model/conditions/supports.hpp"
+#include "model/model_regions.hpp"
 #include "network/builder/free_bodies.hpp"
 #include "network/builder/network_builder.hpp"
 
@@ -354,6 +355,20 @@ void collect_sets(const CaseFile& input, Model& model) {
   }
 }
 
+/// Notes supports that hold bar nodes with the solid: such a bar cannot be pulled out.
+void note_held_bars(const CaseFile& input, Model& model) {
+  for (std::size_t k = 0; k < input.supports.size() && !input.rebar.empty(); ++k) {
+    const std::string& region = input.supports[k].region;
+    const auto held = particles_of_region(input, model, region, item_key("supports", k, "region"));
+    const std::vector<ParticleKind>& kind = model.network.particles.kind;
+    const auto bars =
+        std::ranges::count_if(held, [&](Index i) { return kind[i] == ParticleKind::rebar; });
+    if (bars == 0 || bars == static_cast<std::ptrdiff_t>(held.size())) continue;
+    model.notes.push_back(
+        fmt::format("the support of \"{}\" also holds {}", region, counted(bars, "bar node")));
+  }
+}
+
 }  // namespace
 
 void apply_boundary_conditions(const CaseFile& input, Model& model) {
@@ -379,6 +394,7 @@ void apply_boundary_conditions(const CaseFile& input, Model& model) {
   refuse_nothing_to_solve(input, model);
   refuse_idle_loads(input, model, first);
   if (!input.stages.empty()) collect_sets(input, model);
+  note_held_bars(input, model);
 }
 
 }  // namespace perilink

@@ -208,5 +208,18 @@ TEST(RunWarnings, NameWhatIsNotANumber) {
   EXPECT_THAT(warnings_of_balance(NAN, 0.0), ElementsAre(HasSubstr("out of balance")));
 }
 
+/// Work of 1.03 over an area of 1; elastic steps have the work of their area.
+TEST(RunWarnings, TellEnergiesOfLargeSteps) {
+  StepRecord last;
+  last.external_work = 1.03;
+  last.dissipated_energy = 0.5;
+  const auto text = warning_about_steps(last, 1.0);
+  ASSERT_TRUE(text);
+  EXPECT_THAT(*text, HasSubstr("0.03 too large, 3 % of the area 1 under the curve"));
+  EXPECT_EQ(warning_about_steps(last, 1.02), std::nullopt);
+  last.dissipated_energy = 0.0;
+  EXPECT_EQ(warning_about_steps(last, 1.0), std::nullopt);
+}
+
 }  // namespace
 }  // namespace perilink
