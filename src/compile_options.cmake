@@ -79,17 +79,21 @@ function(perilink_hot_sources)
   set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "${options}")
 endfunction()
 
-# perilink_reuse_headers(TARGETS...): reads the headers of the libraries that most files include from
-# one precompiled file. Parsing them takes three seconds of CPU, a third of the time of a file.
-function(perilink_reuse_headers)
-  file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/headers.cpp CONTENT "")
-  add_library(perilink_headers OBJECT ${CMAKE_CURRENT_BINARY_DIR}/headers.cpp)
-  set_target_properties(perilink_headers PROPERTIES POSITION_INDEPENDENT_CODE ON)
-  target_link_libraries(perilink_headers PRIVATE perilink::options fmt::fmt Eigen3::Eigen)
-  target_precompile_headers(perilink_headers PRIVATE
+# perilink_reuse_headers(NAME OPTIONS TARGETS...): reads the headers of the libraries that most files
+# include from one precompiled file NAME. Parsing them takes three seconds of CPU, a third of the time
+# of a file. GCC takes the optimisation of that file, whatever a target's own options say, so its
+# OPTIONS are those of the targets.
+function(perilink_reuse_headers name options)
+  file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp CONTENT "")
+  add_library(${name} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
+  set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_link_libraries(${name} PRIVATE perilink::options fmt::fmt Eigen3::Eigen)
+  target_compile_options(${name} PRIVATE ${options})
+  target_precompile_headers(${name} PRIVATE
     <algorithm> <array> <cmath> <functional> <map> <memory> <optional> <span> <string>
     <string_view> <vector> <Eigen/Dense> <Eigen/SparseCore> <fmt/format.h>)
   foreach(target ${ARGN})
-    target_precompile_headers(${target} REUSE_FROM perilink_headers)
+    target_precompile_headers(${target} REUSE_FROM ${name})
+    target_compile_options(${target} PRIVATE ${options})
   endforeach()
 endfunction()

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/csr.hpp"
+#include "base/dense/decompositions.hpp"
 
 namespace perilink {
 namespace {
@@ -60,7 +61,7 @@ std::vector<double> motion_of_solid(const Network& network, std::span<const doub
         moved.col(a) += weight * motion[solid * width + a] * basis;
       }
     }
-    const Eigen::MatrixXd field = moments.completeOrthogonalDecomposition().solve(moved);
+    const Eigen::MatrixXd field = least_squares(moments, moved);
     for (Eigen::Index a = 0; a < dim; ++a) found[node * dim + a] = field(0, a);
   }
   return found;

@@ -1,11 +1,12 @@
 #include "assembly/fields.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 
 #include "assembly/internal_force.hpp"
 #include "assembly/results/neighbor_gradients.hpp"
+#include "base/dense/decompositions.hpp"
 #include "network/frame.hpp"
 
 namespace perilink {
@@ -20,9 +21,9 @@ bool fit_linear(std::span<const double> offsets, std::span<const double> /*marks
   const Eigen::Map<const Eigen::Matrix<double, Dim, Eigen::Dynamic>> xi(
       offsets.data(), Dim, static_cast<Eigen::Index>(offsets.size() / Dim));
   const Matrix shape = xi * xi.transpose();
-  const Eigen::SelfAdjointEigenSolver<Matrix> axes(shape);
+  const Eigen::Vector<double, Dim> squares = eigenvalues(shape);
   // Squared sines of the angles between bonds; round-off leaves 1e-15.
-  if (!(axes.eigenvalues()[0] > 1e-10 * axes.eigenvalues()[Dim - 1])) return false;
+  if (!(squares[0] > 1e-10 * squares[Dim - 1])) return false;
   Eigen::Map<Eigen::Matrix<double, Dim, Eigen::Dynamic>>(weights.data(), Dim, xi.cols()) =
       shape.inverse() * xi;
   return true;
@@ -47,9 +48,7 @@ void fill_principal_strains(const Network& network, const Csr& neighbourhoods, S
       if (!gradients.find(i, neighbors, gradient)) continue;
       Matrix strain = 0.5 * (gradient + gradient.transpose());
       if (measure == Strain::green) strain += 0.5 * gradient.transpose() * gradient;
-      const auto principal = Eigen::SelfAdjointEigenSolver<Matrix>(strain, Eigen::EigenvaluesOnly)
-                                 .eigenvalues()
-                                 .eval();
+      const Eigen::Vector<double, Dim> principal = eigenvalues(strain);
       for (int n = 0; n < Dim; ++n) {
         strains[static_cast<std::size_t>(i) * Dim + n] = principal[Dim - 1 - n];
       }
@@ -190,14 +189,13 @@ std::vector<double> face_strains(const Network& network, const Csr& neighbourhoo
                        xi.transpose();
       }
     }
-    const Eigen::SelfAdjointEigenSolver<Matrix> axes(shape);
-    if (!(axes.eigenvalues()[0] > 1e-10 * axes.eigenvalues()[1])) continue;
+    const Eigen::Vector2d squares = eigenvalues(shape);
+    if (!(squares[0] > 1e-10 * squares[1])) continue;
     Eigen::Vector2d largest(0.0, 0.0);
     for (const Matrix& moments : faces) {
       const Matrix gradient = moments * shape.inverse();
       const Matrix strain = 0.5 * (gradient + gradient.transpose());
-      const Eigen::Vector2d found =
-          Eigen::SelfAdjointEigenSolver<Matrix>(strain, Eigen::EigenvaluesOnly).eigenvalues();
+      const Eigen::Vector2d found = eigenvalues(strain);
       if (&moments == faces || found[1] > largest[1]) largest = found;
     }
     strains[std::size_t{3} * i] = largest[1];

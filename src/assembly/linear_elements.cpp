@@ -8,6 +8,7 @@
 
 #include "assembly/cell_terms.hpp"
 #include "assembly/lower_triangle.hpp"
+#include "base/dense/decompositions.hpp"
 #include "discretization/vector_at.hpp"
 
 namespace perilink {
@@ -59,8 +60,8 @@ std::vector<double> eigenvalues_of(std::span<const double> tensors) {
   std::vector<double> values;
   for (std::size_t at = 0; at < tensors.size(); at += Dim * Dim) {
     const Tensor<Dim> tensor = Eigen::Map<const Tensor<Dim>>(tensors.data() + at);
-    const Eigen::Matrix<double, Dim, 1> ascending =
-        Eigen::SelfAdjointEigenSolver<Tensor<Dim>>(tensor, Eigen::EigenvaluesOnly).eigenvalues();
+    const Eigen::Vector<double, Dim> ascending =
+        eigenvalues(Eigen::Matrix<double, Dim, Dim>(tensor));
     values.insert(values.end(), ascending.data(), ascending.data() + Dim);
     std::reverse(values.end() - Dim, values.end());
   }

@@ -6,6 +6,7 @@
 
 #include <Eigen/Dense>
 
+#include "base/dense/decompositions.hpp"
 #include "calibration/bounded_least_squares/killing_fields.hpp"
 #include "discretization/facet_geometry.hpp"
 
@@ -73,7 +74,7 @@ class Part {
       gram.noalias() += work * work.transpose();
     }
     // 6 of the 56 products in 3D repeat.
-    const Eigen::VectorXd multiplier = gram.completeOrthogonalDecomposition().solve(-defect);
+    const Eigen::VectorXd multiplier = least_squares<Eigen::VectorXd>(gram, -defect);
     for (const Index f : members_) shares_of(f) += gradient(motions, f).transpose() * multiplier;
   }
 

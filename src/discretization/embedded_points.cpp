@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "base/dense/decompositions.hpp"
+
 namespace perilink {
 namespace {
 
@@ -38,8 +40,8 @@ std::vector<double> weights_of(std::span<const double> arms, double spacing, int
     for (const auto& basis : bases) {
       moments += kernel<Dim>(basis, reach) * basis * basis.transpose();
     }
-    const Eigen::SelfAdjointEigenSolver<Moments> solver(moments);
-    if (!(solver.eigenvalues()[0] > least_spread * solver.eigenvalues()[Dim])) continue;
+    const Eigen::VectorXd spread = eigenvalues(Eigen::MatrixXd(moments));
+    if (!(spread[0] > least_spread * spread[Dim])) continue;
     const Basis<Dim> factors =
         moments.ldlt().solve(Basis<Dim>::Unit(derivative)) * (derivative > 0 ? 1.0 / spacing : 1.0);
     std::vector<double> weights;

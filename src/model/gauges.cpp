@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/dense/decompositions.hpp"
 #include "base/error.hpp"
 #include "base/plain_text.hpp"
 #include "discretization/bonds.hpp"
@@ -94,13 +95,13 @@ std::vector<Gauge::Term> linear_terms(const Model& model, Index nearest, const V
     if (ways.cols() == particles.dim || (wanted - ways * weights).norm() <= little * spacing) break;
     const Eigen::VectorXd way = from_nearest(particles.position(i));
     if (ways.cols() > 0) {
-      const Eigen::VectorXd along = ways.colPivHouseholderQr().solve(way);
+      const Eigen::VectorXd along = least_squares_by_qr(ways, way);
       if ((way - ways * along).norm() < flat * spacing) continue;
     }
     Eigen::MatrixXd more = ways;
     more.conservativeResize(Eigen::NoChange, ways.cols() + 1);
     more.rightCols(1) = way;
-    const Eigen::VectorXd next = more.colPivHouseholderQr().solve(wanted);
+    const Eigen::VectorXd next = least_squares_by_qr(more, wanted);
     if (next.minCoeff() < -little || next.sum() > 1.0 + little) continue;
     ways = more;
     weights = next;

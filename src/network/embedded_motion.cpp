@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/dense/decompositions.hpp"
 #include "discretization/facet_geometry.hpp"
 
 namespace perilink {
@@ -29,9 +30,8 @@ Eigen::MatrixXd shares_of_nodes(const Hosts& hosts, Index element,
     const auto weights = hosts.weights_at(element, support_regions[k]);
     for (Index c = 0; c < count; ++c) rows(c, k) = weights[c];
   }
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> space;
-  space.setThreshold(negligible);
-  Eigen::MatrixXd shares = space.compute(rows).solve(Eigen::MatrixXd::Identity(count, count));
+  auto shares =
+      least_squares<Eigen::MatrixXd>(rows, Eigen::MatrixXd::Identity(count, count), negligible);
   for (Index c = 0; c < count; ++c) {
     const Eigen::VectorXd alone = Eigen::VectorXd::Unit(count, c);
     if (!((rows * shares.col(c) - alone).norm() < negligible)) shares.col(c).setZero();

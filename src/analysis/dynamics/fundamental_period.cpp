@@ -11,6 +11,7 @@
 
 #include "analysis/dynamics/subdomain_preconditioner.hpp"
 #include "assembly/internal_force.hpp"
+#include "base/dense/decompositions.hpp"
 #include "base/error.hpp"
 
 namespace perilink {
@@ -131,8 +132,7 @@ void Vibration::improve(Direction& last) {
   for (Eigen::Index r = 0; r < count; ++r) {
     for (Eigen::Index c = 0; c < count; ++c) matrix(r, c) = basis_[r].u.dot(basis_[c].force);
   }
-  const VectorXd part =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix).eigenvectors().col(0);
+  const VectorXd part = eigenvectors(matrix).vectors.col(0);
   Direction next{VectorXd::Zero(mass_.size()), VectorXd::Zero(mass_.size())};
   for (Eigen::Index k = 1; k < count; ++k) {
     next.u += part[k] * basis_[k].u;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/dense/decompositions.hpp"
 #include "network/frame.hpp"
 
 namespace perilink {
@@ -81,10 +82,8 @@ Blocks<FrameModes<Dim>::width> own_frames(const Network& network) {
   return blocks;
 }
 
-template <class Block>
-double largest_eigenvalue(const Block& block) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(block, Eigen::EigenvaluesOnly);
-  return std::max(0.0, solver.eigenvalues().tail(1)[0]);
+double largest_eigenvalue(const Eigen::MatrixXd& block) {
+  return std::max(0.0, eigenvalues(block).tail(1)[0]);
 }
 
 std::vector<double> masses_of_volumes(const Network& network, std::span<const double> density) {

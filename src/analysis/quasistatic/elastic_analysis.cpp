@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -13,6 +12,7 @@
 #include "analysis/quasistatic/equilibrium/update/mechanism.hpp"
 #include "assembly/internal_force.hpp"
 #include "assembly/stiffness.hpp"
+#include "base/dense/decompositions.hpp"
 #include "base/error.hpp"
 #include "base/timer.hpp"
 #include "network/rigid_modes.hpp"
@@ -48,7 +48,7 @@ void take_settlement(const Network& network, const Unknowns& unknowns,
       for (Eigen::Index n = 0; n < count; ++n) products(m, n) += motions[m][k] * motions[n][k];
     }
   }
-  parts = products.completeOrthogonalDecomposition().solve(parts).eval();
+  parts = least_squares(products, parts);
   for (Eigen::Index m = 0; m < count; ++m) {
     for (std::size_t k = 0; k < displacement.size(); ++k) {
       displacement[k] -= parts[m] * motions[m][k];

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 
+#include "base/dense/decompositions.hpp"
 #include "material/principal_values.hpp"
 
 namespace perilink {
@@ -16,10 +17,7 @@ ElementStrain::ElementStrain(const Particles& particles, Index number,
   }
   places.colwise() -= Eigen::VectorXd(places.rowwise().mean());
   constexpr double flat = 1e-9;  // over the largest extent
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> moments;
-  moments.setThreshold(flat);
-  moments.compute(places * places.transpose());
-  const Eigen::MatrixXd gradient = moments.solve(places);
+  const Eigen::MatrixXd gradient = least_squares(places * places.transpose(), places, flat);
   gradient_.assign(gradient.data(), gradient.data() + gradient.size());
 }
 

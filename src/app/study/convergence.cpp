@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "base/dense/decompositions.hpp"
+
 namespace perilink {
 namespace {
 
@@ -49,7 +51,7 @@ void remove_rigid_motion(const Particles& particles, std::span<double> field) {
   });
   // A plane body rotates only about the third axis, but its inertia tensor has the other two.
   if (dim == 2) moment.head<2>().setZero();
-  const Eigen::Vector3d omega = inertia.completeOrthogonalDecomposition().solve(moment);
+  const Eigen::Vector3d omega = least_squares<Eigen::VectorXd>(inertia, moment);
   for (Index i = 0; i < particles.size(); ++i) {
     const Eigen::Vector3d rigid =
         translation + omega.cross(vector_at(particles.positions, i, dim) - centre);

@@ -1,6 +1,5 @@
 #include "assembly/results/stress.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include "assembly/results/bond_strain.hpp"
 #include "assembly/results/neighbor_gradients.hpp"
 #include "assembly/results/surface_fit.hpp"
+#include "base/dense/decompositions.hpp"
 
 namespace perilink {
 namespace {
@@ -71,11 +71,9 @@ bool fit_polynomial(std::span<const double> offsets, double size, std::span<doub
     const Eigen::Vector<double, Terms> terms = terms_at<Dim, Terms>(x);
     normal += (1.0 / x.squaredNorm()) * terms * terms.transpose();
   }
-  const Eigen::LDLT<Eigen::Matrix<double, Terms, Terms>> factor(normal);
-  const auto pivots = factor.vectorD();
-  if (!(pivots.minCoeff() > smallest_stress_pivot * pivots.maxCoeff())) return false;
-  const Eigen::Matrix<double, Terms, Dim> linear =
-      factor.solve(Eigen::Matrix<double, Terms, Dim>::Identity());
+  Eigen::MatrixXd solution = Eigen::MatrixXd::Identity(Terms, Dim);
+  if (!solve_symmetric(normal, solution, smallest_stress_pivot)) return false;
+  const Eigen::Matrix<double, Terms, Dim> linear = solution;
   for (std::size_t k = 0; k < count; ++k) {
     const Eigen::Vector<double, Dim> x = at(k);
     Eigen::Map<Eigen::Vector<double, Dim>>(weights.data() + k * Dim) =

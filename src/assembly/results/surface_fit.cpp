@@ -1,10 +1,10 @@
 #include "assembly/results/surface_fit.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "base/dense/decompositions.hpp"
 
 namespace perilink {
 namespace {
@@ -90,9 +90,7 @@ Eigen::MatrixXd balanced_basis(const Monomials<Dim>& monomials, int degree, doub
       }
     }
   }
-  const Eigen::HouseholderQR<Eigen::MatrixXd> factor(equations);
-  return factor.householderQ() * Eigen::MatrixXd::Identity(Dim * terms, Dim * terms)
-                                     .rightCols(Dim * terms - equations.cols());
+  return complement(equations);
 }
 
 /// Appends a row with the traction over mu along an axis.
@@ -138,16 +136,14 @@ bool fit_balanced(std::span<const double> points, std::span<const double> marks,
   for (std::size_t k = 0; k < tractions.size(); ++k) {
     rows.row(first_traction + static_cast<Eigen::Index>(k)) = tractions[k] * basis;
   }
-  const Eigen::LDLT<Eigen::MatrixXd> factor(rows.transpose() * rows);
-  const auto pivots = factor.vectorD();
-  if (!(pivots.minCoeff() > smallest_fit_pivot * pivots.maxCoeff())) return false;
   Eigen::MatrixXd slopes(unknowns, Dim * Dim);  // of the unknowns in the gradient
   for (int a = 0; a < Dim; ++a) {
     for (int b = 0; b < Dim; ++b) {
       slopes.col(a * Dim + b) = basis.row(a * terms + 1 + b).transpose();
     }
   }
-  const Eigen::MatrixXd result = rows.topRows(first_traction) * factor.solve(slopes);
+  if (!solve_symmetric(rows.transpose() * rows, slopes, smallest_fit_pivot)) return false;
+  const Eigen::MatrixXd result = rows.topRows(first_traction) * slopes;
   double* weight = weights.data();
   for (Eigen::Index k = 1; k < count; ++k) {
     for (int c = 0; c < Dim; ++c) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "assembly/network_blocks.hpp"
+#include "base/dense/decompositions.hpp"
 
 namespace perilink {
 namespace {
@@ -99,13 +100,12 @@ Eigen::MatrixXd stiffness_of_idle(const SubdomainMotions& motions, Index subdoma
       gram += moved * moved.transpose();
     }
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);
+  const Eigenvectors axes = eigenvectors(gram);
   const double size = std::max(own.trace() / count, std::numeric_limits<double>::min());
   Eigen::MatrixXd added = Eigen::MatrixXd::Zero(count, count);
   for (int k = 0; k < count; ++k) {
-    if (solver.eigenvalues()[k] > idle * static_cast<double>(motions.particles(subdomain).size()))
-      break;
-    const Eigen::VectorXd vector = solver.eigenvectors().col(k);
+    if (axes.values[k] > idle * static_cast<double>(motions.particles(subdomain).size())) break;
+    const Eigen::VectorXd vector = axes.vectors.col(k);
     added += (own.trace() > 0.0 ? size : 1.0) * vector * vector.transpose();
   }
   return added;

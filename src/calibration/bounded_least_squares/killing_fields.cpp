@@ -7,6 +7,8 @@
 
 #include <Eigen/Dense>
 
+#include "base/dense/decompositions.hpp"
+
 namespace perilink {
 namespace {
 
@@ -72,10 +74,10 @@ MatrixXd killing_fields(const PointEquations& equations, std::span<const Index> 
       }
     }
   }
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> squares(fields.transpose() * fields);
-  const auto& values = squares.eigenvalues();
+  const Eigenvectors squares = eigenvectors(fields.transpose() * fields);
+  const auto& values = squares.values;
   const auto kept = (values.array() > smallest_square * values[values.size() - 1]).count();
-  return fields * squares.eigenvectors().rightCols(kept) *
+  return fields * squares.vectors.rightCols(kept) *
          values.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/dense/decompositions.hpp"
+
 namespace perilink {
 namespace {
 
@@ -55,8 +57,8 @@ struct Parts {
     }
     two_kinds = any_far && any_near;
     state = 0.5 / volume * sum * sum.transpose();
-    const Eigen::SelfAdjointEigenSolver<Tensor> solver(own, Eigen::EigenvaluesOnly);
-    singular = !(solver.eigenvalues()[0] > same * solver.eigenvalues()[size - 1]);
+    const Eigen::VectorXd sizes = eigenvalues(own);
+    singular = !(sizes[0] > same * sizes[size - 1]);
   }
 
   Tensor stiffness(const ParticleModuli& moduli) const {
@@ -90,10 +92,10 @@ ParticleModuli solve(const Parts& parts, const Tensor& wanted, bool with_far, bo
   if (with_far) columns.col(2) = entries(parts.far);
   const Eigen::VectorXd scale = columns.colwise().norm().cwiseMax(1e-300);
   columns.array().rowwise() /= scale.transpose().array();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(columns, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Eigen::VectorXd& values = svd.singularValues();
-  unique = values[values.size() - 1] > same * values[0];
-  const Eigen::VectorXd found = svd.solve(entries(wanted)).cwiseQuotient(scale);
+  double ratio = 0.0;
+  const Eigen::VectorXd found =
+      least_squares_by_svd(columns, entries(wanted), ratio).cwiseQuotient(scale);
+  unique = ratio > same;
   return {found[0], with_far ? found[2] : 0.0, found[1]};
 }
 

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/dense/decompositions.hpp"
 #include "base/error.hpp"
 #include "discretization/cuts/cracks.hpp"
 #include "discretization/lattices/triangulate.hpp"
@@ -175,9 +176,7 @@ bool has_full_rank(const Hosts& hosts, Index element) {
   using Weights = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const Eigen::Map<const Weights> weights(hosts.weights_at(element, 0).data(), count, nodes);
   const Eigen::MatrixXd products = weights.transpose() * weights;
-  const Eigen::VectorXd squares =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(products, Eigen::EigenvaluesOnly)
-          .eigenvalues();
+  const Eigen::VectorXd squares = eigenvalues(products);
   return squares[0] > least * least * squares[nodes - 1];
 }
 

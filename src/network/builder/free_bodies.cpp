@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/dense/decompositions.hpp"
+
 namespace perilink {
 namespace {
 
@@ -25,7 +27,7 @@ std::vector<double> nearest_motion(const Network& network, const Fragment& fragm
       }
     }
   }
-  parts = products.completeOrthogonalDecomposition().solve(parts).eval();
+  parts = least_squares(products, parts);
   std::vector<double> nearest(field.size(), 0.0);
   for (std::size_t slot = 0; slot < field.size(); ++slot) {
     for (Eigen::Index m = 0; m < count; ++m) nearest[slot] += parts[m] * motions[m][slot];

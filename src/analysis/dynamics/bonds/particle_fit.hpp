@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/dense/decompositions.hpp"
 #include "base/types.hpp"
 #include "discretization/bonds.hpp"
 #include "material/j2_plasticity.hpp"
@@ -29,7 +30,7 @@ class ParticleStrains {
         rows(static_cast<Index>(k), c) = (a == b ? 1.0 : 2.0) * n[a] * n[b];
       }
     }
-    const Eigen::MatrixXd inverse = rows.completeOrthogonalDecomposition().pseudoInverse();
+    const Eigen::MatrixXd inverse = pseudo_inverse(rows);
     double largest = 0.0;
     for (int c = 0; c < entries; ++c) {
       double sum = 0.0;

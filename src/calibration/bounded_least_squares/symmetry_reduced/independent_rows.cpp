@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/dense/decompositions.hpp"
 #include "base/side_by_side.hpp"
 
 namespace perilink {
@@ -31,11 +32,11 @@ constexpr double implied_right = 1e-10;
 /// \param products  A A'
 Eigen::MatrixXd basis_of(const Eigen::MatrixXd& products) {
   const Eigen::Index rows = products.rows();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> squares(products);
-  const Eigen::VectorXd& sizes = squares.eigenvalues();  // ascending
+  const Eigenvectors squares = eigenvectors(products);
+  const Eigen::VectorXd& sizes = squares.values;  // ascending
   const Eigen::Index none = (sizes.array() <= independent * sizes[rows - 1]).count();
   if (none == 0) return Eigen::MatrixXd::Identity(rows, rows);
-  Eigen::MatrixXd basis = squares.eigenvectors().rowwise().reverse();
+  Eigen::MatrixXd basis = squares.vectors.rowwise().reverse();
   basis.rightCols(none).setZero();
   return basis;
 }

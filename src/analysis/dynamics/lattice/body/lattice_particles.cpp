@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <unordered_map>
 
+#include "base/dense/decompositions.hpp"
+
 namespace perilink {
 namespace {
 
@@ -56,7 +58,7 @@ LatticeParticles::Inverse LatticeParticles::invert(std::uint32_t mask) const {
       rows(j, static_cast<Index>(c)) = (entries[c] < 3 ? 1.0 : 2.0) * product_of(n, entries[c]);
     }
   }
-  const Eigen::MatrixXd inverse = rows.completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::MatrixXd inverse = pseudo_inverse(rows);
   return {inverse.data(), inverse.data() + inverse.size()};
 }
 
