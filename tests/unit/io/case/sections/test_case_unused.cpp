@@ -36,7 +36,7 @@ fields_times = [1, 2]
 
 TEST(CaseUnused, OneCaseServesAllAnalyses) {
   const CaseFile damage = parse_case(serving_all("damage"), "a.toml");
-  EXPECT_THAT(damage.unused,
+  EXPECT_THAT(damage.source.unused,
               ElementsAre("analysis.duration", "analysis.rows", "analysis.damping_rate",
                           "analysis.tolerance", "output.fields_times"));
   EXPECT_EQ(damage.analysis.factor, FactorRoute::refactorize);
@@ -45,14 +45,15 @@ TEST(CaseUnused, OneCaseServesAllAnalyses) {
   EXPECT_EQ(damage.output.fields_every, 5);
 
   const CaseFile elastic = parse_case(serving_all("elastic"), "a.toml");
-  EXPECT_THAT(elastic.unused, ElementsAre("analysis.control", "analysis.duration", "analysis.rows",
-                                          "analysis.damping_rate", "analysis.factor", "stop",
-                                          "output.fields_every", "output.fields_times"));
+  EXPECT_THAT(
+      elastic.source.unused,
+      ElementsAre("analysis.control", "analysis.duration", "analysis.rows", "analysis.damping_rate",
+                  "analysis.factor", "stop", "output.fields_every", "output.fields_times"));
   EXPECT_FALSE(elastic.stop.broken_bonds);
   EXPECT_FALSE(elastic.output.fields_every);
 
   const CaseFile moving = parse_case(serving_all("explicit"), "a.toml");
-  EXPECT_THAT(moving.unused,
+  EXPECT_THAT(moving.source.unused,
               ElementsAre("analysis.control", "analysis.tolerance", "analysis.factor",
                           "stop.broken_bonds", "output.fields_every"));
   EXPECT_EQ(moving.analysis.duration, 2.0);
@@ -61,7 +62,7 @@ TEST(CaseUnused, OneCaseServesAllAnalyses) {
   EXPECT_THAT(moving.output.fields_times, ElementsAre(1, 2));
 
   const CaseFile resting = parse_case(serving_all("relaxation"), "a.toml");
-  EXPECT_THAT(resting.unused,
+  EXPECT_THAT(resting.source.unused,
               ElementsAre("analysis.control", "analysis.duration", "analysis.rows",
                           "analysis.damping_rate", "analysis.factor", "stop.broken_bonds",
                           "output.fields_every", "output.fields_times"));
@@ -90,7 +91,7 @@ TEST(CaseUnused, ValuesOfOtherTypesMustBeRight) {
 TEST(CaseUnused, AreNotWritten) {
   const std::string once = write_case(parse_case(serving_all("damage"), "a.toml"));
   EXPECT_THAT(once, Not(HasSubstr("duration")));
-  EXPECT_THAT(parse_case(once, "a.toml").unused, IsEmpty());
+  EXPECT_THAT(parse_case(once, "a.toml").source.unused, IsEmpty());
 }
 
 std::string message_of_type(const std::string& type, const std::string& analysis,
