@@ -172,10 +172,10 @@ void bind_row(py::module_& module) {
   py::class_<StepRecord> row(module, "EventRow", "Equilibrium at the load of the next event.");
   bind_columns(row);
   row.def_readonly("others", &StepRecord::others, "Elements that fail with `element`.")
-      .def("__repr__", [](const StepRecord& row) {
+      .def("__repr__", [](const StepRecord& self) {
         return fmt::format(
             "EventRow(step={}, load={:.6g}, displacement={:.6g}, broken_bonds={}, element={})",
-            row.step, row.load, row.displacement, row.broken_bonds, row.element);
+            self.step, self.load, self.displacement, self.broken_bonds, self.element);
       });
 }
 

@@ -186,9 +186,9 @@ void bind_row(py::module_& module) {
   py::class_<ExplicitRecord> row(module, "TimeRow", "Row of an explicit run or a relaxation.");
   bind_columns(row);
   row.def_readonly("support_reaction", &ExplicitRecord::support_reaction, "As `reaction`.")
-      .def("__repr__", [](const ExplicitRecord& row) {
-        return fmt::format("TimeRow(step={}, time={:.6g}, load={:.6g}, broken_bonds={})", row.step,
-                           row.time, row.load, row.broken_bonds);
+      .def("__repr__", [](const ExplicitRecord& self) {
+        return fmt::format("TimeRow(step={}, time={:.6g}, load={:.6g}, broken_bonds={})", self.step,
+                           self.time, self.load, self.broken_bonds);
       });
 }
 

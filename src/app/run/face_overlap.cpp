@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "base/plain_text.hpp"
@@ -64,12 +67,40 @@ std::vector<Index> particles_near(const CrackCutter& cutter, const Network& netw
   return near;
 }
 
+using Pair = std::pair<Index, Index>;
+
+/// Returns the pairs of particles up to a distance apart that no bond joins, near the cracks.
+std::vector<Pair> parted_pairs(const CrackCutter& cutter, const Network& network, double distance) {
+  const std::vector<Index> near = particles_near(cutter, network, distance);
+  std::vector<double> places;
+  std::vector<std::uint8_t> is_near(static_cast<std::size_t>(network.particles.size()), 0);
+  for (const Index i : near) {
+    const auto x = network.particles.position(i);
+    places.insert(places.end(), x.begin(), x.end());
+    is_near[i] = 1;
+  }
+  std::set<Pair> bonded;
+  for (Index b = 0; b < network.num_bonds(); ++b) {
+    const Index i = network.bonds.first[b], j = network.bonds.second[b];
+    if (is_near[i] != 0 && is_near[j] != 0) bonded.insert({std::min(i, j), std::max(i, j)});
+  }
+  const Csr around = find_neighbors_within(places, places, network.dim(),
+                                           std::vector<double>(near.size(), distance));
+  std::vector<Pair> pairs;
+  for (std::size_t k = 0; k < near.size(); ++k) {
+    for (const Index l : around.row(static_cast<Index>(k))) {
+      const Pair pair{near[k], near[l]};
+      if (pair.first < pair.second && !bonded.contains(pair)) pairs.push_back(pair);
+    }
+  }
+  return pairs;
+}
+
 }  // namespace
 
 FaceOverlap deepest_overlap(const Model& model, std::span<const double> motion,
                             const FaceOverlap& so_far) {
   const Network& network = model.network;
-  const int dim = network.dim();
   std::vector<Crack> cracks;
   std::vector<std::size_t> entries;
   for (std::size_t k = 0; k < model.cracks.size() && !network.shell; ++k) {
@@ -79,22 +110,16 @@ FaceOverlap deepest_overlap(const Model& model, std::span<const double> motion,
   }
   if (cracks.empty()) return so_far;
   const Moved body{network, motion};
-  const double longest = reach * model.lattice.spacing;
-  const CrackCutter cutter(cracks, dim, model.lattice.spacing);
-  const std::vector<Index> near = particles_near(cutter, network, longest);
-  std::vector<double> places;
-  for (const Index i : near) {
-    const auto x = network.particles.position(i);
-    places.insert(places.end(), x.begin(), x.end());
-  }
-  const Csr pairs =
-      find_neighbors_within(places, places, dim, std::vector<double>(near.size(), longest));
+  const double spacing = model.lattice.spacing, longest = reach * spacing;
   const double least = noticeable * largest_shortening(body, longest);
   FaceOverlap deepest = so_far;
-  for (std::size_t k = 0; k < near.size(); ++k) {
-    for (const Index l : pairs.row(static_cast<Index>(k))) {
-      const Index i = near[k], j = near[l];
-      if (j <= i) continue;
+  // Particles on a crack belong to either side: on joints to the weaker one.
+  for (const bool turned : {false, true}) {
+    for (Crack& crack : cracks) {
+      if (turned) std::ranges::reverse(crack.points);
+    }
+    const CrackCutter cutter(cracks, network.dim(), spacing);
+    for (const auto& [i, j] : parted_pairs(cutter, network, longest)) {
       const Vector3 from = body.place(i), to = body.place(j);
       const CrackCutter::Piece* piece = cutter.piece_between(from, to);
       if (piece == nullptr) continue;

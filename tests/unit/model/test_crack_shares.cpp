@@ -1,5 +1,6 @@
 #include "model/crack_shares.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +12,6 @@
 #include "io/case/case_file.hpp"
 #include "model/from_case/configure.hpp"
 #include "network/bond_softening.hpp"
-#include "support/softening_strips.hpp"
 
 namespace perilink {
 namespace {
@@ -20,12 +20,44 @@ namespace {
 /// k xi^2 across a line varies with its direction against the rows.
 constexpr double single = 0.12, mean = 0.03;
 
-Model square(const std::string& model, const std::string& pattern, const std::string& softening) {
-  test::SofteningStrip strip{model, pattern, softening};
-  strip.length = strip.width = strip.middle = 100.0;
-  strip.spacing = 4.0;
-  return build_model(parse_case(
-      test::softening_case(strip) + "[[gauges]]\nname = \"crack\"\ncracks = \"strip\"\n", ""));
+Model square(const std::string& model, const std::string& pattern) {
+  return build_model(
+      parse_case(fmt::format(R"([body]
+model = "{}"
+pattern = "{}"
+spacing = 4
+horizon_ratio = 3
+thickness = 5
+[[regions]]
+name = "square"
+x = [0, 100]
+y = [0, 100]
+[[regions]]
+name = "left"
+x = [0, 0]
+y = [0, 100]
+[[regions]]
+name = "right"
+x = [100, 100]
+y = [0, 100]
+[[materials]]
+region = "square"
+youngs_modulus = 30000
+fracture_energy = 0.1
+tensile_strength = 3
+softening = "linear"
+{}[[supports]]
+region = "left"
+fix = ["x", "y"]
+[[displacements]]
+region = "right"
+x = 1
+[[gauges]]
+name = "crack"
+cracks = "square"
+)",
+                             model, pattern, model == "micropolar" ? "poissons_ratio = 0.2\n" : ""),
+                 ""));
 }
 
 /// Returns a secant for the bonds that cross the line through the middle, one for the others.
@@ -44,7 +76,7 @@ std::vector<double> across_line(const Network& network, double angle, double sec
 TEST(CrackShares, AddUpToTheLengthOfAStraightCrack) {
   for (const char* pattern : {"rectangular", "hexagonal", "unstructured"}) {
     for (const char* kind : {"bond_based", "micropolar"}) {
-      const Model model = square(kind, pattern, "softening = \"linear\"");
+      const Model model = square(kind, pattern);
       double sum = 0.0;
       constexpr int directions = 24;
       for (int k = 0; k < directions; ++k) {
@@ -63,7 +95,7 @@ TEST(CrackShares, AddUpToTheLengthOfAStraightCrack) {
 
 /// Softened bonds count with the energy that they have dissipated.
 TEST(CrackShares, CountDissipatedEnergy) {
-  const Model model = square("bond_based", "rectangular", "softening = \"linear\"");
+  const Model model = square("bond_based", "rectangular");
   const BondLaw& law = model.network.laws[model.network.law_of[0]];
   const auto size_at = [&](double secant) {
     return crack_size(model.network, model.gauges[0].cracks,

@@ -13,22 +13,24 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A strip cut through along y = 45.
+/// A strip of width 40, cut along y = 45 up to x = 32.
 Model cut_strip(std::optional<bool> closing) {
   CaseFile input = test::strip_case();
   CrackSection crack;
-  crack.points = {{-1.0, 45.0, 0.0}, {41.0, 45.0, 0.0}};
+  crack.points = {{-1.0, 45.0, 0.0}, {32.0, 45.0, 0.0}};
   crack.closing = closing;
   input.cracks.push_back(crack);
   return build_model(input);
 }
 
-/// Displacements of the part above the crack along y, over those of a compression everywhere.
+/// Displacements along y: of a part above the crack that turns about the other side by `above` at
+/// x = 0, and of a compression everywhere.
 std::vector<double> motion_of(const Model& model, double above, double strain) {
   std::vector<double> motion;
   for (Index i = 0; i < model.network.particles.size(); ++i) {
-    const double y = model.network.particles.position(i)[1];
-    motion.insert(motion.end(), {0.0, (y > 45.0 ? above : 0.0) - strain * y});
+    const auto x = model.network.particles.position(i);
+    const double turned = x[1] > 45.0 ? above * (1.0 - x[0] / 40.0) : 0.0;
+    motion.insert(motion.end(), {0.0, turned - strain * x[1]});
   }
   return motion;
 }

@@ -49,7 +49,7 @@ TEST(WeakFaces, AreLeftOutOfElasticAnalyses) {
 
 TEST(WeakFaces, AreRefusedWhereNoBondCrossesThem) {
   expect_refused(case_with("between = [\"lower end\", \"upper end\"]\nfracture_energy = 1\n"),
-                 "interfaces[1].between", "without a bond between them");
+                 "interfaces[1].between", "with particles between them");
   expect_refused(case_with("points = [[90, 0], [95, 0]]\nfracture_energy = 1\n"),
                  "interfaces[1].points", "crosses no bond");
   expect_refused(case_with("points = [[9, 0], [9, 0]]\nfracture_energy = 1\n"),
