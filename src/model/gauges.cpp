@@ -225,8 +225,10 @@ void fill_force(const CaseFile& input, const Model& model, const std::string& ke
         "name a region of [[supports]], [[displacements]], [[velocities]], [[springs]] "
         "or of loads");
   }
-  // Pins take no load: they only hold rigid-body modes.
-  if (is_loaded && input.analysis.rigid_body_modes == RigidBodyModes::pin) is_held = false;
+  // Pins take no load: without supports they alone hold the body.
+  const bool pinned = input.supports.empty() && input.displacements.empty() &&
+                      input.springs.empty() && input.symmetry.empty();
+  if (is_loaded && pinned) is_held = false;
   if (is_held && is_loaded) {
     notes.push_back(
         fmt::format("the region \"{}\" of the gauge \"{}\" has supports and loads: it measures the "

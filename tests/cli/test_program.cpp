@@ -112,8 +112,7 @@ TEST_F(Program, BadCommandLinesAreRefused) {
   }
   EXPECT_THAT(run({"simulate"}).err, HasSubstr("simulate"));
   EXPECT_THAT(run({"chek"}).err, HasSubstr("option chek\n  did you mean `check`?"));
-  EXPECT_THAT(run({"run", "a.toml", "--thread=2", "--output", "r"}).err,
-              HasSubstr("unknown option --thread\n  did you mean `--threads`? Allowed: "));
+  EXPECT_THAT(run({"run", "--thread=2"}).err, HasSubstr("--thread\n  did you mean `--threads`?"));
   EXPECT_THAT(run({"run"}).err, testing::StartsWith("perilink: case is required\n"));
   EXPECT_EQ(names(), std::set<std::string>{"a.toml"}) << "a refused command left files behind";
 }
@@ -259,7 +258,6 @@ TEST_F(Program, CheckOfAnElasticCaseSpeaksOfNoBreaks) {
   const ProcessEnd end = run({"check", "strip.toml"});
   EXPECT_EQ(end.exit_status, 0) << end.err;
   EXPECT_THAT(end.out, HasSubstr("gauge              g: at (1.1, 0.4)\n"));
-  EXPECT_THAT(end.out, HasSubstr("(1.1, 0.4), linearly between the particles at (1, 0.5), "));
   EXPECT_THAT(end.out, testing::Not(HasSubstr("broken bond")));
 }
 

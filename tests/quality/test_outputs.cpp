@@ -152,14 +152,17 @@ void expect_named(const std::string& text, const std::string& name, const std::s
 /// "| `load`, `displacement` | F, L |", or one unit for all.
 std::string unit_in(const std::string& text, const std::string& name) {
   const std::size_t at = text.find("`" + name + "`");
-  const std::size_t line = text.rfind('\n', at) + 1, bar = text.find(" | ", at);
+  const std::size_t line = text.rfind('\n', at) + 1, bar = text.find(" |", at);
   const auto commas = std::count(text.begin() + line, text.begin() + at, ',');
-  std::string units = text.substr(bar + 3, text.find(" | ", bar + 3) - bar - 3);
+  const std::size_t end = text.find('|', bar + 2);
+  std::string units = text.substr(bar + 2, end - bar - 2);
   for (auto k = commas; k > 0 && units.find(", ") != std::string::npos; --k) {
     units.erase(0, units.find(", ") + 2);
   }
   units = units.substr(0, units.find(", "));
-  return units == "–" ? "" : units;
+  const std::size_t first = units.find_first_not_of(' '), last = units.find_last_not_of(' ');
+  const bool none = first == std::string::npos || units.substr(first, last - first + 1) == "–";
+  return none ? "" : units.substr(first, last - first + 1);
 }
 
 void expect_keys(const std::string& text, const nlohmann::json& object) {

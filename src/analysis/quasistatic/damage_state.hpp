@@ -99,8 +99,8 @@ inline bool is_below(const StepRecord& row, const PathState& path) {
   return load < path.largest_of_stage[loaded] && load < *path.load_fraction * path.largest[loaded];
 }
 
-/// Returns whether the last row lies below the load fraction. Load steps that unload the body are no
-/// fall.
+/// Returns whether the last row lies below the load fraction. Load steps below the largest load
+/// factor so far are no fall.
 /// \param load_factors  of load steps; empty: a run by events or stages
 inline bool has_fallen(const PathState& path, const std::vector<double>& load_factors) {
   const auto begin = load_factors.begin();

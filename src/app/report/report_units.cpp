@@ -108,10 +108,15 @@ std::string unit_of_column(const std::string& name, const TomlValue& root, const
   for (const TomlValue& gauge : gauges == nullptr ? std::vector<TomlValue>{} : gauges->items) {
     const TomlValue* known = gauge.find("name");
     if (known == nullptr || known->text != name) continue;
+    if (gauge.find("cracks") != nullptr) {
+      const TomlValue* body = root.find("body");
+      const TomlValue* problem = body == nullptr ? nullptr : body->find("problem");
+      const bool in_space = problem != nullptr && problem->text == "three_dimensional";
+      return in_units(in_space ? "L²" : "L", units);
+    }
     const char* measured = gauge.find("stress") != nullptr     ? "stress"
                            : gauge.find("about") != nullptr    ? "moment"
                            : gauge.find("reaction") != nullptr ? "force"
-                           : gauge.find("cracks") != nullptr   ? "crack size"
                                                                : "displacement";
     return unit_of_quantity(measured, units);
   }

@@ -146,12 +146,12 @@ void MovingBondsRun::on_end(const ExplicitRecord& last, const BondRunState& stat
   if (!model_.network.has_states()) loose_pieces_ = count_loose_pieces(model_, state);
 }
 
-void MovingBondsRun::warn_of_motion(Summary& summary) const {
+void MovingBondsRun::warn_of_motion(Summary& summary, bool impact) const {
   if (auto warning = warning_about_overlap(overlap_, model_.network.dim())) {
     summary.add_warnings({std::move(*warning)});
   }
   const bool is_free = input.supports.empty() && input.displacements.empty();
-  if (input.analysis.strain == Strain::green || is_free) return;
+  if (impact || input.analysis.strain == Strain::green || is_free) return;
   if (auto warning =
           warning_about_size(files().peaks().highest(), longest_side(model_.network.particles))) {
     summary.add_warnings({std::move(*warning)});
@@ -210,7 +210,7 @@ class BondRun final : public MovingBondsRun {
     facts.loose_pieces = loose_pieces_;
     if (!model_.modulus.empty()) facts.wave_time /= std::sqrt(std::ranges::max(model_.modulus));
     summary.add_warnings(warnings_about(result_, facts));
-    if (!facts.impact) warn_of_motion(summary);
+    warn_of_motion(summary, facts.impact);
   }
 
  private:

@@ -2,9 +2,9 @@
 
 #include "analysis/dynamics/bonds/runs/bond_analysis.hpp"
 #include "analysis/dynamics/time_state.hpp"
-#include "app/run/face_overlap.hpp"
 #include "app/run/run_kind.hpp"
 #include "base/csr.hpp"
+#include "model/face_overlap.hpp"
 
 namespace perilink {
 
@@ -33,8 +33,9 @@ class MovingBondsRun : public NetworkRun, protected BondRunObserver {
   bool wants_checkpoint(const ExplicitRecord& last) override;
   void on_checkpoint(const TimeState& state) override;
   void restore(const std::string& state) override;
-  /// Warns of displacements too large for small strains.
-  void warn_of_motion(Summary& summary) const;
+  /// Warns of faces of pre-cracks that overlap and, but for impacts, of displacements too large for
+  /// small strains.
+  void warn_of_motion(Summary& summary, bool impact) const;
   void write_state(const ExplicitRecord& record, const BondRunState& state);
   /// \param motion  motion of the state, with the embedded points of bars
   void add_forces_and_cracks(VtuGrid& grid, const ExplicitRecord& record, const BondRunState& state,

@@ -163,7 +163,9 @@ void DamageRun::tell(Summary& summary) const {
                         warning_about_overlap(records_.overlap, model_.network.dim())}) {
     if (warning) found.warnings.push_back(*warning);
   }
-  if (input.analysis.control == LoadControl::steps) {
+  const bool forced =
+      !input.loads.empty() || !input.tractions.empty() || !input.point_loads.empty();
+  if (input.analysis.control == LoadControl::steps && !(model_.reference.driven && forced)) {
     if (auto text = warning_about_steps(result_.last, records_.area)) {
       found.warnings.push_back(std::move(*text));
     }

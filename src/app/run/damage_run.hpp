@@ -4,12 +4,12 @@
 
 #include "analysis/quasistatic/event_run.hpp"
 #include "analysis/quasistatic/peak_states.hpp"
-#include "app/run/face_overlap.hpp"
 #include "app/run/quasistatic.hpp"
 #include "app/run/run_kind.hpp"
 #include "app/run/run_warnings.hpp"
 #include "base/csr.hpp"
 #include "model/expected_events.hpp"
+#include "model/face_overlap.hpp"
 
 namespace perilink {
 

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <optional>
 
-#include "app/run/face_overlap.hpp"
 #include "app/run/quasistatic.hpp"
 #include "app/run/run_kind.hpp"
 #include "app/run/run_warnings.hpp"
 #include "base/plain_text.hpp"
 #include "discretization/bonds.hpp"
+#include "model/face_overlap.hpp"
 #include "model/from_case/separated_body.hpp"
 #include "model/gauges.hpp"
 #include "results/bar_file.hpp"

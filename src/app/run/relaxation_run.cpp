@@ -64,7 +64,7 @@ class RelaxationRun final : public MovingBondsRun {
     tell_cracks(summary, cracks_);
     tell_body(summary, model_);
     summary.add_warnings(warnings_at_rest(result_.last));
-    warn_of_motion(summary);
+    warn_of_motion(summary, false);
     summary.rate = bond_rate(result_.iterations);
     summary.outcome =
         fmt::format("{}, {}, residual {:.2e}", counted(result_.iterations, "iteration"),

@@ -4,6 +4,7 @@
 
 namespace perilink {
 
+/// \file
 /// Decompositions of dense matrices, in one file: each takes ten seconds to compile.
 
 /// Returns the eigenvalues of a symmetric matrix, ascending.

@@ -355,14 +355,13 @@ void collect_sets(const CaseFile& input, Model& model) {
   }
 }
 
-/// Notes supports that hold bar nodes with the solid: such a bar cannot be pulled out.
+/// Notes supports that also hold bar nodes: such a bar cannot be pulled out.
 void note_held_bars(const CaseFile& input, Model& model) {
+  const auto kind_of = [&](Index i) { return model.network.particles.kind[i]; };
   for (std::size_t k = 0; k < input.supports.size() && !input.rebar.empty(); ++k) {
     const std::string& region = input.supports[k].region;
     const auto held = particles_of_region(input, model, region, item_key("supports", k, "region"));
-    const std::vector<ParticleKind>& kind = model.network.particles.kind;
-    const auto bars =
-        std::ranges::count_if(held, [&](Index i) { return kind[i] == ParticleKind::rebar; });
+    const auto bars = std::ranges::count(held, ParticleKind::rebar, kind_of);
     if (bars == 0 || bars == static_cast<std::ptrdiff_t>(held.size())) continue;
     model.notes.push_back(
         fmt::format("the support of \"{}\" also holds {}", region, counted(bars, "bar node")));

@@ -115,8 +115,7 @@ std::vector<Index> particles_in_plane(const CaseFile& input, const Model& model,
     throw InputError(
         input.where(item_key("symmetry", k, "at")),
         fmt::format("is {}, but the body lies on both sides of that plane", *section.at),
-        fmt::format("give the plane of a face, {0} = {1:.6g} or {0} = {2:.6g}", "xyz"[section.axis],
-                    low, high));
+        fmt::format("give a face: {0} = {1:.6g} or {0} = {2:.6g}", "xyz"[section.axis], low, high));
   }
   return inside;
 }

@@ -42,10 +42,6 @@ const Without release_strains = {
     {elastic, {}, {}},
     {beam, "is given, but the mean strain of a bent beam leaves out the strain at its faces",
      "give `alert`"}};
-const Without crack_sizes = {
-    {lattice | particles | beam, "is given, but only bonds of a solid measure cracks",
-     "delete the gauge, or choose another model in [body]"},
-    {elements, no_bonds, "delete the gauge, or the line method = \"linear_elements\""}};
 constexpr const char* a_line = "give the `points` of a line: [[0, 1], [2, 1]]";
 
 constexpr const char* what_varies =
@@ -259,7 +255,7 @@ TableSchema gauge_table() {
           {key("name", &Gauge::name).needed("the heading of its column"),
            key("between", &Gauge::between), key("at", &Gauge::at, Kind::position),
            key("region", &Gauge::region), key("reaction", &Gauge::reaction),
-           key("cracks", &Gauge::cracks, {}, crack_sizes),
+           key("cracks", &Gauge::cracks),
            key("about", &Gauge::about, Kind::position).beside("reaction"),
            key("axis", &Gauge::axis, Kind::axis),
            KeySchema("stress", {{"xx", "yy", "zz", "xy", "yz", "xz"}},

@@ -262,4 +262,23 @@ MaterialSection read_material(const CaseTable& table, const CaseFile& input, std
   return material;
 }
 
+void refuse_hole_outside(const CaseFile& input, const MaterialSection& material,
+                         const std::string& key, const std::string& hole) {
+  const auto meets = [&](const std::string& name) {
+    const Region& cut = *std::ranges::find(input.regions, hole, &Region::name);
+    const Region& region = *std::ranges::find(input.regions, name, &Region::name);
+    bool meet = true;
+    for (int a = 0; a < dimension_of(input.body); ++a) {
+      const double lower = std::max(cut.box.lower[a], region.box.lower[a]);
+      const double upper = std::min(cut.box.upper[a], region.box.upper[a]);
+      const bool flat = cut.box.lower[a] == cut.box.upper[a];  // a row of particles of a lattice
+      meet = meet && (lower < upper || (flat && lower == upper));
+    }
+    return meet || !region.group.empty() || !cut.group.empty();
+  };
+  if (std::ranges::any_of(material.regions, meets)) return;
+  throw InputError(input.where(key), fmt::format("is {}, outside of the material", quoted(hole)),
+                   "move the hole, or delete it");
+}
+
 }  // namespace perilink

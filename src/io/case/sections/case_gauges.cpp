@@ -66,6 +66,10 @@ GaugeSection read_gauge(const CaseTable& table, Kinds kind) {
                  "give two: [[0, 0], [0, 1]]");
   }
   if (table.has("cracks")) {
+    if ((kind & (kinds::lattice | kinds::particles | kinds::elements | kinds::beam)) != 0) {
+      table.refuse("cracks", "is given, but only bonds of a solid measure cracks",
+                   "delete the gauge, or choose another model in [body]");
+    }
     for (const char* key : {"axis", "stress"}) {
       if (table.has(key)) table.refuse(key, "is given together with `cracks`", "delete it");
     }

@@ -195,24 +195,6 @@ void check_shape(const CaseFile& input, const std::string& key, const std::strin
   }
 }
 
-/// Refuses a hole whose box meets that of no region of the material.
-void refuse_hole_outside(const CaseFile& input, const MaterialSection& material,
-                         const std::string& key, const std::string& hole) {
-  const auto meets = [&](const std::string& name) {
-    const Region& cut = *std::ranges::find(input.regions, hole, &Region::name);
-    const Region& region = *std::ranges::find(input.regions, name, &Region::name);
-    bool meet = true;
-    for (int a = 0; a < dimension_of(input.body); ++a) {
-      meet = meet && std::max(cut.box.lower[a], region.box.lower[a]) <
-                         std::min(cut.box.upper[a], region.box.upper[a]);
-    }
-    return meet || !region.group.empty() || !cut.group.empty();
-  };
-  if (std::ranges::any_of(material.regions, meets)) return;
-  throw InputError(input.where(key), fmt::format("is {}, outside of the material", quoted(hole)),
-                   "move the hole, or delete it");
-}
-
 /// Refuses two materials of one region: the first would have no effect. Different regions may
 /// overlap (a weak patch within a body).
 void check_materials(const CaseFile& input, const std::set<std::string>& names) {
@@ -362,11 +344,12 @@ void check_rules(const CaseFile& input) {
                     Reserved::refused);
   }
   for (std::size_t i = 0; i < input.gauges.size(); ++i) {
-    for (const auto& [key, region] : {std::pair{"region", &input.gauges[i].region},
-                                      std::pair{"reaction", &input.gauges[i].reaction},
-                                      std::pair{"cracks", &input.gauges[i].cracks}}) {
-      if (!region->empty())
-        check_reference(input, names, item_key("gauges", i, key), *region, Reserved::allowed);
+    const GaugeSection& gauge = input.gauges[i];
+    const std::pair<const char*, const std::string&> places[] = {
+        {"region", gauge.region}, {"reaction", gauge.reaction}, {"cracks", gauge.cracks}};
+    for (const auto& [key, region] : places) {
+      if (region.empty()) continue;
+      check_reference(input, names, item_key("gauges", i, key), region, Reserved::allowed);
     }
   }
   check_gauges(input);

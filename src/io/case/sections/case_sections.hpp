@@ -35,4 +35,9 @@ AnalysisSection read_analysis(const CaseTable& table, Kinds kind);
 void check_rules_of_gauge(const CaseTable& table);
 StopSection read_stop(const CaseTable& table, Kinds kind);
 
+/// Refuses a hole whose box meets that of no region of the material.
+/// \param key  of the holes
+void refuse_hole_outside(const CaseFile& input, const MaterialSection& material,
+                         const std::string& key, const std::string& hole);
+
 }  // namespace perilink

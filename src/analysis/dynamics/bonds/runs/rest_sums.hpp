@@ -25,7 +25,7 @@ struct RestSums {
   }
 };
 
-/// What follows an iteration of a dynamic relaxation.
+/// Next act of a dynamic relaxation after an iteration.
 enum class AfterIteration {
   iterate,
   examine,        ///< the pieces of the body, then iterate

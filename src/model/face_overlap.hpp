@@ -27,7 +27,8 @@ struct FaceOverlap {
 /// Returns the deepest overlap among the pre-cracks without `closing`, or the deepest so far. It is
 /// measured between particles up to 1.5 spacings apart, and counts where it is three times the
 /// largest shortening of bonds up to this length: such particles approach each other in sound
-/// material too. Shells are left out.
+/// material too. Neither a rotation of the body nor a slip of the faces counts. Shells, and bodies
+/// with contact springs across pre-cracks, are left out.
 /// \param motion  displacements, shape (particles, width) [length]
 FaceOverlap deepest_overlap(const Model& model, std::span<const double> motion,
                             const FaceOverlap& so_far = {});

@@ -1,4 +1,4 @@
-#include "app/run/face_overlap.hpp"
+#include "model/face_overlap.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "app/run/face_overlap.hpp"
+#include "model/face_overlap.hpp"
 
 #include <fmt/format.h>
 
@@ -82,7 +82,8 @@ std::vector<Pair> parted_pairs(const CrackCutter& cutter, const Network& network
   std::set<Pair> bonded;
   for (Index b = 0; b < network.num_bonds(); ++b) {
     const Index i = network.bonds.first[b], j = network.bonds.second[b];
-    if (is_near[i] != 0 && is_near[j] != 0) bonded.insert({std::min(i, j), std::max(i, j)});
+    if (network.bonds.length(b) > distance || is_near[i] == 0 || is_near[j] == 0) continue;
+    bonded.insert({std::min(i, j), std::max(i, j)});
   }
   const Csr around = find_neighbors_within(places, places, network.dim(),
                                            std::vector<double>(near.size(), distance));
@@ -103,7 +104,8 @@ FaceOverlap deepest_overlap(const Model& model, std::span<const double> motion,
   const Network& network = model.network;
   std::vector<Crack> cracks;
   std::vector<std::size_t> entries;
-  for (std::size_t k = 0; k < model.cracks.size() && !network.shell; ++k) {
+  if (network.shell || network.num_contacts > 0) return so_far;
+  for (std::size_t k = 0; k < model.cracks.size(); ++k) {
     if (model.cracks[k].closes) continue;
     cracks.push_back(model.cracks[k]);
     entries.push_back(model.entry_of_crack[k]);
@@ -112,19 +114,21 @@ FaceOverlap deepest_overlap(const Model& model, std::span<const double> motion,
   const Moved body{network, motion};
   const double spacing = model.lattice.spacing, longest = reach * spacing;
   const double least = noticeable * largest_shortening(body, longest);
-  FaceOverlap deepest = so_far;
   // Particles on a crack belong to either side: on joints to the weaker one.
-  for (const bool turned : {false, true}) {
-    for (Crack& crack : cracks) {
-      if (turned) std::ranges::reverse(crack.points);
-    }
-    const CrackCutter cutter(cracks, network.dim(), spacing);
-    for (const auto& [i, j] : parted_pairs(cutter, network, longest)) {
-      const Vector3 from = body.place(i), to = body.place(j);
-      const CrackCutter::Piece* piece = cutter.piece_between(from, to);
+  const CrackCutter drawn(cracks, network.dim(), spacing);
+  for (Crack& crack : cracks) std::ranges::reverse(crack.points);
+  const CrackCutter turned(cracks, network.dim(), spacing);
+  FaceOverlap deepest = so_far;
+  for (const auto& [i, j] : parted_pairs(drawn, network, longest)) {
+    const Vector3 from = body.place(i), way = minus(body.place(j), from);
+    for (const CrackCutter* cutter : {&drawn, &turned}) {
+      const CrackCutter::Piece* piece = cutter->piece_between(from, body.place(j));
       if (piece == nullptr) continue;
-      const double depth = std::copysign(1.0, dot(minus(to, from), piece->normal)) *
-                           body.approach(i, j, piece->normal);
+      // A rotation does not change the length of the way, nor a slip that along the normal.
+      const double along = body.approach(i, j, way) / norm(way);
+      const double across =
+          std::copysign(1.0, dot(way, piece->normal)) * body.approach(i, j, piece->normal);
+      const double depth = std::min(along, across);
       if (depth > std::max(least, deepest.depth)) {
         deepest = {depth, from, entries[piece->crack]};
       }
