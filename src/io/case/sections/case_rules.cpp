@@ -317,6 +317,18 @@ void check_iterative_solver(const CaseFile& input) {
                    "allowed with method = \"linear_elements\": \"auto\", \"direct\"");
 }
 
+void check_gauge_regions(const CaseFile& input, const std::set<std::string>& names) {
+  for (std::size_t i = 0; i < input.gauges.size(); ++i) {
+    const GaugeSection& gauge = input.gauges[i];
+    const std::pair<const char*, const std::string&> places[] = {
+        {"region", gauge.region}, {"reaction", gauge.reaction}, {"cracks", gauge.cracks}};
+    for (const auto& [key, region] : places) {
+      if (region.empty()) continue;
+      check_reference(input, names, item_key("gauges", i, key), region, Reserved::allowed);
+    }
+  }
+}
+
 }  // namespace
 
 void check_rules(const CaseFile& input) {
@@ -343,15 +355,7 @@ void check_rules(const CaseFile& input) {
     check_reference(input, names, item_key("symmetry", i, "region"), input.symmetry[i].region,
                     Reserved::refused);
   }
-  for (std::size_t i = 0; i < input.gauges.size(); ++i) {
-    const GaugeSection& gauge = input.gauges[i];
-    const std::pair<const char*, const std::string&> places[] = {
-        {"region", gauge.region}, {"reaction", gauge.reaction}, {"cracks", gauge.cracks}};
-    for (const auto& [key, region] : places) {
-      if (region.empty()) continue;
-      check_reference(input, names, item_key("gauges", i, key), region, Reserved::allowed);
-    }
-  }
+  check_gauge_regions(input, names);
   check_gauges(input);
   for (std::size_t k = 0; k < input.rebar.size(); ++k) {
     const auto& layout = input.rebar[k].layout;
