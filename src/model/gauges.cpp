@@ -247,6 +247,8 @@ void fill_cracks(const CaseFile& input, const Model& model, const std::string& k
                  const std::string& region, Gauge& gauge) {
   std::vector<std::uint8_t> marked(static_cast<std::size_t>(model.network.particles.size()), 0);
   for (const Index i : particles_of_region(input, model, region, key)) marked[i] = 1;
+  gauge.place = "no cracks in an elastic analysis";  // the value is zero
+  if (input.analysis.type == AnalysisType::elastic) return;
   gauge.cracks = crack_shares(input, model, marked);
   if (gauge.cracks.empty()) {
     throw InputError(

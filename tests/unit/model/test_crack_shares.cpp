@@ -1,6 +1,7 @@
 #include "model/crack_shares.hpp"
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 
 #include "io/case/case_file.hpp"
 #include "model/from_case/configure.hpp"
+#include "model/gauges.hpp"
 #include "network/bond_softening.hpp"
 
 namespace perilink {
@@ -20,9 +22,9 @@ namespace {
 /// k xi^2 across a line varies with its direction against the rows.
 constexpr double single = 0.12, mean = 0.03;
 
-Model square(const std::string& model, const std::string& pattern) {
-  return build_model(
-      parse_case(fmt::format(R"([body]
+Model square(const std::string& model, const std::string& pattern, const char* analysis = "") {
+  return build_model(parse_case(
+      fmt::format(R"([body]
 model = "{}"
 pattern = "{}"
 spacing = 4
@@ -55,9 +57,9 @@ x = 1
 [[gauges]]
 name = "crack"
 cracks = "square"
-)",
-                             model, pattern, model == "micropolar" ? "poissons_ratio = 0.2\n" : ""),
-                 ""));
+{})",
+                  model, pattern, model == "micropolar" ? "poissons_ratio = 0.2\n" : "", analysis),
+      ""));
 }
 
 /// Returns a secant for the bonds that cross the line through the middle, one for the others.
@@ -91,6 +93,14 @@ TEST(CrackShares, AddUpToTheLengthOfAStraightCrack) {
       EXPECT_NEAR(sum, 1.0, mean) << pattern << ", " << kind;
     }
   }
+}
+
+/// A case of a damage run can be tried elastically.
+TEST(CrackShares, AreNoneInElasticAnalyses) {
+  const Model model = square("bond_based", "rectangular", "[analysis]\ntype = \"elastic\"\n");
+  Csr neighbourhoods;
+  const std::vector<double> motion(model.network.particles.positions.size(), 0.1);
+  EXPECT_THAT(gauge_values(model, {{}, motion}, neighbourhoods), testing::ElementsAre(0.0));
 }
 
 /// Softened bonds count with the energy that they have dissipated.
