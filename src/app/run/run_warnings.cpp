@@ -141,12 +141,10 @@ std::optional<std::string> warning_about_motion(double share) {
 std::optional<std::string> warning_about_steps(const StepRecord& last, double area) {
   constexpr double most = 0.02;  // of the area
   const double surplus = last.external_work - area;
-  if (!(surplus > most * std::abs(area)) || last.dissipated_energy == 0.0) return std::nullopt;
+  if (!(area > 0.0 && surplus > most * area) || last.dissipated_energy == 0.0) return std::nullopt;
   return fmt::format(
       "the work and the dissipated energy are {:.3g} too large, {:.2g} % of the area {:.6g} under "
-      "the curve: bonds fail at the end of a step; take smaller steps in load_factors, or control "
-      "= "
-      "\"events\"",
+      "the curve: bonds fail at the end of a step; take smaller steps or control = \"events\"",
       surplus, 100.0 * surplus / area, area);
 }
 

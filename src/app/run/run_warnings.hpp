@@ -69,6 +69,11 @@ std::optional<std::string> warning_about_end(double displacement, double length)
 /// \param share  their fraction of all bonds or edges of linear elements [-]
 std::optional<std::string> warning_about_motion(double share);
 
+/// Returns a warning where load steps dissipate more than the curve through their rows: elements
+/// fail at the load factor at the end of a step.
+/// \param area  under the rows [force length]
+std::optional<std::string> warning_about_steps(const StepRecord& last, double area);
+
 /// Compression of the particle with the largest ratio to the tensile strength of its material.
 struct Compression {
   double stress = 0.0;  ///< largest compressive principal stress [force/length^2]
@@ -79,11 +84,6 @@ struct Compression {
     archive(stress, times);
   }
 };
-
-/// Returns a warning where load steps dissipate more than the curve through their rows: elements
-/// fail at the load factor at the end of a step.
-/// \param area  under the rows [force length]
-std::optional<std::string> warning_about_steps(const StepRecord& last, double area);
 
 /// Returns the largest compression of particles without a crushing law.
 /// \param principal  stresses, shape (particles, 3)
