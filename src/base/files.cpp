@@ -198,18 +198,22 @@ LineFile::LineFile(std::string path) : path_(std::move(path)), temporary_(tempor
   if (descriptor_ < 0) fail_to_write(path_, errno);
 }
 
-LineFile::LineFile(std::string path, std::size_t size) : path_(std::move(path)), size_(size) {
-  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC);
-  if (descriptor_ < 0) fail_to_write(path_, errno);
+void require_size(const std::string& path, std::size_t size) {
   struct stat status {};
-  if (::fstat(descriptor_, &status) == 0 && static_cast<std::size_t>(status.st_size) >= size &&
-      ::ftruncate(descriptor_, static_cast<off_t>(size)) == 0) {
-    return;
-  }
-  ::close(descriptor_);
-  throw FileError(path_ +
+  if (::stat(path.c_str(), &status) == 0 && static_cast<std::size_t>(status.st_size) >= size) return;
+  throw FileError(path +
                   ": is shorter than when the state of its run was saved\n"
                   "  begin the run again with --force");
+}
+
+LineFile::LineFile(std::string path, std::size_t size) : path_(std::move(path)), size_(size) {
+  require_size(path_, size);
+  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC);
+  if (descriptor_ < 0) fail_to_write(path_, errno);
+  if (::ftruncate(descriptor_, static_cast<off_t>(size)) == 0) return;
+  const int fault = errno;
+  ::close(descriptor_);
+  fail_to_write(path_, fault);
 }
 
 LineFile::~LineFile() {

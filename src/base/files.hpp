@@ -41,6 +41,11 @@ std::string read_regular_file(const std::string& path,
                               std::size_t most = std::numeric_limits<std::size_t>::max(),
                               double memory = 1.0);
 
+/// Refuses a file that is shorter than when the state of its run was saved.
+/// \param size  [bytes]
+/// \throws FileError
+void require_size(const std::string& path, std::size_t size);
+
 /// File that grows by whole lines. An existing file or link at its path is deleted at once, and the
 /// new file appears with its first lines. A kill during append() may leave an unfinished last line;
 /// readers drop it.

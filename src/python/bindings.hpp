@@ -3,6 +3,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +19,26 @@ namespace perilink {
 struct BuiltCase {
   CaseFile input;
   Model model;
+};
+
+/// Marks a run that one thread of Python advances, without the interpreter's lock. Needs the lock
+/// at its begin and end.
+class Advance {
+ public:
+  /// \throws std::runtime_error if the run is being advanced
+  static void refuse(bool is_advancing) {
+    if (is_advancing) throw std::runtime_error("another thread of Python is advancing this run");
+  }
+  explicit Advance(bool& is_advancing) : is_advancing_(is_advancing) {
+    refuse(is_advancing);
+    is_advancing_ = true;
+  }
+  ~Advance() { is_advancing_ = false; }
+  Advance(const Advance&) = delete;
+  Advance& operator=(const Advance&) = delete;
+
+ private:
+  bool& is_advancing_;
 };
 
 /// Adds the functions that run cases and read results.

@@ -15,10 +15,16 @@ namespace {
 
 namespace py = pybind11;
 
+/// State of a damage analysis, with the fingerprint of its problem.
+struct KnownState {
+  DamageState state;
+  std::string problem;
+};
+
 /// A damage analysis that Python advances row by row.
 class Stepper {
  public:
-  Stepper(const BuiltCase& built, std::optional<DamageState> saved, int threads)
+  Stepper(const BuiltCase& built, std::optional<KnownState> saved, int threads)
       : built_(built), caller_(py::none()) {
     const CaseFile& input = built.input;
     if (input.analysis.type != AnalysisType::damage) {
@@ -27,22 +33,27 @@ class Stepper {
                                    word_of(input.analysis.type)),
                        "set type = \"damage\"; run() runs every type");
     }
+    if (saved) require_state_of(built.model, saved->problem, "this state");
     const py::gil_scoped_release unlocked;
     const ThreadScope scope;
-    threads_ = set_threads(threads);
+    threads_ = ThreadScope::begin(threads);
     options_ = damage_options(input, threads_);
     options_.begins_again = true;
     options_.stop_requested = [this] { return caller_.stop_requested(); };
     note_of_separated_body(input, built.model, threads_);  // refuses pieces without support
     if (saved) {
-      run_.emplace(built.model, options_, std::move(*saved));
+      run_.emplace(built.model, options_, std::move(saved->state));
+      last_ = run_->result().last;
     } else {
       run_.emplace(built.model, options_);
     }
   }
 
-  /// Returns the next row; empty at the end. After a missed release it is the first row again.
+  /// Returns the next row; empty at the end. After a missed release it is the first row again. A row
+  /// that Ctrl-C has kept from Python is returned by the next call.
   std::optional<StepRecord> next() {
+    if (is_kept_) return is_kept_ = false, last_;
+    const Advance advance(is_advancing_);
     const StepRecord* row = nullptr;
     {
       const py::gil_scoped_release unlocked;
@@ -54,21 +65,22 @@ class Stepper {
         row = run_->next();
       }
     }
+    if (row != nullptr) last_ = *row;
+    is_kept_ = caller_.stop_requested_now() && row != nullptr;
     caller_.raise();
-    if (row == nullptr) {
-      const DamageResult end = run_->result();
-      if (end.termination == Termination::failed) throw SolverError(end.reason);
-      return std::nullopt;
-    }
-    last_ = *row;
-    return last_;
+    is_kept_ = false;
+    if (row != nullptr) return last_;
+    has_ended_ = true;
+    const DamageResult end = run_->result();
+    if (end.termination == Termination::failed) throw SolverError(end.reason);
+    return std::nullopt;
   }
 
   /// Returns the state in the last row with displacements under the present loads.
   ModelState state() {
     ThreadScope scope;
     scope.use(threads_);
-    const StepState now = run_->state();
+    const StepState now = run().state();
     ModelState state{now.secants, now.displacement,
                      built_.input.stages.empty() ? last_.load_factor : 1.0, last_.load_factor};
     state.whole = now.whole;
@@ -90,12 +102,17 @@ class Stepper {
     }
     return neighbourhoods_;
   }
-  DamageState save() {
+  KnownState save() {
     ThreadScope scope;
     scope.use(threads_);
-    return run_->save();
+    return {run().save(), fingerprint_of(built_.model)};
   }
-  EventRun& run() { return *run_; }
+  /// \throws std::runtime_error while another thread advances the run
+  EventRun& run() {
+    Advance::refuse(is_advancing_);
+    return *run_;
+  }
+  bool has_ended() const { return has_ended_; }
 
  private:
   /// Starts again with the hosts that are active after a missed release, as `perilink run` does.
@@ -116,6 +133,8 @@ class Stepper {
   DamageOptions options_;
   std::optional<EventRun> run_;
   StepRecord last_;
+  bool is_advancing_ = false, has_ended_ = false;
+  bool is_kept_ = false;  ///< Python has not seen the last row
   Csr neighbourhoods_;
 };
 
@@ -155,7 +174,7 @@ py::dict gauges_of(Stepper& stepper) {
 py::dict result_of(Stepper& stepper) {
   const DamageResult found = stepper.run().result();
   py::dict result;
-  result["status"] = to_string(found.termination);
+  result["status"] = stepper.has_ended() ? to_string(found.termination) : "running";
   result["reason"] = found.reason;
   result["peak_load"] = found.peak_load;
   result["peak_displacement"] = found.peak_displacement;
@@ -183,17 +202,17 @@ void bind_row(py::module_& module) {
 
 void bind_events(py::module_& module) {
   bind_row(module);
-  py::class_<DamageState>(module, "DamageState",
-                          "State of a damage analysis between two rows, from EventRun.state().");
+  py::class_<KnownState>(module, "DamageState",
+                         "State of a damage analysis between two rows, from EventRun.state().");
   module.def("write_state",
-             [](const std::string& path, const BuiltCase& built, const DamageState& state) {
-               write_state(path, built.model, state);
+             [](const std::string& path, const BuiltCase& built, const KnownState& state) {
+               write_state(path, built.model, state.state);
              });
   module.def("read_state", [](const std::string& path, const BuiltCase& built) {
-    return read_state(path, built.model);
+    return KnownState{read_state(path, built.model), fingerprint_of(built.model)};
   });
   py::class_<Stepper>(module, "Stepper")
-      .def(py::init<const BuiltCase&, std::optional<DamageState>, int>(), py::keep_alive<1, 2>())
+      .def(py::init<const BuiltCase&, std::optional<KnownState>, int>(), py::keep_alive<1, 2>())
       .def("next", &Stepper::next)
       .def("displacement", displacement_of)
       .def("stiffness_ratios", stiffness_ratios_of)

@@ -17,7 +17,7 @@ namespace py = pybind11;
 std::unique_ptr<BuiltCase> build_case(const CaseFile& input, int threads) {
   const py::gil_scoped_release unlocked;
   const ThreadScope scope;
-  set_threads(threads);
+  ThreadScope::begin(threads);
   // Ctrl-C in a calibration of minutes: the exception of Python passes through the builder.
   const auto raise_on_signal = [](int, double) {
     const py::gil_scoped_acquire lock;
@@ -96,7 +96,7 @@ ElasticState solve_case(const BuiltCase& built, int threads) {
   const Model& model = built.model;
   const ThreadScope scope;
   ElasticState found;
-  found.answer = solve(built.input, model, set_threads(threads));
+  found.answer = solve(built.input, model, ThreadScope::begin(threads));
   const ElasticResult& solution = found.answer.solution;
   const Secants secants(solution.secants, solution.axial);
   ModelState state{secants, solution.displacement};

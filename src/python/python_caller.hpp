@@ -34,8 +34,11 @@ class PythonCaller {
   explicit PythonCaller(pybind11::object progress) : progress_(std::move(progress)) {}
 
   /// Whether Ctrl-C, an exception or the progress function ends the run.
-  bool stop_requested() {
-    if (stop_ || !signals_.is_due()) return stop_;
+  bool stop_requested() { return stop_ || (signals_.is_due() && stop_requested_now()); }
+  /// Whether Ctrl-C until this moment, or another cause, ends the run. Python raises KeyboardInterrupt itself
+  /// after a call that returns before, and loses what it returns.
+  bool stop_requested_now() {
+    if (stop_) return true;
     const pybind11::gil_scoped_acquire lock;
     if (PyErr_CheckSignals() != 0) keep_error();
     return stop_;
@@ -50,7 +53,9 @@ class PythonCaller {
     if (stop_ || progress_.is_none()) return;
     const pybind11::gil_scoped_acquire lock;
     try {
-      if (progress_(arguments...).is(pybind11::handle(Py_False))) stop_ = true;
+      pybind11::detail::make_caster<bool> answer;  // of Python or numpy
+      const pybind11::object returned = progress_(arguments...);
+      stop_ = stop_ || (!returned.is_none() && answer.load(returned, false) && !bool(answer));
     } catch (pybind11::error_already_set& error) {
       error.restore();
       keep_error();

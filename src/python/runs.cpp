@@ -21,7 +21,7 @@ py::tuple run(const CaseFile& input, const std::string& directory, int threads,
   {
     const py::gil_scoped_release unlocked;
     const ThreadScope scope;
-    RunSettings settings{set_threads(threads), old_results, true};
+    RunSettings settings{ThreadScope::begin(threads), old_results, true};
     settings.callbacks.stop_requested = [&] { return caller.stop_requested(); };
     settings.callbacks.on_row = [&](const RowProgress& row) { caller.on_row(row); };
     settings.callbacks.on_calibration = [&](int, double) { caller.raise_if_stopped(); };
@@ -82,14 +82,16 @@ std::vector<std::pair<double, std::string>> field_series(const std::string& path
 }  // namespace
 
 void bind_runs(py::module_& module) {
-  py::class_<RowProgress>(module, "Row")
-      .def_readonly("row", &RowProgress::row)
-      .def_readonly("step", &RowProgress::step)
-      .def_readonly("time", &RowProgress::time)
-      .def_readonly("load_factor", &RowProgress::load_factor)
-      .def_readonly("load", &RowProgress::load)
-      .def_readonly("displacement", &RowProgress::displacement)
-      .def_readonly("broken_bonds", &RowProgress::broken_bonds)
+  py::class_<RowProgress>(module, "Row",
+                          "A row of the history, for the progress function of `run`.")
+      .def_readonly("row", &RowProgress::row, "Number of rows so far.")
+      .def_readonly("step", &RowProgress::step, "Number of the event or time step.")
+      .def_readonly("time", &RowProgress::time, "Time of explicit runs [time].")
+      .def_readonly("load_factor", &RowProgress::load_factor, "Factor of the loads [-].")
+      .def_readonly("load", &RowProgress::load, "Load [force].")
+      .def_readonly("displacement", &RowProgress::displacement,
+                    "Work-conjugate displacement [length].")
+      .def_readonly("broken_bonds", &RowProgress::broken_bonds, "Bonds that are broken.")
       .def("__repr__", [](const RowProgress& row) {
         return fmt::format("Row(row={}, load={:.6g}, displacement={:.6g}, broken_bonds={})",
                            row.row, row.load, row.displacement, row.broken_bonds);

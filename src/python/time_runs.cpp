@@ -24,6 +24,13 @@ struct TimeEnd {
   std::string reason;
 };
 
+/// Arrays of a row, for Python.
+struct TimeArrays {
+  std::vector<double> displacement, velocity, secants, damage;
+  std::optional<std::vector<double>> stress;  ///< empty where small-strain stresses do not exist
+  std::vector<double> gauges;
+};
+
 /// An explicit run or relaxation of bonds that Python advances row by row. The run has a thread of
 /// its own, which waits in every row until the next one is wanted: its state is that of the row.
 class TimeStepper final : public BondRunObserver {
@@ -39,7 +46,7 @@ class TimeStepper final : public BondRunObserver {
     }
     const py::gil_scoped_release unlocked;
     const ThreadScope scope;
-    threads_ = set_threads(threads);
+    threads_ = ThreadScope::begin(threads);
     if (type == AnalysisType::explicit_) {
       explicit_ = build_bond_run(built.input, built.model);
       explicit_->options.threads = threads_;
@@ -55,8 +62,11 @@ class TimeStepper final : public BondRunObserver {
     thread_.join();
   }
 
-  /// Returns the next row; empty at the end.
+  /// Returns the next row; empty at the end. A row that Ctrl-C has kept from Python is returned by
+  /// the next call.
   std::optional<ExplicitRecord> next() {
+    if (is_kept_) return is_kept_ = false, row_;
+    const Advance advance(is_advancing_);
     {
       const py::gil_scoped_release unlocked;
       state_ = nullptr;
@@ -65,33 +75,23 @@ class TimeStepper final : public BondRunObserver {
         while (!stopped_.try_acquire_for(call_interval)) leaves_ = caller_.stop_requested();
       }
     }
+    leaves_ = caller_.stop_requested_now();
+    is_kept_ = leaves_ && !end_;
     caller_.raise();
+    is_kept_ = false;
     if (!end_) return row_;
     if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
     if (end_->termination == Termination::failed) throw SolverError(end_->reason);
     return std::nullopt;
   }
 
-  /// Returns the state in the present row.
-  const BondRunState& state() const {
-    if (state_ == nullptr) throw std::runtime_error("the run has no present row; call next()");
-    return *state_;
-  }
-  ModelState model_state(const std::vector<double>& secants) const {
-    return {secants, state().motion.displacement, 1.0, row_.load_factor};
-  }
-  const Csr& neighbourhoods() {
-    const Network& network = built_.model.network;
-    if (neighbourhoods_.rows() == 0) {
-      neighbourhoods_ = bonds_of_particles(network.bonds, network.particles.size());
-    }
-    return neighbourhoods_;
-  }
-  std::vector<double> gauges() {
-    const std::vector<double> secants = state().bonds.secants();
-    return gauge_values(
-        built_.model, model_state(secants), neighbourhoods_,
-        measures_reactions(built_.model.gauges) ? state().reactions() : std::vector<double>{});
+  /// Returns the arrays of the last row; of a run that has ended, they are kept.
+  /// \throws std::runtime_error before the first row, or while another thread advances the run
+  TimeArrays arrays() {
+    Advance::refuse(is_advancing_);
+    if (last_) return *last_;
+    if (state_ == nullptr) throw std::runtime_error("the run has no row yet; call next()");
+    return arrays_of(*state_);
   }
 
   const BuiltCase& built() const { return built_; }
@@ -128,22 +128,50 @@ class TimeStepper final : public BondRunObserver {
     row_ = record;
     state_ = &state;
     if (!built_.input.stop.gauge.empty() && !rule_) {
-      rule_ = met_rule(built_.input, built_.input.stop, gauges());
+      rule_ = met_rule(built_.input, built_.input.stop, gauges(state, state.bonds.secants()));
     }
     stopped_.release();
     resume_.acquire();
   }
+  void on_end(const ExplicitRecord& /*last*/, const BondRunState& state) override {
+    last_ = arrays_of(state);
+  }
   bool stop_requested() override { return leaves_ || rule_; }
+
+  TimeArrays arrays_of(const BondRunState& now) {
+    const Network& network = built_.model.network;
+    if (neighbourhoods_.rows() == 0) {
+      neighbourhoods_ = bonds_of_particles(network.bonds, network.particles.size());
+    }
+    TimeArrays found{now.motion.displacement, now.motion.velocity, now.bonds.secants(), {}, {}, {}};
+    found.damage = network.has_states() ? now.bonds.damage()
+                                        : particle_damage(network, neighbourhoods_, found.secants);
+    if (!network.has_states() && built_.input.analysis.strain != Strain::green) {
+      const StressInput input = stress_input(built_.model, neighbourhoods_, found.secants);
+      found.stress = particle_stresses(input, found.displacement);
+    }
+    found.gauges = gauges(now, found.secants);
+    return found;
+  }
+  std::vector<double> gauges(const BondRunState& now, const std::vector<double>& secants) {
+    const ModelState state{secants, now.motion.displacement, 1.0, row_.load_factor};
+    return gauge_values(
+        built_.model, state, neighbourhoods_,
+        measures_reactions(built_.model.gauges) ? now.reactions() : std::vector<double>{});
+  }
 
   const BuiltCase& built_;
   PythonCaller caller_;
   int threads_ = 1;
+  bool is_advancing_ = false;
+  bool is_kept_ = false;                 ///< Python has not seen the last row
   std::optional<BondRunCase> explicit_;  ///< empty: a relaxation
   /// The thread of the run waits for the first, Python for the second.
   std::binary_semaphore resume_{0}, stopped_{0};
   std::atomic<bool> leaves_ = false;  ///< no further row is wanted
   ExplicitRecord row_;
   const BondRunState* state_ = nullptr;  ///< in a row, while the run waits
+  std::optional<TimeArrays> last_;       ///< of the last row of a run that has ended
   std::optional<std::string> rule_;      ///< stop rule that was met
   std::optional<TimeEnd> end_;
   std::exception_ptr error_;
@@ -156,22 +184,11 @@ py::array_t<double> motion_array(const TimeStepper& stepper, std::vector<double>
   return owning_array(std::move(values), {network.particles.size(), network.width()});
 }
 
-py::array_t<double> damage_of(TimeStepper& stepper) {
-  const BondRunState& now = stepper.state();
-  if (now.network.has_states()) return owning_array(now.bonds.damage());
-  return owning_array(particle_damage(now.network, stepper.neighbourhoods(), now.bonds.secants()));
-}
-
-/// Returns None where small-strain stresses of bonds would be wrong or do not exist.
 py::object stress_of(TimeStepper& stepper) {
-  const BondRunState& now = stepper.state();
-  if (now.network.has_states() || stepper.built().input.analysis.strain == Strain::green) {
-    return py::none();
-  }
-  const std::vector<double> secants = now.bonds.secants();
-  const StressInput input = stress_input(stepper.built().model, stepper.neighbourhoods(), secants);
-  return owning_array(particle_stresses(input, now.motion.displacement),
-                      {now.network.particles.size(), py::ssize_t{6}});
+  std::optional<std::vector<double>> stress = stepper.arrays().stress;
+  if (!stress) return py::none();
+  return owning_array(std::move(*stress),
+                      {stepper.built().model.network.particles.size(), py::ssize_t{6}});
 }
 
 py::object result_of(const TimeStepper& stepper) {
@@ -199,15 +216,12 @@ void bind_time_runs(py::module_& module) {
   py::class_<TimeStepper>(module, "TimeStepper")
       .def(py::init<const BuiltCase&, int>(), py::keep_alive<1, 2>())
       .def("next", &TimeStepper::next)
-      .def("displacement",
-           [](const TimeStepper& s) { return motion_array(s, s.state().motion.displacement); })
-      .def("velocity",
-           [](const TimeStepper& s) { return motion_array(s, s.state().motion.velocity); })
-      .def("stiffness_ratios",
-           [](const TimeStepper& s) { return owning_array(s.state().bonds.secants()); })
-      .def("damage", damage_of)
+      .def("displacement", [](TimeStepper& s) { return motion_array(s, s.arrays().displacement); })
+      .def("velocity", [](TimeStepper& s) { return motion_array(s, s.arrays().velocity); })
+      .def("stiffness_ratios", [](TimeStepper& s) { return owning_array(s.arrays().secants); })
+      .def("damage", [](TimeStepper& s) { return owning_array(s.arrays().damage); })
       .def("stress", stress_of)
-      .def("gauges", [](TimeStepper& s) { return gauge_dict(s.built().model, s.gauges()); })
+      .def("gauges", [](TimeStepper& s) { return gauge_dict(s.built().model, s.arrays().gauges); })
       .def("result", result_of);
 }
 

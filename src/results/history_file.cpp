@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/files.hpp"
 #include "io/case/sections/case_kinds.hpp"
 
 namespace perilink {
@@ -39,7 +40,9 @@ HistoryFile::HistoryFile(const std::string& directory, const CaseFile& input)
 }
 
 HistoryFile::HistoryFile(const std::string& directory, const CaseFile& input, Sizes kept)
-    : history_(directory + "/history.csv", all_columns(input), kept.history),
+    // Both files are checked before one is cut.
+    : history_((require_size(directory + "/timing.csv", kept.timing), directory + "/history.csv"),
+               all_columns(input), kept.history),
       timing_(directory + "/timing.csv", {"step", "seconds"}, kept.timing) {
   choose_columns(input);
 }

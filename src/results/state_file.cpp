@@ -28,6 +28,14 @@ std::string fingerprint_of(const LoadedNetwork& problem) {
   return text;
 }
 
+void require_state_of(const LoadedNetwork& problem, const std::string& fingerprint,
+                      const std::string& name) {
+  if (fingerprint == fingerprint_of(problem)) return;
+  throw FileError(name +
+                  ": is the state of another problem\n"
+                  "  give the case with the bodies, materials and loads that it was saved with");
+}
+
 void write_state(const std::string& path, const LoadedNetwork& problem, const DamageState& state) {
   write_checkpoint(path, {"", fingerprint_of(problem), pack(state)});
 }
@@ -35,11 +43,7 @@ void write_state(const std::string& path, const LoadedNetwork& problem, const Da
 DamageState read_state(const std::string& path, const LoadedNetwork& problem) {
   const std::optional<Checkpoint> saved = read_checkpoint(path);
   if (!saved) throw FileError(path + ": there is no such file");
-  if (saved->model != fingerprint_of(problem)) {
-    throw FileError(path +
-                    ": is the state of another problem\n"
-                    "  give the case with the bodies, materials and loads that it was saved with");
-  }
+  require_state_of(problem, saved->model, path);
   DamageState state;
   unpack(saved->state, state);
   return state;

@@ -111,7 +111,7 @@ class Cases(unittest.TestCase):
             case["graded"][0] = {"property": "fracture_energy", "file": points,
                                  "column": "energy"}
             case.write(Path(folder) / "strip.toml")
-            self.assertEqual((Path(folder) / "graded_1.csv").read_text().splitlines()[:2],
+            self.assertEqual((Path(folder) / "strip_graded_1.csv").read_text().splitlines()[:2],
                              ["x,y,energy", "0.0,0.0,1.0"])
             again = perilink.read_case(Path(folder) / "strip.toml")
             np.testing.assert_array_equal(perilink.build(again).critical_stretch, graded)
@@ -122,6 +122,39 @@ class Cases(unittest.TestCase):
         case["graded"][0]["file"] = points[:, :2]
         with self.assertRaisesRegex(ValueError, r"shape \(4, 2\); allowed are \(n, 3\)"):
             perilink.build(case)
+
+    def test_cases_in_one_folder_keep_their_points(self):
+        points = np.array([[0.0, 0.0, 1.0], [0.0, 80.0, 1.0]])
+        case = perilink.parse_case(STRIP)
+        # One array serves two tables.
+        case["graded"] = [{"property": p, "file": points, "column": p}
+                          for p in ("youngs_modulus", "fracture_energy")]
+        with tempfile.TemporaryDirectory() as folder:
+            for name, factor in (("soft", 1.0), ("stiff", 4.0)):
+                case["graded"][0]["file"] = points * [1.0, 1.0, factor]
+                case.write(Path(folder) / f"{name}.toml")
+            soft, stiff = (perilink.build(perilink.read_case(Path(folder) / f"{name}.toml"))
+                           for name in ("soft", "stiff"))
+            np.testing.assert_allclose(stiff.stiffness, 4.0 * soft.stiffness, rtol=1e-9)
+
+    def test_other_files_are_found_from_another_folder(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            (folder / "sub").mkdir()
+            (folder / "field.csv").write_text("x,y,factor\n0,0,1\n0,80,4\n")
+            case = perilink.Case(perilink.parse_case(STRIP), path=folder / "strip.toml")
+            case["graded"] = [{"property": "fracture_energy", "file": "field.csv"}]
+            case.write(folder / "near.toml")
+            self.assertIn('file = "field.csv"', (folder / "near.toml").read_text())
+            case.write(folder / "sub" / "far.toml")
+            perilink.build(perilink.read_case(folder / "sub" / "far.toml"))
+            self.assertEqual(perilink.Case(case).path, case.path)
+
+    def test_plain_dictionaries_are_cases_and_paths_are_not(self):
+        tables = tomllib.loads(STRIP)
+        self.assertGreater(len(perilink.build(tables).bonds), 0)
+        with self.assertRaisesRegex(TypeError, "read_case"):
+            perilink.build("strip.toml")
 
     def test_faults_of_a_file_have_their_line(self):
         with tempfile.TemporaryDirectory() as folder:

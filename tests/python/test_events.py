@@ -87,12 +87,13 @@ class Events(unittest.TestCase):
 
     def test_a_run_may_be_asked_again_after_ctrl_c(self):
         run = perilink.EventRun(perilink.build(perilink.read_case(EXAMPLES / "notched_beam.toml")))
-        next(run)
+        steps = [next(run).step]
         threading.Timer(0.1, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
         with self.assertRaises(KeyboardInterrupt):
-            for _ in run:
-                pass
-        list(run)  # what is left where the signal came between two rows
+            for row in run:
+                steps.append(row.step)
+        steps += [row.step for row in run]  # what is left where the signal came between two rows
+        self.assertEqual(steps, list(range(1, len(steps) + 1)))
         self.assertIn(run.result["status"], ("interrupted", "completed", "collapsed"))
 
     def test_a_run_goes_on_from_a_saved_state(self):
@@ -112,8 +113,39 @@ class Events(unittest.TestCase):
             np.testing.assert_allclose(loads[0], [row.load for row in run], rtol=1e-10)
             case = strip_with_gauge()
             case["loads"][0]["force"] = [0, 13]
-            with self.assertRaisesRegex(perilink.FileError, "another problem"):
-                perilink.EventRun(perilink.build(case), path)
+            for saved in (path, state):
+                with self.assertRaisesRegex(perilink.FileError, "another problem"):
+                    perilink.EventRun(perilink.build(case), saved)
+
+    def test_a_loaded_run_shows_its_last_row(self):
+        problem = perilink.build(strip_with_gauge())
+        run = perilink.EventRun(problem)
+        self.assertEqual(run.result["status"], "running")
+        for _ in range(4):
+            next(run)
+        loaded = perilink.EventRun(problem, run.state())
+        np.testing.assert_allclose(loaded.displacement, run.displacement, rtol=1e-9, atol=1e-14)
+        self.assertAlmostEqual(loaded.gauges["top"], run.gauges["top"], delta=1e-12)
+        self.assertGreater(run.gauges["top"], 1e-6)
+
+    def test_one_thread_at_a_time_advances_a_run(self):
+        run = perilink.EventRun(perilink.build(perilink.read_case(EXAMPLES / "notched_beam.toml")))
+        faults, steps = [], []
+
+        def advance():
+            try:
+                for row in run:
+                    steps.append(row.step)
+            except RuntimeError as error:
+                faults.append(str(error))
+
+        threads = [threading.Thread(target=advance) for _ in range(2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(faults, ["another thread of Python is advancing this run"])
+        self.assertEqual(sorted(steps), list(range(1, len(steps) + 1)))
 
     def test_missed_releases_start_the_run_again(self):
         case = late_beam()

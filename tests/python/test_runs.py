@@ -3,6 +3,7 @@
 import os
 import signal
 import subprocess
+import sys
 import tempfile
 import threading
 import unittest
@@ -170,6 +171,34 @@ class Runs(unittest.TestCase):
         self.assertEqual(again.summary, result.summary, "it is complete and has not run")
         with self.assertRaisesRegex(ValueError, "give one of them"):
             perilink.run(case, self.folder / "out", resume=True, force=True)
+
+    def test_refused_runs_leave_the_points_of_kept_results(self):
+        case = perilink.parse_case(STRIP)
+        case["graded"] = [{"property": "fracture_energy",
+                           "file": np.array([[0.0, 0.0, 1.0], [0.0, 80.0, 1.0]])}]
+        directory = perilink.run(case, self.folder / "out").directory
+        kept = {path.name: path.read_bytes() for path in directory.iterdir()}
+        case["graded"][0]["file"][1, 2] = 4.0
+        with self.assertRaisesRegex(perilink.FileError, r"graded_1.csv: differs"):
+            perilink.run(case, directory, resume=True)
+        case["supports"] = case["supports"][:1]
+        case["supports"][0]["fix"] = ["x"]
+        for target in (directory, self.folder / "new"):
+            with self.assertRaises(perilink.InputError):
+                perilink.run(case, target, force=True)
+        self.assertEqual(kept, {path.name: path.read_bytes() for path in directory.iterdir()})
+        self.assertFalse((self.folder / "new").exists())
+
+    def test_a_forked_process_runs(self):
+        """OpenMP of GCC waits for ever in a child of a process that has run several threads."""
+        text = ("import multiprocessing, perilink\n"
+                f"case = perilink.parse_case({STRIP!r})\n"
+                "def run(k):\n"
+                "    return perilink.run(case, threads=2).summary['peak_load']\n"
+                "first = run(0)\n"
+                "with multiprocessing.get_context('fork').Pool(1) as pool:\n"
+                "    assert pool.map(run, [1]) == [first]\n")
+        subprocess.run([sys.executable, "-c", text], check=True, timeout=60)
 
     def test_faults_that_depend_on_the_body_are_exceptions(self):
         case = perilink.parse_case(STRIP)

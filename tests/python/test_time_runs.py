@@ -81,6 +81,15 @@ class TimeRuns(unittest.TestCase):
         self.assertEqual(run.stress.shape, (len(problem.positions), 6))
         self.assertGreater(run.damage.max(), 0.0)
 
+    def test_arrays_stay_at_the_end(self):
+        run = perilink.TimeRun(perilink.build(moving_strip()))
+        for _ in run:
+            last = run.displacement, run.damage, run.gauges["top"]
+        np.testing.assert_array_equal(run.displacement, last[0])
+        np.testing.assert_array_equal(run.damage, last[1])
+        self.assertEqual(run.gauges["top"], last[2])
+        self.assertGreater(last[2], 0.0)
+
     def test_a_run_may_be_left(self):
         problem = perilink.build(moving_strip(duration=2.0, ramp_time=2.0, rows=1000000))
         perilink.TimeRun(problem)  # never begun

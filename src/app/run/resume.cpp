@@ -128,8 +128,11 @@ Resumed find_results(const CaseFile& input, const std::filesystem::path& directo
   const std::string before = resumable_case(there, earlier.meshes);
   const std::string now = resumable_case(input, meshes);
   if (before != now) {
+    const std::string difference = resumable_case(there, meshes) == now
+                                       ? "the contents of a mesh or field have changed"
+                                       : first_difference(before, now);
     throw FileError(fmt::format("{}: holds the results of another case: {}{}", directory.string(),
-                                first_difference(before, now), other_ways));
+                                difference, other_ways));
   }
   require_raised(there.stop, input.stop, "stop", directory);
   if (!input.stages.empty()) {

@@ -101,6 +101,8 @@ void analyse(RunKind& run, const CaseFile& input) {
 /// Opens all files of a run. On failure nothing is computed and the summary gives the reason.
 std::shared_ptr<spdlog::logger> open_files(RunKind& run, const fs::path& directory,
                                            const std::optional<Checkpoint>& checkpoint) {
+  // First: files that do not fit their checkpoint stay as they are.
+  if (checkpoint) run.open(directory, run.callbacks, checkpoint->state);
   try {
     const CaseFile seen = seen_from(run.input, directory);
     write_running_summary(directory, seen, run.meshes);
@@ -109,7 +111,7 @@ std::shared_ptr<spdlog::logger> open_files(RunKind& run, const fs::path& directo
     log->info("{} : {}, {}", run.input.source.path, run.plan, counted(run.threads, "thread"));
     if (run.calibration) log->info("calibration: {}", *run.calibration);
     for (const std::string& note : run.notes) log->info("note: {}", note);
-    run.open(directory, run.callbacks, checkpoint ? checkpoint->state : "");
+    if (!checkpoint) run.open(directory, run.callbacks, "");
     if (checkpoint) log->info("goes on after row {}", run.files().rows());
     return log;
   } catch (const std::exception& error) {

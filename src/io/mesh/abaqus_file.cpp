@@ -269,9 +269,13 @@ void AbaqusReader::read_set(const AbaqusKeyword& keyword) {
     if (keyword.has("GENERATE")) {
       if (data->size() < 2) lines_.refuse("has a range of labels without an end", "");
       const std::int64_t step = data->size() > 2 ? lines_.label((*data)[2]) : 1;
-      if (!outside_mesh(keyword)) {
-        add({lines_.label((*data)[0]), lines_.label((*data)[1]), step});
+      const std::int64_t first = lines_.label((*data)[0]), last = lines_.label((*data)[1]);
+      if (step > 0 && (last - first) % step != 0) {
+        lines_.refuse(fmt::format("has a range from {} to {} in steps of {}, which miss its end",
+                                  first, last, step),
+                      "give the last label that belongs to the set");
       }
+      if (!outside_mesh(keyword)) add({first, last, step});
       continue;
     }
     for (const std::string_view entry : *data) {

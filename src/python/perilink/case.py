@@ -5,20 +5,17 @@ from __future__ import annotations
 import copy
 import json
 import re
-import tempfile
 import tomllib
-from collections.abc import Callable, Mapping
-from functools import partial
+from collections.abc import Mapping
 from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from . import _core
 from .errors import InputError
-from .mesh import Mesh
+from .parts import named, write_parts
 
 
 class Case(dict[str, Any]):
@@ -33,7 +30,8 @@ class Case(dict[str, Any]):
 
     Args:
         tables: keys and tables, or another case
-        path: name of the case in messages; names of other files begin at its folder
+        path: name of the case in messages, by default that of `tables`; names of other files begin
+            at its folder
         **more: further keys and tables
     """
 
@@ -42,11 +40,11 @@ class Case(dict[str, Any]):
         tables: Mapping[str, Any] | None = None,
         /,
         *,
-        path: str | PathLike[str] = "case",
+        path: str | PathLike[str] | None = None,
         **more: Any,
     ) -> None:
-        super().__init__(copy.deepcopy(dict(tables or {})), **more)
-        self.path: str = fspath(path)
+        super().__init__(copy.deepcopy({**(tables or {}), **more}))
+        self.path: str = fspath(path or getattr(tables, "path", "case"))
         self._source: str | None = None  # text of the file that the case was read from
 
     def copy(self) -> Case:
@@ -56,19 +54,23 @@ class Case(dict[str, Any]):
     def toml(self) -> str:
         """Returns the text of the case file: of the file itself while nothing has changed.
 
-        A `Mesh` and the points of a field have the name of the file that `write` gives them.
+        A `Mesh` and points of a field are named body.msh, elements.msh, graded_1.csv and so on.
         """
-        return self._unchanged() or _toml(self, self._names())
+        return self._unchanged() or _toml(named(self))
 
     def write(self, path: str | PathLike[str]) -> None:
         """Writes the case file.
 
-        Beside it, a `Mesh` is written as body.msh or elements.msh, points of fields as
-        graded_1.csv and so on.
+        Beside beam.toml, a `Mesh` is written as beam_body.msh or beam_elements.msh, points of
+        fields as beam_graded_1.csv and so on. In another folder than that of the case, names of
+        other files become absolute.
         """
-        target = Path(path)
-        self._write_parts(target.parent)
-        target.write_text(self.toml(), encoding="utf-8")
+        target, origin = Path(path), Path(self.path).resolve().parent
+        prefix = f"{target.stem}_"
+        write_parts(self, target.parent, prefix)
+        text = _toml(named(self, prefix, None if origin == target.resolve().parent else origin))
+        source = self._unchanged()
+        target.write_text(source if source and text == _toml(self) else text, encoding="utf-8")
 
     def check(self) -> Case:
         """Checks all values and returns the case with all defaults.
@@ -83,14 +85,12 @@ class Case(dict[str, Any]):
         """Reads and checks the case.
 
         Args:
-            folder: receives meshes and points of fields; without one they are only named
+            folder: holds its meshes and points of fields; without one they are only named
         """
         source = self._unchanged()
         if source is not None:
             return _core.parse_case(source, self.path, True)
-        text = self.toml()
-        if folder is not None:
-            text = _toml(self, self._write_parts(folder))
+        text = _toml(named(self, f"{folder.resolve()}/" if folder else ""))
         try:  # lines of this text mean nothing to the user
             return _core.parse_case(text, self.path, False)
         except InputError as error:
@@ -103,44 +103,16 @@ class Case(dict[str, Any]):
         if self._source is None:
             return None
         # Texts are compared: arrays of numpy have no single answer to ==.
-        same = _toml(tomllib.loads(self._source), {}) == _toml(self, self._names())
+        same = _toml(tomllib.loads(self._source)) == _toml(named(self))
         return self._source if same else None
 
-    def _parts(self) -> list[tuple[str, Any, Callable[[], str]]]:
-        """Returns meshes and points of fields: name of the file, value of the key, text."""
-        found: list[tuple[str, Any, Callable[[], str]]] = []
-        for table in ("body", "elements"):
-            entry = self.get(table)
-            if isinstance(entry, dict) and isinstance(entry.get("mesh"), Mesh):
-                found.append((f"{table}.msh", entry["mesh"], entry["mesh"]._text))
-        fields = self.get("graded")
-        for k, entry in enumerate(fields if isinstance(fields, (list, tuple)) else (), start=1):
-            if isinstance(entry, dict) and isinstance(entry.get("file"), np.ndarray):
-                text = partial(_points_text, entry["file"], entry.get("column", "factor"))
-                found.append((f"graded_{k}.csv", entry["file"], text))
-        return found
 
-    def _names(self) -> dict[int, str]:
-        return {id(part): name for name, part, _ in self._parts()}
-
-    def _write_parts(self, folder: Path) -> dict[int, str]:
-        """Writes meshes and points of fields and returns the paths of their files."""
-        paths = {}
-        for name, part, text in self._parts():
-            file = folder / name
-            file.write_text(text(), encoding="utf-8")
-            paths[id(part)] = str(file.resolve())
-        return paths
-
-
-def _points_text(points: NDArray[Any], column: str) -> str:
-    """Returns the text of a file of points, with all digits."""
-    if points.ndim != 2 or points.shape[1] not in (3, 4):
-        raise ValueError(f"points of a field have the shape {points.shape}; allowed are (n, 3) "
-                         "with x, y, factor and (n, 4) with x, y, z, factor")
-    names = [*"xyz"[: points.shape[1] - 1], column]
-    rows = points.astype(float).tolist()
-    return "\n".join([",".join(names), *(",".join(map(repr, row)) for row in rows), ""])
+def as_case(case: Case | Mapping[str, Any]) -> Case:
+    """Returns a case, also of plain dictionaries."""
+    if isinstance(case, Mapping):
+        return case if isinstance(case, Case) else Case(case)
+    raise TypeError(f"a case is a perilink.Case or a dictionary, not {case!r}; "
+                    "read_case(path) reads a file")
 
 
 # help(Case) lists every key.
@@ -185,12 +157,8 @@ def read_case(path: str | PathLike[str]) -> Case:
 _BARE_KEY = re.compile(r"[A-Za-z0-9_-]+\Z")
 
 
-def _toml(case: Mapping[str, Any], names: Mapping[int, str]) -> str:
-    """Returns a case as TOML: plain keys, then a header for each table and entry of a list.
-
-    Args:
-        names: names of the files of meshes and points, by their identity
-    """
+def _toml(case: Mapping[str, Any]) -> str:
+    """Returns a case as TOML: plain keys, then a header for each table and entry of a list."""
 
     def key(name: object) -> str:
         if not isinstance(name, str):
@@ -198,8 +166,6 @@ def _toml(case: Mapping[str, Any], names: Mapping[int, str]) -> str:
         return name if _BARE_KEY.match(name) else json.dumps(name, ensure_ascii=False)
 
     def value(item: Any) -> str:
-        if id(item) in names:
-            return value(names[id(item)])
         if isinstance(item, (np.generic, np.ndarray)):
             item = item.tolist()
         if isinstance(item, bool):
@@ -230,21 +196,3 @@ def _toml(case: Mapping[str, Any], names: Mapping[int, str]) -> str:
         else:
             plain.append(f"{key(name)} = {value(item)}")
     return "\n".join([*plain, *tables, ""])
-
-
-class PartsFolder:
-    """Folder for meshes and fields of a case while C++ reads them: a given or a temporary one."""
-
-    def __init__(self, case: Case, given: Path | None = None) -> None:
-        self._temporary = None
-        self.path = given
-        if given is None and case._parts():
-            self._temporary = tempfile.TemporaryDirectory(prefix="perilink-")
-            self.path = Path(self._temporary.name)
-
-    def __enter__(self) -> Path | None:
-        return self.path
-
-    def __exit__(self, *_: object) -> None:
-        if self._temporary is not None:
-            self._temporary.cleanup()

@@ -26,7 +26,7 @@ class EventRun(RowRun[_core.EventRow, _core.Stepper]):
     Rows equal those of `run`. After a missed release of host elements the run starts again with
     these elements released, as `run` does: ``row.step`` is 1 again, and the rows before do not
     count. `result` gives the number of such restarts as ``missed_releases``. Ctrl-C raises
-    KeyboardInterrupt; while a row is computed it ends the run.
+    KeyboardInterrupt; while a row is computed it ends the run, after this row if it is complete.
 
     Args:
         problem: from `build`, of a case with ``type = "damage"``
@@ -36,7 +36,7 @@ class EventRun(RowRun[_core.EventRow, _core.Stepper]):
     Raises:
         InputError: the case has another type of analysis, or a piece of the body has no support
         SolverError: there is no equilibrium
-        FileError: the file is not a state of this problem
+        FileError: the state is of another problem, or the file is damaged
     """
 
     def __init__(
@@ -53,7 +53,7 @@ class EventRun(RowRun[_core.EventRow, _core.Stepper]):
 
     @property
     def result(self) -> dict[str, Any]:
-        """Peaks, number of broken bonds, errors and, at the end, status and reason."""
+        """Peaks, number of broken bonds, errors, status (``running`` before the end) and reason."""
         return self._stepper.result()
 
     def state(self) -> DamageState:

@@ -27,7 +27,7 @@ class Mesh:
     def __init__(
         self, points: ArrayLike, cells: ArrayLike, groups: Mapping[str, ArrayLike] | None = None
     ) -> None:
-        self.points: NDArray[np.float64] = np.asarray(points, dtype=float)
+        self.points: NDArray[np.float64] = np.array(points, dtype=float)
         self.cells: NDArray[np.int64] = _integers(cells, "cells")
         if self.cells.ndim != 2 or self.cells.shape[1] not in (3, 4):
             raise ValueError(f"cells have the shape {self.cells.shape}; allowed are (m, 3) for "
@@ -36,6 +36,8 @@ class Mesh:
         if self.points.ndim != 2 or self.points.shape[1] not in (self.dim, 3):
             raise ValueError(
                 f"points have the shape {self.points.shape}; allowed is (n, {self.dim})")
+        if not np.isfinite(self.points).all():
+            raise ValueError("points: holds nan or inf")
         _check_numbers(self.cells, len(self.points), "cells", "points")
         self.groups: dict[str, NDArray[np.int64]] = {}
         for name, elements in (groups or {}).items():

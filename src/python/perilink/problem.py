@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
-from .case import Case, PartsFolder
+from .case import Case, as_case
+from .parts import parts_folder
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,8 @@ def build(case: Case, *, threads: int | None = None) -> _core.Problem:
     Raises:
         InputError: the case is wrong or does not fit its body
     """
-    with PartsFolder(case) as folder:
+    case = as_case(case)
+    with parts_folder(case) as folder:
         return _core.build(case._parse(folder), threads or 0)
 
 
@@ -57,7 +59,7 @@ def solve(problem: _core.Problem | Case, *, threads: int | None = None) -> Elast
     Raises:
         SolverError: the body has no unique equilibrium
     """
-    if isinstance(problem, Case):
+    if not isinstance(problem, _core.Problem):
         problem = build(problem, threads=threads)
     values: dict[str, Any] = _core.solve(problem, threads or 0)
     return ElasticSolution(**values)

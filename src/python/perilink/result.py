@@ -16,7 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
-from .case import Case, PartsFolder
+from .case import Case, as_case
+from .parts import parts_beside_results, parts_of
 from .summary import Summary
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ class Result:
     """
 
     def __init__(self, directory: str | PathLike[str]) -> None:
-        self.directory = Path(directory)
+        self.directory = Path(directory).absolute()
         _core.require_result(fspath(self.directory))
         self.text: str = ""  #: the lines that ``perilink run`` prints
         self._history: Arrays | None = None
@@ -181,6 +182,7 @@ def run(
         FileError: the directory holds results, or files cannot be written
         SolverError: the solver cannot continue; rows before are in the directory
     """
+    case = as_case(case)
     if force and resume:
         raise ValueError("force overwrites the results that resume goes on with; give one of them")
     old = (_core.OldResults.removed if force else _core.OldResults.kept if resume
@@ -205,17 +207,15 @@ def _run(
     trust_geometry: bool,
     calibrations: str | PathLike[str] | None,
 ) -> Result:
-    parts = None
-    if case._parts():
+    if parts_of(case):
         _core.refuse_old_results(fspath(target), old_results != _core.OldResults.refused)
         case._parse()  # before its parts are written
-        target.mkdir(parents=True, exist_ok=True)
-        parts = target
-    with PartsFolder(case, parts) as folder:
+    resume = old_results == _core.OldResults.kept
+    with parts_beside_results(case, target, resume=resume) as folder:
         parsed = case._parse(folder)
-    parsed.trust_geometry = trust_geometry
-    _, _, text = _core.run(parsed, fspath(target), threads or 0, old_results, progress,
-                            None if calibrations is None else fspath(calibrations))
+        parsed.trust_geometry = trust_geometry
+        _, _, text = _core.run(parsed, fspath(target), threads or 0, old_results, progress,
+                               None if calibrations is None else fspath(calibrations))
     result = Result(target)
     result.text = text
     if is_temporary:

@@ -48,7 +48,10 @@ class RowRun(Iterator[Row], Generic[Row, Stepper]):
 
     @property
     def stiffness_ratios(self) -> NDArray[np.float64]:
-        """Present over intact stiffness of the elements, 0: broken, shape (elements,) [-]."""
+        """Present over intact stiffness of the elements, shape (elements,) [-].
+
+        0: broken, or across a closed pre-crack (`Problem.bonds` has these from the start).
+        """
         return self._stepper.stiffness_ratios()
 
     @property

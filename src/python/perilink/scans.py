@@ -17,9 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
-from .case import Case, _toml
+from .case import Case, _toml, as_case
 from .errors import FileError, InputError
 from .mesh import Mesh
+from .parts import absolute, named, parts_of
 from .result import Result
 
 if TYPE_CHECKING:
@@ -167,6 +168,7 @@ def scan(
         InputError: the case refuses a member, or the scan is wrong; nothing is written
         FileError: the directory holds results of another case, or files cannot be written
     """
+    case = as_case(case)
     table = {"title": title, "case": case.path, "seeds": _listed(seeds),
              "values": None if values is None else {k: _listed(v) for k, v in values.items()},
              "runs": None if runs is None else [dict(run) for run in runs]}
@@ -193,11 +195,11 @@ def _scan(
     progress: Callable[[ScanProgress], object] | None,
 ) -> None:
     text = None if _is_file(case) else _whole_text(case, table, path)
-    scan_text = _toml(table, {})
+    scan_text = _toml(table)
     report = None if progress is None else lambda *member: progress(ScanProgress(*member))
     words = [sys.executable, "-I", "-S", "-c", _PROGRAM, str(Path(_core.__file__).parent)]
     try:
-        if case._parts():
+        if parts_of(case):
             _core.check_scan(scan_text, _NAME, text)  # before meshes and fields are written
             _write_parts(case, path, force)
         _core.scan(scan_text, _NAME, text, fspath(path), *processors,
@@ -221,29 +223,15 @@ def _is_file(case: Case) -> bool:
 def _whole_text(case: Case, table: dict[str, Any], path: Path) -> str:
     """Returns the text of a case that may stand in any folder, and changes values accordingly."""
     origin = Path(case.path).resolve().parent
-    case = case.copy()
-    names = {id(part): str(path.resolve() / name) for name, part, _ in case._parts()}
-
-    def moved(name: Any) -> Any:
-        if isinstance(name, list):
-            return [moved(entry) for entry in name]
-        return origin / name if isinstance(name, (str, PathLike)) else name
-
-    fields = case.get("graded")
-    for entry, key in [(case.get("body"), "mesh"), (case.get("elements"), "mesh"),
-                       *((entry, "file") for entry in
-                         (fields if isinstance(fields, (list, tuple)) else ()))]:
-        if isinstance(entry, dict) and key in entry:
-            entry[key] = moved(entry[key])
     for values in [table["values"] or {}, *(table["runs"] or [])]:
         for key in filter(_OF_FILES.match, values):
-            values[key] = moved(values[key])
-    return _toml(case, names)
+            values[key] = absolute(values[key], origin)
+    return _toml(named(case, f"{path.resolve()}/", origin))
 
 
 def _write_parts(case: Case, path: Path, force: bool) -> None:
     path.mkdir(parents=True, exist_ok=True)
-    for name, _, text in case._parts():
+    for name, text in parts_of(case).items():
         file = path / name
         if file.exists() and (path / "scan.csv").exists() and not force:
             if file.read_text(encoding="utf-8") == text():

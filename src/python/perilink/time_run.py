@@ -22,8 +22,8 @@ class TimeRun(RowRun[_core.TimeRow, _core.TimeStepper]):
                 break
 
     Rows equal those of `run`; a stop rule by a gauge ends both. Arrays are copies of the state in
-    the last row. Ctrl-C raises KeyboardInterrupt; while a row is computed it ends the
-    run.
+    the last row. Ctrl-C raises KeyboardInterrupt; while a row is computed it ends the run, after
+    this row if it is complete.
 
     Args:
         problem: from `build`, of a case with ``type = "explicit"`` or ``"relaxation"``

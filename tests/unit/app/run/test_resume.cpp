@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
+
+#include "app/run/run_case.hpp"
 #include "app/run/run_kind.hpp"
 #include "base/error.hpp"
 #include "base/files.hpp"
@@ -18,6 +21,7 @@ namespace perilink {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 const std::string strip = std::string(test::strip_text) + R"(
 [stop]
@@ -122,6 +126,27 @@ TEST_F(Resume, RefusesResultsWithoutTheirHistory) {
   }
 }
 
+TEST_F(Resume, LeavesFilesThatItRefuses) {
+  const CaseFile more =
+      parse_case(replaced(strip, "broken_bonds = 12", "broken_bonds = 25"), "strip.toml");
+  const auto contents = [&] {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(work_.path())) {
+      files[entry.path().filename()] = read_regular_file(entry.path().string());
+    }
+    return files;
+  };
+  for (const char* name : {"timing.csv", "history.csv"}) {
+    run(strip);
+    std::filesystem::resize_file(work_ / name, 40);
+    const auto before = contents();
+    EXPECT_THAT([&] { run_case(more, work_.path(), {1, OldResults::kept, true}); },
+                ThrowsMessage<FileError>(HasSubstr(std::string(name) + ": is shorter")));
+    EXPECT_EQ(contents(), before) << name;
+    std::filesystem::remove(work_ / "checkpoint.bin");
+  }
+}
+
 /// A mesh may move; its contents may not change.
 TEST_F(Resume, ComparesTheContentsOfMeshes) {
   const auto place_mesh = [&](const char* name, const std::string& text) {
@@ -141,7 +166,7 @@ TEST_F(Resume, ComparesTheContentsOfMeshes) {
   std::filesystem::remove(work_ / "first.msh");
   EXPECT_TRUE(find_results(parse_case(moved, "strip.toml"), work_.path()).is_finished);
   const std::string other = replaced(test::square_mesh, "0.5 1 0", "0.6 1 0");
-  EXPECT_THAT(refusal(place_mesh("second.msh", other)), HasSubstr("`mesh = \"checksum "));
+  EXPECT_THAT(refusal(place_mesh("second.msh", other)), HasSubstr("contents of a mesh or field have changed"));
 }
 
 /// A file of a field may move; its contents may not change.
@@ -158,7 +183,7 @@ TEST_F(Resume, ComparesTheContentsOfFields) {
   EXPECT_TRUE(find_results(parse_case(moved, "strip.toml"), work_.path()).is_finished);
   const std::string more = run(replaced(moved, "broken_bonds = 12", "broken_bonds = 25"));
   EXPECT_EQ(more.substr(0, history.size()), history);
-  EXPECT_THAT(refusal(place_field("second.csv", "3")), HasSubstr("`file = \"checksum "));
+  EXPECT_THAT(refusal(place_field("second.csv", "3")), HasSubstr("contents of a mesh or field have changed"));
 }
 
 TEST_F(Resume, RefusesAnotherModel) {

@@ -213,6 +213,7 @@ TEST(AbaqusFile, RefusesWithFileAndLine) {
       {"*Nset, nset=left", "*Nset", "plate.inp:21: has *NSET without a name"},
       {"1, 3, 1", "1", "plate.inp:24: has a range of labels without an end"},
       {"1, 3, 1", "1, 3, 0", "plate.inp:24: has \"0\""},
+      {"1, 3, 1", "1, 4, 2", "plate.inp:24: has a range from 1 to 4 in steps of 2, which miss"},
       {"0., 0., 0.\n*End", "0., 1., 0.\n*End", "plate.inp:36: moves the instance of a part"},
       {"*End Instance", "*End Instance\n*Instance, name=b, part=PLATE\n*End Instance",
        "plate.inp:38: has several instances of the part \"PLATE\""},
