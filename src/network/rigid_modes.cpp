@@ -6,6 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "base/dense/decompositions.hpp"
 #include "base/joined_parts.hpp"
 #include "network/unknowns.hpp"
 
@@ -233,6 +234,35 @@ int free_modes(const Network& network, const std::vector<Index>& particles,
     products.held += row * row.transpose();
   }
   return rank(products.all) - rank(products.held);
+}
+
+bool is_rigid_motion(const Network& network, const std::vector<std::uint8_t>& held,
+                     std::span<const double> values) {
+  std::vector<Index> all(network.particles.size());
+  std::iota(all.begin(), all.end(), 0);
+  const std::vector<std::uint8_t> rotating = rotating_particles(network);
+  const RigidModes modes(network, rotating, all);
+  const auto for_each_held = [&](const auto& visit) {
+    for (const Index i : all) {
+      for (int a = 0; a < modes.components(i); ++a) {
+        const std::size_t slot = modes.slot(i, a);
+        if (held[slot]) visit(modes.row(i, a), values[slot] / modes.unit_of(a));
+      }
+    }
+  };
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(6, 6);
+  Eigen::VectorXd moved = Eigen::VectorXd::Zero(6);
+  for_each_held([&](const ModeRow& row, double value) {
+    gram += row * row.transpose();
+    moved += value * row;
+  });
+  const Eigen::VectorXd motion = least_squares(gram, moved, rank_tolerance);
+  double largest = 0.0, rest = 0.0;
+  for_each_held([&](const ModeRow& row, double value) {
+    largest = std::max(largest, std::abs(value));
+    rest = std::max(rest, std::abs(value - row.dot(motion)));
+  });
+  return rest <= 1e-9 * largest;
 }
 
 LoadResultant load_resultant(const Network& network, const Loads& loads) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "analysis/dynamics/inertia.hpp"
 #include "base/error.hpp"
@@ -293,7 +292,7 @@ void note_residual_strength(const Network& network, const Loads& loads,
                   borne));
 }
 
-/// Refuses prescribed displacements that equal a translation of the whole body.
+/// Refuses prescribed displacements that equal a rigid-body motion.
 void refuse_mere_shift(const CaseFile& input, const Model& model, const Prescription& prescription,
                        const std::string& stage) {
   const auto not_zero = [](double value) { return value != 0.0; };
@@ -304,18 +303,9 @@ void refuse_mere_shift(const CaseFile& input, const Model& model, const Prescrip
       std::any_of(springs.begin(), springs.end(), not_zero)) {
     return;
   }
-  const auto width = static_cast<std::size_t>(model.network.width());
-  std::vector<std::optional<double>> shift(width);
-  for (std::size_t a = model.network.dim(); a < width; ++a) shift[a] = 0.0;  // no rotation
-  for (std::size_t slot = 0; slot < prescription.value.size(); ++slot) {
-    if (!prescription.held[slot]) continue;
-    const double value = prescription.value[slot];
-    std::optional<double>& known = shift[slot % width];
-    if (!known) known = value;
-    if (*known != value) return;
-  }
+  if (!is_rigid_motion(model.network, prescription.held, prescription.value)) return;
   throw InputError(input.where(key_of_loads(input, stage)),
-                   "only translates the body, which causes no strain",
+                   "only moves the body as a whole, which causes no strain",
                    "hold another part of the body along the axis of the prescribed "
                    "displacement");
 }

@@ -76,6 +76,29 @@ TEST(Fragments, MoveFreelyAsTheirSupportsLetThem) {
   EXPECT_TRUE(motions().empty());
 }
 
+/// Three displacements along y leave a motion along x open.
+TEST(RigidMotion, IsKnownFromPrescribedValues) {
+  const Network network = make_network({"", Pattern::rectangular, Surface::none}, 4);
+  auto held = nothing_held(network);
+  std::vector<double> values(held.size());
+  const auto& at = network.particles.positions;
+  const auto prescribe = [&](double x, double y, double turn) {
+    for (std::size_t slot = 0; slot < held.size(); slot += 2) {
+      values[slot] = x - turn * at[slot + 1];
+      values[slot + 1] = y + turn * at[slot];
+    }
+  };
+  for (const std::size_t i : {std::size_t{0}, held.size() / 4, held.size() / 2 - 1}) {
+    held[2 * i + 1] = 1;
+  }
+  prescribe(0.2, -0.1, 0.3);
+  EXPECT_TRUE(is_rigid_motion(network, held, values));
+  held.assign(held.size(), 1);
+  EXPECT_TRUE(is_rigid_motion(network, held, values));
+  values[held.size() - 1] += 1e-7;
+  EXPECT_FALSE(is_rigid_motion(network, held, values));
+}
+
 TEST(Fragments, CountTheModesThatSupportsLeaveFree) {
   Network network = make_network({"", Pattern::rectangular, Surface::none}, 4);
   auto held = nothing_held(network);
