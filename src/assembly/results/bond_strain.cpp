@@ -1,10 +1,10 @@
 #include "assembly/results/bond_strain.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <array>
 #include <numbers>
 
-#include "base/dense/decompositions.hpp"
 #include "network/frame.hpp"
 
 namespace perilink {
@@ -98,11 +98,13 @@ SymmetricTensor strain_in(const Network& network, const Csr& neighbourhoods, Sec
   for (const Index e : neighbourhoods.row(particle)) {
     if (e < network.first_contact()) add_bond<Dim>(network, secants, motion, e, virial);
   }
-  Eigen::MatrixXd strain = virial.present;
-  if (!solve_symmetric(virial.intact, strain, smallest_strain_pivot)) return {};
+  const Eigen::LDLT<decltype(virial.intact)> factor(virial.intact);
+  const auto pivots = factor.vectorD();
+  if (!(pivots.minCoeff() > smallest_strain_pivot * pivots.maxCoeff())) return {};
+  const typename Virial<Dim>::Tensor strain = factor.solve(virial.present);
   SymmetricTensor result{};
-  for (int k = 0; k < Dim; ++k) result[k] = strain(k);
-  for (int k = Dim; k < components<Dim>; ++k) result[3 + k - Dim] = strain(k) / std::numbers::sqrt2;
+  for (int k = 0; k < Dim; ++k) result[k] = strain[k];
+  for (int k = Dim; k < components<Dim>; ++k) result[3 + k - Dim] = strain[k] / std::numbers::sqrt2;
   return result;
 }
 
