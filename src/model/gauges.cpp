@@ -40,7 +40,7 @@ std::string point_text(const Vector3& point, int dim) {
 
 /// Particles around a point are at most this far from it [spacings]: distant ones around it measure
 /// elsewhere.
-constexpr double reach = 2.0;
+constexpr double gauge_reach = 2.0;
 
 /// Returns particles with an intact bond to a particle, nearest to `point` first; without known
 /// bonds those around it. Broken bonds do not count, since displacements jump across cracks.
@@ -67,7 +67,7 @@ std::vector<Index> neighbors_of(const Model& model, Index particle, const Vector
     if (i == particle || j == particle) add(i == particle ? j : i);
   }
   for (Index i = 0; network.bonds.size() == 0 && i < particles.size(); ++i) add(i);
-  const double farthest = reach * spacing_around(model, particle);
+  const double farthest = gauge_reach * spacing_around(model, particle);
   std::erase_if(neighbors, [&](Index i) { return away(i, point) >= std::pow(farthest, 2); });
   std::stable_sort(neighbors.begin(), neighbors.end(),
                    [&](Index i, Index j) { return away(i, point) < away(j, point); });

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 
 #include "base/dense/decompositions.hpp"
 #include "base/joined_parts.hpp"
@@ -95,10 +95,8 @@ class RigidModes {
 };
 
 int rank(const Gram& gram) {
-  const ModeRow eigenvalues =
-      Eigen::SelfAdjointEigenSolver<Gram>(gram, Eigen::EigenvaluesOnly).eigenvalues();
   const double least = rank_tolerance * gram.trace();
-  return static_cast<int>((eigenvalues.array() > least).count());
+  return static_cast<int>((eigenvalues(Eigen::MatrixXd(gram)).array() > least).count());
 }
 
 /// Products of the rigid-body modes over all unknowns of a fragment, and over the held ones.
@@ -202,11 +200,11 @@ std::vector<std::vector<double>> free_motions(const Network& network, const Frag
   const std::vector<std::uint8_t> rotating = rotating_particles(network);
   const RigidModes modes(network, rotating, fragment.particles);
   const ModeProducts products(fragment.particles, modes, held);
-  const Eigen::SelfAdjointEigenSolver<Gram> solver(products.held);
+  const Eigenvectors own = eigenvectors(products.held);
   std::vector<std::vector<double>> motions;
   for (int m = 0; m < 6; ++m) {
-    const ModeRow mode = solver.eigenvectors().col(m);
-    if (solver.eigenvalues()[m] > rank_tolerance * products.held.trace()) continue;
+    const ModeRow mode = own.vectors.col(m);
+    if (own.values[m] > rank_tolerance * products.held.trace()) continue;
     const double moved = mode.dot(products.all * mode);
     if (!(moved > rank_tolerance * products.all.trace())) continue;
     std::vector<double>& motion = motions.emplace_back(held.size(), 0.0);

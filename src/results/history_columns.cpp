@@ -35,41 +35,41 @@ constexpr RowColumn<ExplicitRecord> energy(const char* name, const char* meaning
 
 using In = HistoryColumn::In;
 
-using Event = StepRecord;
+using Step = StepRecord;
 constexpr std::array event_columns = {
-    column<&Event::step>("step", "", "Number of the row, from 1.").not_from_zero(),
-    column<&Event::broken_bonds>("broken_bonds", "", "Broken bonds in this equilibrium."),
-    column<&Event::load_factor>("load_factor", "", "Load factor."),
-    column<&Event::load>("load", "F", "Load."),
-    column<&Event::displacement>("displacement", "L", "Displacement, work-conjugate to the load."),
-    column<&Event::strain_energy>("strain_energy", "F L", "Stored energy."),
-    column<&Event::dissipated_energy>("dissipated_energy", "F L", "Energy dissipated so far."),
-    column<&Event::external_work>("external_work", "F L", "Work of loads and reactions so far."),
-    column<&Event::released_energy>("released_energy", "F L",
-                                    "Sum of the energies of elements when they failed."),
-    column<&Event::yield_events>("yield_events", "", "Segments of laws passed without a break."),
-    column<&Event::residual>("residual", "", "Relative residual when last measured.")
+    column<&Step::step>("step", "", "Number of the row, from 1.").not_from_zero(),
+    column<&Step::broken_bonds>("broken_bonds", "", "Broken bonds in this equilibrium."),
+    column<&Step::load_factor>("load_factor", "", "Load factor."),
+    column<&Step::load>("load", "F", "Load."),
+    column<&Step::displacement>("displacement", "L", "Displacement, work-conjugate to the load."),
+    column<&Step::strain_energy>("strain_energy", "F L", "Stored energy."),
+    column<&Step::dissipated_energy>("dissipated_energy", "F L", "Energy dissipated so far."),
+    column<&Step::external_work>("external_work", "F L", "Work of loads and reactions so far."),
+    column<&Step::released_energy>("released_energy", "F L",
+                                   "Sum of the energies of elements when they failed."),
+    column<&Step::yield_events>("yield_events", "", "Segments of laws passed without a break."),
+    column<&Step::residual>("residual", "", "Relative residual when last measured.")
         .not_from_zero(),
-    column<&Event::factorizations>("factorizations", "", "Factorisations so far.").not_from_zero(),
-    column<&Event::element>("element", "", "Element that fails at this load; -1: none.")
+    column<&Step::factorizations>("factorizations", "", "Factorisations so far.").not_from_zero(),
+    column<&Step::element>("element", "", "Element that fails at this load; -1: none.")
         .not_from_zero(),
-    column<&Event::events>("events", "", "Elements that fail at this load.")
+    column<&Step::events>("events", "", "Elements that fail at this load.")
         .not_from_zero()
         .only_in(In::batches),
-    column<&Event::stage>("stage", "", "Number of the stage, from 1; 0: none.")
+    column<&Step::stage>("stage", "", "Number of the stage, from 1; 0: none.")
         .not_from_zero()
         .only_in(In::stages),
-    column<&Event::at_constant_load>("avalanche", "",
-                                     "1: the element was beyond its limit at constant load.")
+    column<&Step::at_constant_load>("avalanche", "",
+                                    "1: the element was beyond its limit at constant load.")
         .not_from_zero()
         .only_in(In::stages),
-    column<&Event::side_change>("side_change", "", "1: bonds close or open, and no element fails.")
+    column<&Step::side_change>("side_change", "", "1: bonds close or open, and no element fails.")
         .not_from_zero()
         .only_in(In::stages),
-    column<&Event::elements>("elements", "", "Active host elements.")
+    column<&Step::elements>("elements", "", "Active host elements.")
         .not_from_zero()
         .only_in(In::elements),
-    column<&Event::constraint_energy>("freed_energy", "F L", "Energy lost by host releases so far.")
+    column<&Step::constraint_energy>("freed_energy", "F L", "Energy lost by host releases so far.")
         .only_in(In::elements),
 };
 

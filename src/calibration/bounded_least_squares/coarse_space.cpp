@@ -60,13 +60,13 @@ std::vector<double> point_blocks(const PointEquations& equations, const std::vec
 }
 
 void invert_blocks(int rows, std::vector<double>& blocks) {
-  // One largest size for all: every fixed size costs seconds of compilation.
-  using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 26, 26>;
+  Eigen::LLT<MatrixXd> factor;
   const std::size_t size = static_cast<std::size_t>(rows) * rows;
   for (std::size_t begin = 0; begin < blocks.size(); begin += size) {
     Eigen::Map<MatrixXd> block(blocks.data() + begin, rows, rows);
-    const Eigen::LLT<Small> factor(block);
-    block = factor.solve(Small::Identity(rows, rows));
+    factor.compute(block);
+    block.setIdentity();
+    factor.solveInPlace(block);
   }
 }
 

@@ -88,7 +88,6 @@ std::vector<double> point_blocks(const PointEquations& equations, const std::vec
 void finish_blocks(int rows, const std::vector<double>& diagonal, std::vector<double>& blocks);
 
 /// Replaces symmetric positive definite blocks, shape (points, rows, rows), by their inverses.
-/// \param rows  at most 26
 void invert_blocks(int rows, std::vector<double>& blocks);
 
 }  // namespace perilink

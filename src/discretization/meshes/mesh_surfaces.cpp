@@ -18,9 +18,9 @@ struct Flank {
   bool first;
 };
 
-class Surface {
+class MeshSurface {
  public:
-  Surface(std::vector<Index>& sides, int dim)
+  MeshSurface(std::vector<Index>& sides, int dim)
       : sides_(sides), width_(static_cast<std::size_t>(dim)) {
     for (std::size_t side = 0; side < count(); ++side) {
       for (std::size_t k = 0; k < width_; ++k) {
@@ -75,6 +75,6 @@ class Surface {
 
 }  // namespace
 
-void turn_alike(std::vector<Index>& sides, int dim) { Surface(sides, dim).turn_alike(); }
+void turn_alike(std::vector<Index>& sides, int dim) { MeshSurface(sides, dim).turn_alike(); }
 
 }  // namespace perilink

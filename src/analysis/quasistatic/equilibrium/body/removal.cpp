@@ -3,15 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
+#include "base/dense/decompositions.hpp"
 
 namespace perilink {
-namespace {
-
-using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor,
-                             Removal::capacity, Removal::capacity>;
-
-}  // namespace
 
 double Removal::deformation(int mode, std::span<const double> solution) const {
   double sum = prescribed[mode];
@@ -75,9 +69,9 @@ void VariedForces::add(const SparseVector& x) {
 
 void decouple(Removal& removal, std::span<const double> compliance) {
   const int rank = removal.rank;
-  Square rest = Square::Identity(rank, rank);
-  rest -= Eigen::Map<const Square>(compliance.data(), rank, rank);
-  const Eigen::SelfAdjointEigenSolver<Square> axes(rest);  // eigenvalues ascend
+  const auto [values, axes] =
+      eigenvectors(Eigen::MatrixXd::Identity(rank, rank) -
+                   Eigen::Map<const Eigen::MatrixXd>(compliance.data(), rank, rank).transpose());
 
   // The new vectors have the rows of all old ones.
   SparseVector rows;
@@ -86,11 +80,11 @@ void decouple(Removal& removal, std::span<const double> compliance) {
   }
   const Removal old = removal;
   for (int m = 0; m < rank; ++m) {
-    removal.pivot[m] = axes.eigenvalues()[m];
+    removal.pivot[m] = values[m];
     removal.prescribed[m] = removal.constant[m] = 0.0;
     removal.x[m] = rows;
     for (int n = 0; n < rank; ++n) {
-      const double share = axes.eigenvectors()(n, m);
+      const double share = axes(n, m);
       removal.prescribed[m] += share * old.prescribed[n];
       removal.constant[m] += share * old.constant[n];
       const SparseVector& x = old.x[n];
