@@ -242,6 +242,33 @@ void EventRun::record_separated(double load_factor, const LoadWork& work) {
   path_.over = true;
 }
 
+/// Ends the run as no element can fail any more. Pieces of a separated body that springs still hold
+/// go on to the displacement of the stop rule.
+/// \return load factor of the row at this displacement, if there is one
+std::optional<double> EventRun::end_without_event(const Event& event, const LoadWork& work) {
+  if (!event.no_strain) {
+    path_.end(Termination::nothing_breaks, path_.events > 0
+                                               ? "no further bond can break under this load"
+                                               : "no bond can break under this load");
+    return std::nullopt;
+  }
+  if (stop_->displacement) {
+    const double wanted = *stop_->displacement, reference = reference_->value;
+    const double growing = staged_ != nullptr ? work.forces : work.forces + work.supports;
+    const double last = reference_->driven
+                            ? wanted / reference
+                            : (wanted * reference - work.constant.growing_forces) / growing;
+    const double now = staged_ != nullptr ? staged_->load_factor() : path_.row.load_factor;
+    if (std::isfinite(last) && last > now) {
+      path_.end(Termination::completed, fmt::format("the displacement reached {}", wanted));
+      return last;
+    }
+  }
+  path_.end(Termination::collapsed,
+            "the body separated: its pieces move without strains, and springs alone resist");
+  return std::nullopt;
+}
+
 /// Goes to the next event; the load factor rises or falls to it.
 /// \return false at the end of the run
 bool EventRun::by_events() {
@@ -260,10 +287,10 @@ bool EventRun::by_events() {
   } while (converts(event));
   if (missed_) return false;
   if (event.element == no_index) {
-    path_.end(Termination::nothing_breaks, path_.events > 0
-                                               ? "no further bond can break under this load"
-                                               : "no bond can break under this load");
-    return false;
+    const std::optional<double> last = end_without_event(event, work);
+    if (last) record(*last, work, {});
+    path_.over = true;
+    return last.has_value();
   }
   if (leaves_small_strains(event)) return false;
   record(event.load_factor, work, event);

@@ -87,6 +87,7 @@ class EventRun final : public StateSource {
   bool is_beyond_small_strains(double load_factor);
   bool leaves_small_strains(const Event& event);
   void record_separated(double load_factor, const LoadWork& work);
+  std::optional<double> end_without_event(const Event& event, const LoadWork& work);
   bool pass(const Event& event);
 
   const Network& network_;
