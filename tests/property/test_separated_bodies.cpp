@@ -79,7 +79,8 @@ std::vector<SpringCase> spring_cases() {
       cases.push_back({name, model, driven, stop});
       cases.push_back({name + "_single", model, driven, single + stop});
     }
-    cases.push_back({model + "_steps", model, true, "control = \"steps\"\nload_factors = [1, 3, 5]\n"});
+    cases.push_back(
+        {model + "_steps", model, true, "control = \"steps\"\nload_factors = [1, 3, 5]\n"});
   }
   return cases;
 }
