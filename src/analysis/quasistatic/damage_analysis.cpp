@@ -242,30 +242,28 @@ void EventRun::record_separated(double load_factor, const LoadWork& work) {
   path_.over = true;
 }
 
-/// Ends the run as no element can fail any more. Pieces of a separated body that springs still hold
-/// go on to the displacement of the stop rule.
-/// \return load factor of the row at this displacement, if there is one
-std::optional<double> EventRun::end_without_event(const Event& event, const LoadWork& work) {
+std::optional<double> end_without_event(PathState& path, const Event& event, const LoadWork& work,
+                                        const ReferenceLoad& load, const StopRules& stop,
+                                        double now) {
   if (!event.no_strain) {
-    path_.end(Termination::nothing_breaks, path_.events > 0
-                                               ? "no further bond can break under this load"
-                                               : "no bond can break under this load");
+    path.end(Termination::nothing_breaks, path.events > 0
+                                              ? "no further bond can break under this load"
+                                              : "no bond can break under this load");
     return std::nullopt;
   }
-  if (stop_->displacement) {
-    const double wanted = *stop_->displacement, reference = reference_->value;
-    const double growing = staged_ != nullptr ? work.forces : work.forces + work.supports;
-    const double last = reference_->driven
-                            ? wanted / reference
-                            : (wanted * reference - work.constant.growing_forces) / growing;
-    const double now = staged_ != nullptr ? staged_->load_factor() : path_.row.load_factor;
+  if (stop.displacement) {
+    const double wanted = *stop.displacement;
+    const double growing = path.in_stage ? work.forces : work.forces + work.supports;
+    const double last = load.driven
+                            ? wanted / load.value
+                            : (wanted * load.value - work.constant.growing_forces) / growing;
     if (std::isfinite(last) && last > now) {
-      path_.end(Termination::completed, fmt::format("the displacement reached {}", wanted));
+      path.end(Termination::completed, fmt::format("the displacement reached {}", wanted));
       return last;
     }
   }
-  path_.end(Termination::collapsed,
-            "the body separated: its pieces move without strains, and springs alone resist");
+  path.end(Termination::collapsed,
+           "the body separated: its pieces move without strains, and springs alone resist");
   return std::nullopt;
 }
 
@@ -287,7 +285,8 @@ bool EventRun::by_events() {
   } while (converts(event));
   if (missed_) return false;
   if (event.element == no_index) {
-    const std::optional<double> last = end_without_event(event, work);
+    const std::optional<double> last =
+        end_without_event(path_, event, work, *reference_, *stop_, path_.row.load_factor);
     if (last) record(*last, work, {});
     path_.over = true;
     return last.has_value();

@@ -87,7 +87,6 @@ class EventRun final : public StateSource {
   bool is_beyond_small_strains(double load_factor);
   bool leaves_small_strains(const Event& event);
   void record_separated(double load_factor, const LoadWork& work);
-  std::optional<double> end_without_event(const Event& event, const LoadWork& work);
   bool pass(const Event& event);
 
   const Network& network_;
@@ -108,6 +107,14 @@ class EventRun final : public StateSource {
 /// \param stop  rules of the run or the present stage
 /// \return whether the run has ended
 bool stop_rule_met(PathState& path, const DamageOptions& options, const StopRules& stop);
+
+/// Ends a run in which no element can fail any more. Pieces of a separated body that springs still
+/// hold go on to the displacement of the stop rule.
+/// \param now  present load factor
+/// \return load factor of the row at this displacement, if there is one
+std::optional<double> end_without_event(PathState& path, const Event& event, const LoadWork& work,
+                                        const ReferenceLoad& load, const StopRules& stop,
+                                        double now);
 
 /// Writes the result of the present stage at its end.
 void end_stage(PathState& path, const Network& network);

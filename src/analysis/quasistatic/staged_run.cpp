@@ -141,7 +141,9 @@ bool EventRun::follow_stage() {
            converts(event, aim && *aim < staged_->load_factor() ? -1.0 : 1.0));
   if (missed_) return false;
   const bool arrived = event.element == no_index;
-  if (arrived && !aim) aim = end_without_event(event, work);
+  if (arrived && !aim) {
+    aim = end_without_event(path_, event, work, *reference_, *stop_, staged_->load_factor());
+  }
   if (arrived && !aim) return false;
   const double load_factor = arrived ? *aim : event.load_factor;
   const double before = staged_->load_factor();

@@ -21,8 +21,8 @@ struct Field {
   std::vector<double> values;        ///< solution per unknown
   std::vector<double> displacement;  ///< shape (particles, width)
   std::vector<double> ground_load;   ///< per unknown; empty: there are no ground springs
-  /// Norm of load(). Where its forces cancel, as those of a uniform plastic strain do, it is that of
-  /// the forces of prescribed motions with their reactions.
+  /// Norm of load(). Where its forces cancel, as those of an even plastic strain do, norm of the
+  /// forces of prescribed motions with their reactions.
   double load_norm = 0.0;
   /// Largest displacement, if errors of a motion spread to particles at rest; else 0 [length].
   double largest_motion = 0.0;
