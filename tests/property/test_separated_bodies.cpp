@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <ostream>
 
 #include "support/replaced.hpp"
@@ -16,8 +15,8 @@ namespace {
 
 using namespace test;
 
-constexpr double stiffness = 100.0;  ///< of the ground springs per area [force/length^3]
-constexpr double end = 0.5;          ///< displacement of the stop rule [length]
+constexpr double ground_stiffness = 100.0;  ///< of the ground springs per area [force/length^3]
+constexpr double last_displacement = 0.5;   ///< displacement of the stop rule [length]
 
 struct SpringCase {
   std::string name;
@@ -41,7 +40,7 @@ std::string spring_case(const SpringCase& body) {
   SofteningStrip strip = spring_strip();
   strip.model = body.model;
   strip.more = fmt::format("{}[[springs]]\nregion = \"right\"\nstiffness = [{}, 0]\n", body.rules,
-                           stiffness);
+                           ground_stiffness);
   const std::string text = softening_case(strip);
   if (body.driven) return text;
   return replaced(text, "[[displacements]]\nregion = \"right\"\nx = 0.1",
@@ -56,8 +55,8 @@ TEST_P(SeparatedStrips, GoOnToTheDisplacementOfTheStopRule) {
   const WholeRun run(spring_case(GetParam()));
   const auto& summary = run.summary.json;
   EXPECT_EQ(summary.at("status"), "completed") << summary.at("reason");
-  const double force = stiffness * strip.width * end;
-  EXPECT_NEAR(run.history("displacement").back(), end, 1e-9 * end);
+  const double force = ground_stiffness * strip.width * last_displacement;
+  EXPECT_NEAR(run.history("displacement").back(), last_displacement, 1e-9 * last_displacement);
   EXPECT_NEAR(run.history("load").back(), force, 1e-9 * force);
   // Bands of two horizons dissipate up to twice the energy of one crack here.
   EXPECT_LT(summary.at("dissipated_energy").get<double>(),
@@ -67,8 +66,9 @@ TEST_P(SeparatedStrips, GoOnToTheDisplacementOfTheStopRule) {
 }
 
 std::vector<SpringCase> spring_cases() {
-  const std::string stage = fmt::format("[[stages]]\nname = \"pull\"\ndisplacement = {}\n", end);
-  const std::string stop = fmt::format("[stop]\ndisplacement = {}\n", end);
+  const std::string stage =
+      fmt::format("[[stages]]\nname = \"pull\"\ndisplacement = {}\n", last_displacement);
+  const std::string stop = fmt::format("[stop]\ndisplacement = {}\n", last_displacement);
   const std::string single = "event_tolerance = 0\n";
   std::vector<SpringCase> cases;
   for (const std::string model : {"bond_based", "micropolar"}) {
@@ -97,7 +97,7 @@ TEST(SeparatedStrips, CollapseIfNoStopRuleGivesTheirEnd) {
       EXPECT_EQ(run.summary.json.at("status"), "collapsed") << rules;
       EXPECT_THAT(run.summary.json.at("reason").get<std::string>(),
                   testing::HasSubstr("the body separated"));
-      EXPECT_LT(run.history("displacement").back(), end);
+      EXPECT_LT(run.history("displacement").back(), last_displacement);
     }
   }
 }
