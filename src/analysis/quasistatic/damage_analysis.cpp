@@ -242,6 +242,31 @@ void EventRun::record_separated(double load_factor, const LoadWork& work) {
   path_.over = true;
 }
 
+std::optional<double> end_without_event(PathState& path, const Event& event, const LoadWork& work,
+                                        const ReferenceLoad& load, const StopRules& stop,
+                                        double now) {
+  if (!event.no_strain) {
+    path.end(Termination::nothing_breaks, path.events > 0
+                                              ? "no further bond can break under this load"
+                                              : "no bond can break under this load");
+    return std::nullopt;
+  }
+  if (stop.displacement) {
+    const double wanted = *stop.displacement;
+    const double growing = path.in_stage ? work.forces : work.forces + work.supports;
+    const double last = load.driven
+                            ? wanted / load.value
+                            : (wanted * load.value - work.constant.growing_forces) / growing;
+    if (std::isfinite(last) && last > now) {
+      path.end(Termination::completed, fmt::format("the displacement reached {}", wanted));
+      return last;
+    }
+  }
+  path.end(Termination::collapsed,
+           "the body separated: its pieces move without strains, and springs alone resist");
+  return std::nullopt;
+}
+
 /// Goes to the next event; the load factor rises or falls to it.
 /// \return false at the end of the run
 bool EventRun::by_events() {
@@ -260,10 +285,11 @@ bool EventRun::by_events() {
   } while (converts(event));
   if (missed_) return false;
   if (event.element == no_index) {
-    path_.end(Termination::nothing_breaks, path_.events > 0
-                                               ? "no further bond can break under this load"
-                                               : "no bond can break under this load");
-    return false;
+    const std::optional<double> last =
+        end_without_event(path_, event, work, *reference_, *stop_, path_.row.load_factor);
+    if (last) record(*last, work, {});
+    path_.over = true;
+    return last.has_value();
   }
   if (leaves_small_strains(event)) return false;
   record(event.load_factor, work, event);

@@ -108,6 +108,14 @@ class EventRun final : public StateSource {
 /// \return whether the run has ended
 bool stop_rule_met(PathState& path, const DamageOptions& options, const StopRules& stop);
 
+/// Ends a run in which no element can fail any more. Pieces of a separated body that springs still
+/// hold go on to the displacement of the stop rule.
+/// \param now  present load factor
+/// \return load factor of the row at this displacement, if there is one
+std::optional<double> end_without_event(PathState& path, const Event& event, const LoadWork& work,
+                                        const ReferenceLoad& load, const StopRules& stop,
+                                        double now);
+
 /// Writes the result of the present stage at its end.
 void end_stage(PathState& path, const Network& network);
 

@@ -77,9 +77,11 @@ bool EventRun::leave_row(const Event& event) {
       end_stage(path_, network_);
       return false;
     }
-    path_.end(Termination::completed, rules.to
-                                          ? fmt::format("the load factor reached {}", *rules.to)
-                                          : fmt::format("the load reached {}", *rules.to_load));
+    if (rules.to) {
+      path_.end(Termination::completed, fmt::format("the load factor reached {}", *rules.to));
+    } else if (rules.to_load) {
+      path_.end(Termination::completed, fmt::format("the load reached {}", *rules.to_load));
+    }  // else end_without_event() has set the reason
   }
   end_stage(path_, network_);
   ++path_.position;
@@ -140,11 +142,9 @@ bool EventRun::follow_stage() {
   if (missed_) return false;
   const bool arrived = event.element == no_index;
   if (arrived && !aim) {
-    path_.end(Termination::nothing_breaks, path_.events > 0
-                                               ? "no further bond can break under this load"
-                                               : "no bond can break under this load");
-    return false;
+    aim = end_without_event(path_, event, work, *reference_, *stop_, staged_->load_factor());
   }
+  if (arrived && !aim) return false;
   const double load_factor = arrived ? *aim : event.load_factor;
   const double before = staged_->load_factor();
   staged_->move_to(load_factor);

@@ -50,6 +50,10 @@ inline double finite_ratio(Index element, double ratio) {
                     "finite, and further results would be meaningless");
 }
 
+/// Fraction of a motion below which an extension is round-off [-]: of the motion of the element's
+/// ends, or of the largest in the body, which errors of K^-1 carry to particles at rest.
+inline constexpr double motion_round_off = 1e-12;
+
 /// Makes the search for the intact elements of a network, trusses or frames.
 /// \param at_loads  displacements are under given loads, as in stages, not at load factor 1. Bonds
 ///                  that bend are then in tension where CrossingSearch says so.

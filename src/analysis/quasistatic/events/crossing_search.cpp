@@ -16,9 +16,6 @@ namespace {
 /// symmetry keeps its length, round-off must not decide.
 constexpr double least_stretch = 1e-6;
 
-/// Fraction of the ends' motion below which an extension is round-off [-].
-constexpr double motion_round_off = 1e-12;
-
 /// Number of blocks below which one thread is faster.
 constexpr Index fewest_parallel_crossings = 100;
 
@@ -37,16 +34,22 @@ struct Measure {
 
 }  // namespace
 
-CrossingSearch::Query::Query(std::span<const double> present, std::span<const double> added,
-                             double direction, double within, bool asks_for_largest)
+CrossingSearch::Query::Query(const Network& network, std::span<const double> present,
+                             std::span<const double> added, double direction, double within,
+                             bool asks_for_largest)
     : now(present.data()),
       growing(added.data()),
       sense(direction),
       tolerance(within),
       largest(asks_for_largest) {
   double most = 0.0;
-  for (const double value : added) most = std::max(most, std::abs(value));
-  noise = 6.0 * motion_round_off * most;  // two ends, three components
+  const auto width = static_cast<std::size_t>(network.width());
+  for (std::size_t begin = 0; begin < added.size(); begin += width) {
+    for (std::size_t slot = begin; slot < begin + network.dim(); ++slot) {
+      most = std::max(most, std::abs(added[slot]));
+    }
+  }
+  noise = motion_round_off * most;
 }
 
 /// Returns whether the low end of the interval may be the answer.
@@ -70,7 +73,10 @@ void CrossingSearch::Found::add(const Found& other) {
 }
 
 CrossingSearch::CrossingSearch(const Network& network)
-    : dim_(network.dim()), turns_(network.carries_moments()), torsion_(network.torsion) {
+    : network_(network),
+      dim_(network.dim()),
+      turns_(network.carries_moments()),
+      torsion_(network.torsion) {
   const int width = network.width();
   for (Index e = 0; e < network.num_elements(); ++e) {
     if (!network.has_limit(e)) continue;
@@ -136,7 +142,11 @@ void CrossingSearch::visit(const Element& element, const Query& query, Sink&& si
   auto growing =
       measure<Dim, Turns>(element, query.growing, query.sense * element.inverse, torsion_);
   const double extension = growing.part[0] / element.inverse;
-  if (std::abs(extension) <= query.noise && is_noise<Dim>(element, query.growing, extension)) {
+  constexpr double most_of_ends = 6.0;  // two ends, three components
+  if (growing.times(growing) <= std::pow(query.noise * element.inverse, 2)) {
+    growing = {};
+  } else if (std::abs(extension) <= most_of_ends * query.noise &&
+             is_noise<Dim>(element, query.growing, extension)) {
     growing.part[0] = 0.0;
   }
   const double square = now.times(now), rate = growing.times(growing);
@@ -240,7 +250,7 @@ Index CrossingSearch::element_at(double distance, const Query& query) const {
 
 auto CrossingSearch::ahead(std::span<const double> now, std::span<const double> growing, int sense,
                            double tolerance, int threads) -> Crossing {
-  const Query query(now, growing, sense, tolerance, false);
+  const Query query(network_, now, growing, sense, tolerance, false);
   const Found found = find(query, threads);
   if (found.low == infinity) return {};
   return {element_at(found.low, query), sense * std::max(found.low, 0.0)};
@@ -248,7 +258,7 @@ auto CrossingSearch::ahead(std::span<const double> now, std::span<const double> 
 
 auto CrossingSearch::largest(std::span<const double> now, std::span<const double> growing,
                              double tolerance, int threads) -> Crossing {
-  const Query query(now, growing, 1.0, tolerance, true);
+  const Query query(network_, now, growing, 1.0, tolerance, true);
   const Found found = find(query, threads);
   double distance = found.low;
   Index element = no_index;

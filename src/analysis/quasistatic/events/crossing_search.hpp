@@ -13,7 +13,7 @@ namespace perilink {
 /// present ones plus d times those of growing loads. The stretch over its limit of a truss is
 /// linear in d. The squared equivalent stretch of a micropolar bond (FrameLimitSearch) is quadratic
 /// in d. An element fails in one or two open intervals of d. Extensions within the round-off of the
-/// ends' motion count as constant.
+/// ends' motion count as constant, as do deformations within that of the largest motion.
 class CrossingSearch {
  public:
   explicit CrossingSearch(const Network& network);
@@ -64,10 +64,10 @@ class CrossingSearch {
     double sense;  ///< 1 or -1: sign of the growing displacements
     double tolerance;
     bool largest;  ///< the query is largest(), not ahead()
-    double noise;  ///< growing extensions above this are not round-off [length]
+    double noise;  ///< growing deformations up to this are round-off [length]
 
-    Query(std::span<const double> now, std::span<const double> growing, double sense,
-          double tolerance, bool largest);
+    Query(const Network& network, std::span<const double> now, std::span<const double> growing,
+          double sense, double tolerance, bool largest);
 
     bool asks_for(const Interval& interval) const;
   };
@@ -99,6 +99,7 @@ class CrossingSearch {
   Found find(const Query& query, int threads);
   Index element_at(double distance, const Query& query) const;
 
+  const Network& network_;
   int dim_;
   bool turns_;
   double torsion_;

@@ -18,6 +18,8 @@ struct Event {
   bool at_constant_load = false;   ///< the element is beyond its limit at a constant load
   bool changes_side = false;       ///< a damaged bond closes or opens, and no element fails
   std::vector<Index> others = {};  ///< elements that fail with it, within the event tolerance
+  /// There is no element: pieces of a damaged body move, and strain none of its elements.
+  bool no_strain = false;
 
   template <class Archive>
   void serialize(Archive& archive) {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "analysis/quasistatic/equilibrium/displacement/element_deformations.hpp"
+#include "assembly/linear_elements.hpp"
 #include "base/block.hpp"
 #include "base/error.hpp"
 
@@ -18,14 +19,14 @@ struct NoisyExtension {
 };
 
 NoisyExtension extension_of(const Network& network, Index element, std::span<const double> u) {
-  constexpr double digits = 1e-12;
   const std::span<const double> n = network.bonds.direction(element);
   const std::size_t i = static_cast<std::size_t>(network.bonds.first[element]) * network.width();
   const std::size_t j = static_cast<std::size_t>(network.bonds.second[element]) * network.width();
   NoisyExtension change{0.0, 0.0};
   for (int a = 0; a < network.dim(); ++a) {
     change.value += n[a] * (u[j + a] - u[i + a]);
-    change.round_off += digits * std::abs(n[a]) * (std::abs(u[j + a]) + std::abs(u[i + a]));
+    change.round_off +=
+        motion_round_off * std::abs(n[a]) * (std::abs(u[j + a]) + std::abs(u[i + a]));
   }
   return change;
 }
@@ -74,11 +75,13 @@ Event SingleEventEngine::next_event_below(double most) {
     equilibrium_.check();
     hit = find();
   }
-  if (hit.element == no_index) return {};
-  if (is_within(noise)) {
-    refuse_hidden_strains(noise, hit);
-    return {};
+  if (hit.element == no_index || is_within(noise)) return no_event(hit);
+  constexpr double far = 1e-6;  // other events need no look at all displacements
+  if (hit.ratio <= far * largest_ratio_ || largest_ratio_ == 0.0) {
+    const double largest = solution.body().largest_of(equilibrium_.where_elements_fail());
+    if (is_within(motion_round_off * largest)) return no_event(hit);
   }
+  largest_ratio_ = std::max(largest_ratio_, hit.ratio);
   Event event{hit.element, 1.0 / hit.ratio};
   if (fails_with_others(hit.element) && event.load_factor <= most) {
     add_others(event, hit.ratio, most);
@@ -140,18 +143,36 @@ void SingleEventEngine::limit_batch(const Event& event, double energy,
   progress_.last_factor = factor;
 }
 
-/// Accepts that no element is in tension only if other elements are strained far more. Otherwise
-/// weak springs let the whole body move, and round-off hides the strains.
-/// \throws SolverError if round-off hides the strains
-void SingleEventEngine::refuse_hidden_strains(double noise, const BreakSearch::Hit& hit) {
+/// No element is in tension, which is so if other elements are strained far more. If none is, the
+/// pieces of a damaged body move as wholes. In an undamaged body weak springs let the body move,
+/// and round-off hides its strains.
+Event SingleEventEngine::no_event(const BreakSearch::Hit& reached) {
   constexpr double far_more = 1e3;
+  const std::span<const double> motion = equilibrium_.displacement();
+  const double noise = motion_round_off * equilibrium_.solution().body().largest_of(motion);
   for (Index e = 0; e < network_.num_elements(); ++e) {
     if (secants()[e] == 0.0) continue;
-    const NoisyExtension change = extension_of(network_, e, equilibrium_.where_elements_fail());
-    const double beyond = std::abs(change.value) - change.round_off - noise;
-    const double reached = hit.ratio * limit_of(e) * network_.bonds.length(e);
-    if (beyond > far_more * reached) return;
+    const NoisyExtension change = extension_of(network_, e, motion);
+    double size = std::abs(change.value);
+    if (network_.carries_moments()) {
+      const Removal modes = removal_of(equilibrium_.solution(), {e, 0.0});
+      const double energy = square_of(deformations(equilibrium_.solution(), modes, e));
+      size = std::sqrt(energy / (secants().axial(e) * network_.stiffness[e]));
+    }
+    // Elements without a limit compare with the strain reached.
+    const Index like = network_.has_limit(e) ? e : reached.element;
+    const double most = reached.element == no_index || reached.ratio == 0.0
+                            ? 0.0
+                            : reached.ratio * limit_of(like) * network_.bonds.length(e);
+    if (size - change.round_off - noise > far_more * most) return {};
   }
+  if (network_.cells) {
+    const auto [work, sizes] = work_between(*network_.cells, network_.width(), motion, motion);
+    if (work > motion_round_off * sizes) return {};
+  }
+  const auto is_intact = [](int segment) { return segment == 0; };
+  const bool intact = std::ranges::all_of(progress_.segments, is_intact);
+  if (!intact || reached.element == no_index) return {.no_strain = !intact};
   throw SolverError(
       "the body moves as a whole, so far that round-off hides the stretches of its bonds: the "
       "next bond to break is unknown; hold the body by supports or by stiffer springs");

@@ -78,7 +78,10 @@ class SingleEventEngine : public EventEngine {
   /// Passes the next limits of an element to the search after its event.
   void set_limits(Index element);
 
-  void refuse_hidden_strains(double noise, const BreakSearch::Hit& hit);
+  /// Returns that there is no event.
+  /// \param reached  the largest ratio, which is round-off; no element if none is in tension
+  /// \throws SolverError if round-off hides the strains of an undamaged body
+  Event no_event(const BreakSearch::Hit& reached = {});
 
   const Network& network_;
   ThreadChoice threads_;
@@ -89,6 +92,7 @@ class SingleEventEngine : public EventEngine {
   /// Present if there are bonds with segments in compression.
   std::optional<CrushingBonds> crushing_;
   EventProgress progress_;
+  double largest_ratio_ = 0.0;  ///< of all events found: stretch over its limit at load factor 1
   /// Law and reference stretch of a bar that has flowed.
   struct OwnLaw {
     BondLaw law;

@@ -179,7 +179,7 @@ Event StagedEngine::next_event_below(double /*most*/) {
   if (const Event change = side_change_within(distance); change.element != no_index) {
     return turns_back(change) ? with_others({worst().element, loads_.load_factor, true}) : change;
   }
-  if (last.element == no_index) return {};
+  if (last.element == no_index) return no_event();
   return with_others({last.element, loads_.load_factor + last.distance});
 }
 

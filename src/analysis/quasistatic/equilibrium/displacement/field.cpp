@@ -23,10 +23,19 @@ std::vector<double> Field::forces(const Unknowns& unknowns, const Loads& loads) 
 }
 
 std::vector<double> Field::load(const DamagedBody& body, const Unknowns& unknowns,
-                                const Loads& loads) const {
-  std::vector<double> load =
-      assemble_right_hand_side(body.network(), body.secants(), unknowns, loads);
+                                const Loads& loads, double* norm) const {
+  constexpr double cancelled = 1e-8;
+  double driven = 0.0;
+  std::vector<double> load = right_hand_side(unknowns, loads, [&](std::span<const double> u) {
+    InternalForce internal = internal_force(body.network(), body.secants(), u);
+    driven = std::sqrt(scalar_product(internal.forces, internal.forces));
+    return internal;
+  });
   for (std::size_t k = 0; k < ground_load.size(); ++k) load[k] += ground_load[k];
+  if (norm != nullptr) {
+    *norm = std::sqrt(scalar_product(load, load));
+    if (*norm <= cancelled * driven) *norm = driven;
+  }
   return load;
 }
 

@@ -21,7 +21,9 @@ struct Field {
   std::vector<double> values;        ///< solution per unknown
   std::vector<double> displacement;  ///< shape (particles, width)
   std::vector<double> ground_load;   ///< per unknown; empty: there are no ground springs
-  double load_norm = 0.0;            ///< norm of load()
+  /// Norm of load(). Where its forces cancel, as those of an even plastic strain do, norm of the
+  /// forces of prescribed motions with their reactions.
+  double load_norm = 0.0;
   /// Largest displacement, if errors of a motion spread to particles at rest; else 0 [length].
   double largest_motion = 0.0;
 
@@ -31,8 +33,13 @@ struct Field {
   /// Returns the forces on the unknowns, without those of prescribed motions.
   std::vector<double> forces(const Unknowns& unknowns, const Loads& loads) const;
   /// Returns all forces on the unknowns.
-  std::vector<double> load(const DamagedBody& body, const Unknowns& unknowns,
-                           const Loads& loads) const;
+  std::vector<double> load(const DamagedBody& body, const Unknowns& unknowns, const Loads& loads,
+                           double* norm = nullptr) const;
+  /// Returns load() and sets its norm.
+  std::vector<double> measure_load(const DamagedBody& body, const Unknowns& unknowns,
+                                   const Loads& loads) {
+    return load(body, unknowns, loads, &load_norm);
+  }
   /// \param internal  receives the forces of the elements; its memory is reused
   Residual residual(const DamagedBody& body, const Unknowns& unknowns, const Loads& loads,
                     InternalForce& internal) const;

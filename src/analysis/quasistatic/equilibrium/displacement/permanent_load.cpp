@@ -58,8 +58,7 @@ void PermanentLoad::set_values(std::vector<double> values) {
 }
 
 void PermanentLoad::refresh() {
-  const std::vector<double> wanted = load();
-  field_.load_norm = std::sqrt(scalar_product(wanted, wanted));
+  const std::vector<double> wanted = field_.measure_load(body_, given_.unknowns, given_.loads);
   field_.values.assign(wanted.size(), 0.0);
   const auto moves = [](double u) { return u != 0.0; };
   rests_ = field_.load_norm == 0.0 && std::ranges::none_of(given_.unknowns.prescribed, moves);

@@ -93,6 +93,35 @@ TEST_P(Crossings, RoundOffOfARigidMotionNeverFails) {
   EXPECT_EQ(found.distance, infinity);
 }
 
+/// Errors of K^-1 carry round-off of a far motion to particles at rest, where it is large beside
+/// their own motion. The piece that moves far is cut off.
+TEST_P(Crossings, RoundOffOfAPieceFarAwayNeverFails) {
+  CrossingSearch search(network_);
+  const auto width = static_cast<std::size_t>(network_.width());
+  const Index far = network_.particles.size() - 1;
+  for (Index e = 0; e < network_.num_elements(); ++e) {
+    if (network_.bonds.first[e] == far || network_.bonds.second[e] == far) {
+      search.set_limit(e, infinity);
+    }
+  }
+  std::vector<double> now = random_vector(slots_, 3), growing = random_vector(slots_, 7);
+  for (std::size_t slot = 0; slot < slots_; ++slot) {
+    now[slot] *= 1e-3;
+    growing[slot] *= 1e-14;
+  }
+  growing[far * width] = 1.0;
+  for (const int sense : {1, -1}) {
+    EXPECT_EQ(search.ahead(now, growing, sense, tie_tolerance, 1).element, no_index);
+  }
+  const auto found = search.largest(now, growing, tie_tolerance, 1);
+  EXPECT_EQ(found.element, no_index);
+  EXPECT_EQ(found.distance, infinity);
+  for (double& u : growing) u *= 1e-4;
+  growing[far * width] = 1e-14;  // the rest moves as far
+  for (double& u : growing) u *= 1e18;
+  EXPECT_NE(search.ahead(now, growing, 1, tie_tolerance, 1).element, no_index);
+}
+
 TEST_P(Crossings, LargestIsTheLastWhereNoneFails) {
   CrossingSearch search(network_);
   int found_some = 0, found_none = 0;
