@@ -86,6 +86,19 @@ void require_balance(const CaseFile& input, Model& model, const Fragment& fragme
   }
 }
 
+/// Refuses a pre-crack that leaves a particle with no bonds across a plane on which it is held.
+void refuse_crack_on_support(const CaseFile& input, const Model& model, Index particle) {
+  const std::string crack = crack_beside(model, {&particle, 1});
+  if (crack.empty()) return;
+  throw InputError(
+      input.where(crack),
+      fmt::format("cuts the particle at ({}), which a support or plane of symmetry holds, off the "
+                  "body: the crack runs along this support",
+                  joined(model.network.places().position(particle))),
+      "for a notch there delete the crack, and hold the ligament only: give [[supports]] or "
+      "[[symmetry]] a region that ends at the tip of the notch");
+}
+
 /// Refuses loads on a part that a pre-crack cuts off, or leaves with too few bonds.
 void refuse_cut_off(const CaseFile& input, const Model& model, std::span<const Index> particles) {
   const std::string crack = crack_beside(model, particles);
@@ -196,10 +209,16 @@ void refuse_loose_particles(const CaseFile& input, const Model& model,
                             const std::vector<std::uint8_t>& off) {
   const int dim = model.network.dim();
   for (const Index i : find_loose_particles(model.network)) {
-    bool held = true;
+    bool held = true, partly = false, loaded = false;
     const std::size_t slot = static_cast<std::size_t>(i) * model.network.width();
-    for (int a = 0; a < dim; ++a) held &= prescription.held[slot + a] != 0;
+    for (int a = 0; a < dim; ++a) {
+      const bool holds = prescription.held[slot + a] != 0;
+      held = held && holds;
+      partly = partly || holds;
+      loaded = loaded || prescription.value[slot + a] != 0.0 || model.loads.forces[slot + a] != 0.0;
+    }
     if (held || off[i] != 0) continue;
+    if (partly && !loaded) refuse_crack_on_support(input, model, i);
     refuse_cut_off(input, model, {&i, 1});
     throw InputError(
         input.where(input.body.horizon ? "body.horizon" : "body"),
