@@ -42,13 +42,13 @@ class MovingBondsRun : public NetworkRun, protected BondRunObserver {
   void add_forces_and_cracks(VtuGrid& grid, const ExplicitRecord& record, const BondRunState& state,
                              const std::vector<double>& motion);
 
-  Index steps_ = 0;                 ///< in the whole run
-  Index checkpoint_rows_ = 0;       ///< rows between checkpoints; 0: none
-  std::optional<TimeState> from_;   ///< state to go on from
-  std::vector<GrownCrack> cracks_;  ///< in the last field file
-  FaceOverlap overlap_;             ///< at the end
+  Index steps_ = 0;                            ///< in the whole run
+  Index checkpoint_rows_ = 0;                  ///< rows between checkpoints; 0: none
+  std::optional<TimeState> from_;              ///< state to go on from
+  std::vector<GrownCrack> cracks_;             ///< in the last field file
+  FaceOverlap overlap_;                        ///< at the end
   std::optional<SymmetryDamage> on_symmetry_;  ///< at the end
-  Index loose_pieces_ = 0;          ///< unsupported parts of the broken body at the end
+  Index loose_pieces_ = 0;                     ///< unsupported parts of the broken body at the end
 
  private:
   Csr neighbourhoods_;

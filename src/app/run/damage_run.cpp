@@ -159,9 +159,9 @@ void DamageRun::tell(Summary& summary) const {
   } else if (auto end = warning_about_end(result_.last.displacement, length)) {
     found.warnings.push_back(std::move(*end));
   }
-  for (auto& warning : {records_.balance.warning(),
-                        warning_about_overlap(records_.overlap, model_.network.dim()),
-                        warning_about_symmetry(on_symmetry_)}) {
+  for (auto& warning :
+       {records_.balance.warning(), warning_about_overlap(records_.overlap, model_.network.dim()),
+        warning_about_symmetry(on_symmetry_)}) {
     if (warning) found.warnings.push_back(*warning);
   }
   const bool forced =

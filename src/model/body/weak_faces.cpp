@@ -94,7 +94,8 @@ void refuse_apart(const CaseFile& input, std::size_t k, const Particles& particl
 std::optional<double> place_of_plane(const CaseFile& input, const Body& body,
                                      const SymmetrySection& plane) {
   if (plane.at) return plane.at;
-  if (std::ranges::find(input.regions, plane.region, &Region::name) == input.regions.end()) return {};
+  if (std::ranges::find(input.regions, plane.region, &Region::name) == input.regions.end())
+    return {};
   std::vector<std::uint8_t> inside(static_cast<std::size_t>(body.particles.size()), 0);
   mark(input, body, plane.region, 1, inside);
   const auto first = std::ranges::find(inside, 1) - inside.begin();

@@ -45,9 +45,9 @@ void read_reaction(const CaseTable& table, Kinds kind, const GaugeSection& gauge
     }
   } else {
     table.need("axis", table.text("axis"),
-               gauge.about                    ? "the axis of the moment: x, y or z"
+               gauge.about                  ? "the axis of the moment: x, y or z"
                : (kind & kinds::plane) != 0 ? "x or y"
-                                              : "x, y or z");
+                                            : "x, y or z");
   }
 }
 
