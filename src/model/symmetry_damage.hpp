@@ -25,6 +25,10 @@ struct SymmetryDamage {
 std::optional<SymmetryDamage> damage_on_symmetry(const CaseFile& input, const Model& model,
                                                  const Secants& secants);
 
+/// Returns a note on a plane of symmetry that holds the breakable ligament beside a notch, from
+/// which a crack would run along the plane.
+std::optional<std::string> ligament_note(const CaseFile& input, const Model& model);
+
 /// Returns a warning where a substantial part of the damage lies along a plane of symmetry.
 std::optional<std::string> warning_about_symmetry(const std::optional<SymmetryDamage>& damage);
 

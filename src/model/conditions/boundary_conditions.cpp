@@ -95,8 +95,8 @@ void refuse_crack_on_support(const CaseFile& input, const Model& model, Index pa
       fmt::format("cuts the particle at ({}), which a support or plane of symmetry holds, off the "
                   "body: the crack runs along this support",
                   joined(model.network.places().position(particle))),
-      "for a notch there delete the crack, and hold the ligament only: give [[supports]] or "
-      "[[symmetry]] a region that ends at the tip of the notch");
+      "move the crack into the body, or delete it; where it lies in a plane of symmetry model the "
+      "whole body, since a half body takes the whole fracture energy of a crack there");
 }
 
 /// Refuses loads on a part that a pre-crack cuts off, or leaves with too few bonds.

@@ -92,6 +92,27 @@ TEST(SymmetryDamage, IsAbsentWithoutPlanesOrDamage) {
   EXPECT_FALSE(warning_about_symmetry(std::nullopt));
 }
 
+/// A plane that holds the upper part of its face, above a notch.
+TEST(SymmetryDamage, LigamentsBesideNotchesAreNoted) {
+  const std::string text =
+      "[body]\nproblem = \"plane_stress\"\nspacing = 4\nhorizon_ratio = 3\n"
+      "[[regions]]\nname = \"beam\"\nx = [0, 100]\ny = [0, 40]\n"
+      "[[regions]]\nname = \"face\"\nx = [0, 0]\ny = [{}, 40]\n"
+      "[[regions]]\nname = \"end\"\nx = [100, 100]\ny = [0, 40]\n"
+      "[[materials]]\nregion = \"beam\"\nyoungs_modulus = 30000\n"
+      "fracture_energy = {}\n[[symmetry]]\naxis = \"x\"\nregion = \"face\"\n"
+      "[[supports]]\nregion = \"end\"\nfix = [\"y\"]\n"
+      "[[displacements]]\nregion = \"end\"\nx = 1\n[analysis]\ntype = \"{}\"\n";
+  const auto note = [&](double from, const char* energy, const char* type) {
+    const CaseFile input = parse_case(fmt::format(fmt::runtime(text), from, energy, type), "beam");
+    return ligament_note(input, build_model(input));
+  };
+  ASSERT_TRUE(note(16, "0.1", "damage"));
+  EXPECT_THAT(*note(16, "0.1", "damage"), HasSubstr("symmetry[1] holds a part of the face x = 0"));
+  EXPECT_FALSE(note(0, "0.1", "damage"));
+  EXPECT_FALSE(note(16, "0.1", "elastic"));
+}
+
 TEST(SymmetryDamage, WarningNamesThePlaneAndWhatToDo) {
   const auto warning = warning_about_symmetry(SymmetryDamage{1, 0.62});
   ASSERT_TRUE(warning);
