@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 #include <vector>
 
@@ -36,31 +36,26 @@ std::optional<SymmetryDamage> damage_on_symmetry(const CaseFile& input, const Mo
                                                  const Secants& secants) {
   const Network& network = model.network;
   if (input.symmetry.empty() || network.critical_stretch.empty()) return std::nullopt;
-  constexpr double steep = 0.5;  // squared cosine of the angle between bond and normal
+  constexpr double steep = 0.5 - 1e-6;  // squared cosine of the angle between bond and normal
   std::vector<std::vector<std::uint8_t>> in_plane;
   for (std::size_t k = 0; k < input.symmetry.size(); ++k) {
     in_plane.push_back(marked(network.particles.size(), particles_of_plane(input, model, k)));
   }
   double all = 0.0;
-  std::vector<double> along(in_plane.size(), 0.0), dbg1(in_plane.size(), 0.0), dbg2(in_plane.size(), 0.0);
+  std::vector<double> along(in_plane.size(), 0.0);
   for (Index b = 0; b < network.num_bonds(); ++b) {
     const double energy = dissipated(network, secants, b);
     all += energy;
     for (std::size_t k = 0; energy > 0.0 && k < in_plane.size(); ++k) {
       const double normal = network.bonds.direction(b)[input.symmetry[k].axis];
-      const int ends = in_plane[k][network.bonds.first[b]] + in_plane[k][network.bonds.second[b]];
-      if (ends == 1 && normal * normal >= steep) along[k] += energy;
-      if (ends == 1) dbg1[k] += energy;
-      if (ends == 1) dbg2[k] += energy*normal*normal;
+      const bool leaves =
+          in_plane[k][network.bonds.first[b]] != in_plane[k][network.bonds.second[b]];
+      if (leaves && normal * normal >= steep) along[k] += energy;
     }
   }
   if (!(all > 0.0)) return std::nullopt;
-  SymmetryDamage most;
-  for (std::size_t k = 0; k < along.size(); ++k) {
-    if (std::getenv("SYMDBG")) fmt::print("SYM {} all {:.5g}: 45deg {:.3f} one-end {:.3f} n2 {:.3f}\n", k+1, all, along[k]/all, dbg1[k]/all, dbg2[k]/all);
-    if (along[k] / all > most.share) most = {k, along[k] / all};
-  }
-  return most;
+  const auto most = std::ranges::max_element(along);
+  return SymmetryDamage{static_cast<std::size_t>(most - along.begin()), *most / all};
 }
 
 std::optional<std::string> ligament_note(const CaseFile& input, const Model& model) {

@@ -19,9 +19,9 @@ struct SymmetryDamage {
 };
 
 /// Returns the plane of symmetry with the largest share in the dissipated energy; empty without
-/// planes or dissipated energy. Bonds with one end in the plane count if they cross it at 45 degrees
-/// or more. A crack along the plane has a share of 0.5 to 1, one across it less than 1/4, and the
-/// less the longer it is.
+/// planes or dissipated energy. Bonds with one end in the plane count if they leave it at 45 degrees
+/// or more. Cracks along a plane have shares of 0.45 to 1, cracks across it 0.1 and less, or 0.2
+/// where they have cut its first row only.
 std::optional<SymmetryDamage> damage_on_symmetry(const CaseFile& input, const Model& model,
                                                  const Secants& secants);
 
