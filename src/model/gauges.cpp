@@ -16,6 +16,7 @@
 #include "model/crack_shares.hpp"
 #include "model/model_regions.hpp"
 #include "model/reactions.hpp"
+#include "network/builder/shell_bonds.hpp"
 #include "results/history_file.hpp"
 
 namespace perilink {
@@ -237,6 +238,10 @@ void fill_force(const CaseFile& input, const Model& model, const std::string& ke
   }
   gauge.force = is_loaded && !is_held ? Gauge::Force::load : Gauge::Force::reaction;
   gauge.about = section.about;
+  if (section.about && model.network.shell) {
+    const Vector3& flat = *section.about;
+    gauge.about = point_on_shell(flat[0], flat[1], input.body.radius.value_or(0.0));
+  }
   if (section.about && !section.axis) gauge.direction[2] = 1.0;  // in the plane
   const bool is_load = gauge.force == Gauge::Force::load;
   gauge.place =

@@ -218,6 +218,21 @@ std::vector<Index> particles_of_region(const CaseFile& input, const Model& model
   return inside;
 }
 
+std::vector<Index> particles_of_plane(const CaseFile& input, const Model& model, std::size_t k) {
+  const SymmetrySection& plane = input.symmetry[k];
+  if (!plane.at) {
+    return particles_of_region(input, model, plane.region, item_key("symmetry", k, "region"));
+  }
+  const Particles& particles = model.network.places();
+  std::vector<Index> inside;
+  for (Index i = 0; i < particles.size(); ++i) {
+    const double away = std::abs(particles.position(i)[plane.axis] - *plane.at);
+    const bool is_near = away <= region_tolerance * model.lattice.spacing;
+    if (is_near && is_material(particles.kind[i])) inside.push_back(i);
+  }
+  return inside;
+}
+
 std::vector<Index> facets_of_region(const CaseFile& input, const Model& model,
                                     const std::string& region, const std::string& key) {
   const Region* own = find_region(input, region);

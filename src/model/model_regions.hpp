@@ -18,6 +18,11 @@ const Group& group_named(const Model& model, const std::string& name);
 std::vector<Index> particles_of_region(const CaseFile& input, const Model& model,
                                        const std::string& region, const std::string& key);
 
+/// Returns particles in a plane of [[symmetry]], ascending: at its coordinate, or in its region.
+/// \param k  entry of [[symmetry]]
+/// \throws InputError when its region has none
+std::vector<Index> particles_of_plane(const CaseFile& input, const Model& model, std::size_t k);
+
 /// Returns surface facets with centres in a region, or surface facets of a physical group,
 /// ascending.
 /// \param key  place in the case, for messages

@@ -16,21 +16,6 @@
 namespace perilink {
 namespace {
 
-/// Returns the particles in a plane of symmetry, with the tolerance of the supports.
-std::vector<Index> particles_in(const CaseFile& input, const Model& model, std::size_t k) {
-  const SymmetrySection& plane = input.symmetry[k];
-  if (!plane.at) {
-    return particles_of_region(input, model, plane.region, item_key("symmetry", k, "region"));
-  }
-  std::vector<Index> inside;
-  const Particles& particles = model.network.particles;
-  for (Index i = 0; i < particles.size(); ++i) {
-    const double away = std::abs(particles.position(i)[plane.axis] - *plane.at);
-    if (away <= 1e-6 * model.lattice.spacing) inside.push_back(i);
-  }
-  return inside;
-}
-
 /// Returns the particles on springs, ascending. A stiffness per area acts on the corners of its
 /// facets, which may lie outside the region; a total is shared by all particles of the region.
 std::vector<Index> sprung_particles(const CaseFile& input, const Model& model, std::size_t k) {
@@ -231,7 +216,7 @@ std::vector<SupportRegion> support_regions(const CaseFile& input, const Model& m
     const SymmetrySection& plane = input.symmetry[k];
     add(plane.at ? fmt::format("symmetry: {} = {:.6g}", axis_names[plane.axis], *plane.at)
                  : "symmetry: " + plane.region,
-        particles_in(input, model, k));
+        particles_of_plane(input, model, k));
   }
   for (std::size_t k = 0; k < input.springs.size(); ++k) {
     add("springs: " + input.springs[k].region, sprung_particles(input, model, k));

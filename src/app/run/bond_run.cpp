@@ -143,12 +143,17 @@ void MovingBondsRun::on_end(const ExplicitRecord& last, const BondRunState& stat
   if (input.analysis.strain == Strain::small) {
     overlap_ = deepest_overlap(model_, state.motion.displacement);
   }
+  if (!input.symmetry.empty()) {
+    const std::vector<double> secants = state.bonds.secants();
+    on_symmetry_ = damage_on_symmetry(input, model_, secants);
+  }
   if (!model_.network.has_states()) loose_pieces_ = count_loose_pieces(model_, state);
 }
 
 void MovingBondsRun::warn_of_motion(Summary& summary, bool impact) const {
-  if (auto warning = warning_about_overlap(overlap_, model_.network.dim())) {
-    summary.add_warnings({std::move(*warning)});
+  for (auto& warning : {warning_about_overlap(overlap_, model_.network.dim()),
+                        warning_about_symmetry(on_symmetry_)}) {
+    if (warning) summary.add_warnings({*warning});
   }
   const bool is_free = input.supports.empty() && input.displacements.empty();
   if (impact || input.analysis.strain == Strain::green || is_free) return;

@@ -5,6 +5,7 @@
 #include "app/run/run_kind.hpp"
 #include "base/csr.hpp"
 #include "model/face_overlap.hpp"
+#include "model/symmetry_damage.hpp"
 
 namespace perilink {
 
@@ -33,20 +34,21 @@ class MovingBondsRun : public NetworkRun, protected BondRunObserver {
   bool wants_checkpoint(const ExplicitRecord& last) override;
   void on_checkpoint(const TimeState& state) override;
   void restore(const std::string& state) override;
-  /// Warns of faces of pre-cracks that overlap and, but for impacts, of displacements too large for
-  /// small strains.
+  /// Warns of faces of pre-cracks that overlap, of damage along planes of symmetry and, but for
+  /// impacts, of displacements too large for small strains.
   void warn_of_motion(Summary& summary, bool impact) const;
   void write_state(const ExplicitRecord& record, const BondRunState& state);
   /// \param motion  motion of the state, with the embedded points of bars
   void add_forces_and_cracks(VtuGrid& grid, const ExplicitRecord& record, const BondRunState& state,
                              const std::vector<double>& motion);
 
-  Index steps_ = 0;                 ///< in the whole run
-  Index checkpoint_rows_ = 0;       ///< rows between checkpoints; 0: none
-  std::optional<TimeState> from_;   ///< state to go on from
-  std::vector<GrownCrack> cracks_;  ///< in the last field file
-  FaceOverlap overlap_;             ///< at the end
-  Index loose_pieces_ = 0;          ///< unsupported parts of the broken body at the end
+  Index steps_ = 0;                            ///< in the whole run
+  Index checkpoint_rows_ = 0;                  ///< rows between checkpoints; 0: none
+  std::optional<TimeState> from_;              ///< state to go on from
+  std::vector<GrownCrack> cracks_;             ///< in the last field file
+  FaceOverlap overlap_;                        ///< at the end
+  std::optional<SymmetryDamage> on_symmetry_;  ///< at the end
+  Index loose_pieces_ = 0;                     ///< unsupported parts of the broken body at the end
 
  private:
   Csr neighbourhoods_;

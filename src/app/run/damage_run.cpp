@@ -159,8 +159,9 @@ void DamageRun::tell(Summary& summary) const {
   } else if (auto end = warning_about_end(result_.last.displacement, length)) {
     found.warnings.push_back(std::move(*end));
   }
-  for (auto& warning : {records_.balance.warning(),
-                        warning_about_overlap(records_.overlap, model_.network.dim())}) {
+  for (auto& warning :
+       {records_.balance.warning(), warning_about_overlap(records_.overlap, model_.network.dim()),
+        warning_about_symmetry(on_symmetry_)}) {
     if (warning) found.warnings.push_back(*warning);
   }
   const bool forced =
@@ -331,6 +332,7 @@ void DamageRun::add_row(const StepRecord& record, StateSource& source) {
 
 void DamageRun::end(const StepRecord& last, StateSource& source) {
   if (last.yield_events > 0) softened_ = softened_energy(model_.network, source.secants());
+  if (!input.symmetry.empty()) on_symmetry_ = damage_on_symmetry(input, model_, source.secants());
   if (last.step > 0) write_state(last, source);
 }
 

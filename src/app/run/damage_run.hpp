@@ -10,6 +10,7 @@
 #include "base/csr.hpp"
 #include "model/expected_events.hpp"
 #include "model/face_overlap.hpp"
+#include "model/symmetry_damage.hpp"
 
 namespace perilink {
 
@@ -111,8 +112,9 @@ class DamageRun final : public NetworkRun {
   Csr neighbourhoods_;  ///< made with the first field file
   std::vector<std::uint8_t> is_broken_;
   std::vector<SupportRegion> places_held_;
-  std::vector<std::size_t> set_of_stage_;  ///< index in Model::sets, per stage
-  SoftenedEnergy softened_;                ///< at the end
+  std::vector<std::size_t> set_of_stage_;      ///< index in Model::sets, per stage
+  SoftenedEnergy softened_;                    ///< at the end
+  std::optional<SymmetryDamage> on_symmetry_;  ///< at the end
 };
 
 }  // namespace perilink

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <tuple>
 #include <vector>
@@ -14,6 +16,7 @@
 #include "discretization/mesh_faces.hpp"
 #include "discretization/neighbor_search.hpp"
 #include "io/case/case_schema.hpp"
+#include "io/case/case_words.hpp"
 #include "io/case/sections/laws/case_softening.hpp"
 #include "model/body/groups/drawn_groups.hpp"
 
@@ -87,6 +90,73 @@ void refuse_apart(const CaseFile& input, std::size_t k, const Particles& particl
   }
 }
 
+/// Returns the coordinate of a plane of symmetry; empty for a region without particles.
+std::optional<double> place_of_plane(const CaseFile& input, const Body& body,
+                                     const SymmetrySection& plane) {
+  if (plane.at) return plane.at;
+  if (std::ranges::find(input.regions, plane.region, &Region::name) == input.regions.end())
+    return {};
+  std::vector<std::uint8_t> inside(static_cast<std::size_t>(body.particles.size()), 0);
+  mark(input, body, plane.region, 1, inside);
+  const auto first = std::ranges::find(inside, 1) - inside.begin();
+  if (first == std::ssize(inside)) return {};
+  return body.particles.position(static_cast<Index>(first))[plane.axis];
+}
+
+/// Whether some points lie within a distance of a plane, and reach farther along it than across.
+bool lie_along(std::span<const Vector3> points, int axis, double at, double room) {
+  Vector3 lower{infinity, infinity, infinity}, upper{-infinity, -infinity, -infinity};
+  for (const Vector3& point : points) {
+    if (std::abs(point[axis] - at) > room) return false;
+    for (int a = 0; a < 3; ++a) {
+      lower[a] = std::min(lower[a], point[a]);
+      upper[a] = std::max(upper[a], point[a]);
+    }
+  }
+  const Vector3 reach = minus(upper, lower);
+  return *std::ranges::max_element(reach) > reach[axis];
+}
+
+/// Whether a part of an interface lies along a plane, or one of its sides is in the plane.
+bool lies_along(const WeakInterface& face, const Body& body, int axis, double at, double room) {
+  for (const Crack& crack : face.faces) {
+    const std::span<const Vector3> points = crack.points;
+    const bool is_line = body.particles.dim == 2;
+    for (std::size_t k = 0; is_line && k + 1 < points.size(); ++k) {
+      if (lie_along(points.subspan(k, 2), axis, at, room)) return true;
+    }
+    if (!is_line && !points.empty() && lie_along(points, axis, at, room)) return true;
+  }
+  std::array<bool, 2> beyond{}, any{};  // particles of each side off the plane, and at all
+  for (std::size_t i = 0; i < face.side.size(); ++i) {
+    if (face.side[i] == 0) continue;
+    const std::size_t side = face.side[i] == 1 ? 0 : 1;
+    const double away = std::abs(body.particles.position(static_cast<Index>(i))[axis] - at);
+    any[side] = true;
+    beyond[side] = beyond[side] || away > room;
+  }
+  return (any[0] && !beyond[0]) || (any[1] && !beyond[1]);
+}
+
+/// Refuses an interface along a plane of symmetry. Its bonds end at particles in the plane and have
+/// the energy of both halves.
+void refuse_on_symmetry(const CaseFile& input, std::size_t k, const Body& body,
+                        const WeakInterface& face) {
+  const double room = (0.5 + on_side) * body.lattice.spacing;
+  for (std::size_t p = 0; p < input.symmetry.size(); ++p) {
+    const SymmetrySection& plane = input.symmetry[p];
+    const auto at = place_of_plane(input, body, plane);
+    if (!at || !lies_along(face, body, plane.axis, *at, room)) continue;
+    throw InputError(
+        input.where(key_of(input, k, body.particles.dim)),
+        fmt::format("lies along the plane of symmetry of symmetry[{}], {} = {:.6g}: the half body "
+                    "would take the whole fracture energy of the interface, so that peak and "
+                    "energy would be too high, by up to a factor of 2",
+                    p + 1, axis_names[plane.axis], *at),
+        "model the whole body");
+  }
+}
+
 }  // namespace
 
 std::vector<WeakInterface> weak_interfaces(const CaseFile& input, const Body& body) {
@@ -111,6 +181,7 @@ std::vector<WeakInterface> weak_interfaces(const CaseFile& input, const Body& bo
         throw InputError(input.where(key_of(input, k, body.particles.dim)), error.what(), "");
       }
     }
+    refuse_on_symmetry(input, k, body, face);
     faces.push_back(std::move(face));
   }
   return faces;

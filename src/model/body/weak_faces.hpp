@@ -10,7 +10,7 @@
 namespace perilink {
 
 /// Returns the interfaces of a case on the particles of its body; none for elastic analyses.
-/// \throws InputError  for invalid lines, planes and groups
+/// \throws InputError  for invalid lines, planes and groups, and faces along a plane of symmetry
 std::vector<WeakInterface> weak_interfaces(const CaseFile& input, const Body& body);
 
 /// Refuses an interface that crosses no bond of the network.

@@ -85,6 +85,19 @@ void require_balance(const CaseFile& input, Model& model, const Fragment& fragme
   }
 }
 
+/// Refuses a pre-crack that leaves a particle with no bonds across a plane on which it is held.
+void refuse_crack_on_support(const CaseFile& input, const Model& model, Index particle) {
+  const std::string crack = crack_beside(model, {&particle, 1});
+  if (crack.empty()) return;
+  throw InputError(
+      input.where(crack),
+      fmt::format("cuts the particle at ({}), which a support or plane of symmetry holds, off the "
+                  "body: the crack runs along this support",
+                  joined(model.network.places().position(particle))),
+      "move the crack into the body, or delete it; where it lies in a plane of symmetry model the "
+      "whole body, since a half body takes the whole fracture energy of a crack there");
+}
+
 /// Refuses loads on a part that a pre-crack cuts off, or leaves with too few bonds.
 void refuse_cut_off(const CaseFile& input, const Model& model, std::span<const Index> particles) {
   const std::string crack = crack_beside(model, particles);
@@ -195,10 +208,16 @@ void refuse_loose_particles(const CaseFile& input, const Model& model,
                             const std::vector<std::uint8_t>& off) {
   const int dim = model.network.dim();
   for (const Index i : find_loose_particles(model.network)) {
-    bool held = true;
+    bool held = true, partly = false, loaded = false;
     const std::size_t slot = static_cast<std::size_t>(i) * model.network.width();
-    for (int a = 0; a < dim; ++a) held &= prescription.held[slot + a] != 0;
+    for (int a = 0; a < dim; ++a) {
+      const bool holds = prescription.held[slot + a] != 0;
+      held = held && holds;
+      partly = partly || holds;
+      loaded = loaded || prescription.value[slot + a] != 0.0 || model.loads.forces[slot + a] != 0.0;
+    }
     if (held || off[i] != 0) continue;
+    if (partly && !loaded) refuse_crack_on_support(input, model, i);
     refuse_cut_off(input, model, {&i, 1});
     throw InputError(
         input.where(input.body.horizon ? "body.horizon" : "body"),
@@ -271,25 +290,6 @@ void refuse_idle_loads(const CaseFile& input, const Model& model, const std::str
   throw InputError(input.where(key_of_loads(input, stage)),
                    "loads supported particles only, in the directions of their supports",
                    "load other particles, or support fewer");
-}
-
-/// Notes forces along prescribed displacements, which have no effect.
-void note_residual_strength(const Network& network, const Loads& loads,
-                            const Prescription& prescription, std::vector<std::string>& notes) {
-  const auto width = static_cast<std::size_t>(network.width());
-  const auto dim = static_cast<std::size_t>(network.dim());
-  double borne = 0.0, all = 0.0;
-  for (std::size_t slot = 0; slot < loads.forces.size(); ++slot) {
-    if (slot % width >= dim) continue;  // a moment
-    all += std::abs(loads.forces[slot]);
-    if (prescription.value[slot] != 0.0) borne += std::abs(loads.forces[slot]);
-  }
-  if (borne <= 0.5 * all) return;  // a body force may include clamped particles
-  notes.push_back(
-      fmt::format("forces of {:.4g} in total act on particles with prescribed "
-                  "displacements in their direction: the reactions balance these forces, "
-                  "which have no other effect",
-                  borne));
 }
 
 /// Refuses prescribed displacements that equal a rigid-body motion.

@@ -87,14 +87,13 @@ void clamped(const Network& network, Prescription& prescription, std::span<const
   for (const Index i : particles) prescription.gripped[i] = 1;
 }
 
-/// Returns the particles in a plane of symmetry.
-std::vector<Index> particles_in_plane(const CaseFile& input, const Model& model, std::size_t k) {
+/// Refuses planes of symmetry off the faces of the body.
+/// \param inside  particles in the plane
+void refuse_inner_plane(const CaseFile& input, const Model& model, std::size_t k,
+                        std::span<const Index> inside) {
   const SymmetrySection& section = input.symmetry[k];
-  if (!section.at) {
-    return particles_of_region(input, model, section.region, item_key("symmetry", k, "region"));
-  }
+  if (!section.at) return;
   const Particles& particles = model.network.places();
-  std::vector<Index> inside;
   double nearest = INFINITY, low = INFINITY, high = -INFINITY;
   for (Index i = 0; i < particles.size(); ++i) {
     if (!is_material(particles.kind[i])) continue;
@@ -102,7 +101,6 @@ std::vector<Index> particles_in_plane(const CaseFile& input, const Model& model,
     low = std::min(low, coordinate);
     high = std::max(high, coordinate);
     if (std::abs(coordinate - *section.at) < std::abs(nearest - *section.at)) nearest = coordinate;
-    if (std::abs(coordinate - *section.at) <= in_plane * model.lattice.spacing) inside.push_back(i);
   }
   if (inside.empty()) {
     throw InputError(
@@ -117,14 +115,14 @@ std::vector<Index> particles_in_plane(const CaseFile& input, const Model& model,
         fmt::format("is {}, but the body lies on both sides of that plane", *section.at),
         fmt::format("give a face: {0} = {1:.6g} or {0} = {2:.6g}", "xyz"[section.axis], low, high));
   }
-  return inside;
 }
 
 /// Applies a plane of symmetry. Displacements in the plane and the rotation about its normal are
 /// free.
 void hold_in_plane(const CaseFile& input, const Model& model, std::size_t k,
                    Prescription& prescription) {
-  const std::vector<Index> particles = particles_in_plane(input, model, k);
+  const std::vector<Index> particles = particles_of_plane(input, model, k);
+  refuse_inner_plane(input, model, k, particles);
   const std::string key = item_key("symmetry", k);
   const Expression zero;
   const PositionField values(input, key, {&zero, 1});

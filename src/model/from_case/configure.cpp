@@ -24,6 +24,8 @@
 #include "model/from_case/unstructured_body.hpp"
 #include "model/gauges.hpp"
 #include "model/surface_of_case.hpp"
+#include "model/symmetry_damage.hpp"
+#include "model/unbreakable_path.hpp"
 #include "network/builder/graded_stiffness.hpp"
 
 namespace perilink {
@@ -199,6 +201,9 @@ Model build_model_with(const CaseFile& input, const BondOptions& options) {
       is_lattice(input.body) ? build_lattice_model(input) : build_bodies_model(input, options);
   if (const auto note = note_of_unused(input)) model.notes.push_back(*note);
   apply_boundary_conditions(input, model);
+  for (const auto& note : {ligament_note(input, model), unbreakable_path_note(input, model)}) {
+    if (note) model.notes.push_back(*note);
+  }
   model.gauges = build_gauges(input, model, model.notes);
   for (const MaterialSection& material : input.materials) {
     model.hooke.push_back(

@@ -14,11 +14,6 @@ namespace {
 struct MiddleSurface {
   double radius;  ///< 0: flat
 
-  Vector3 at(double x, double y) const {
-    if (radius == 0.0) return {x, y, 0.0};
-    const double half = std::sin(0.5 * x / radius);
-    return {radius * std::sin(x / radius), y, -2.0 * radius * half * half};
-  }
   Vector3 normal(double x) const {
     if (radius == 0.0) return {0.0, 0.0, 1.0};
     return {std::sin(x / radius), 0.0, std::cos(x / radius)};
@@ -79,6 +74,12 @@ void turn_facets(const MiddleSurface& surface, const Particles& mid_surface, Fac
 
 }  // namespace
 
+Vector3 point_on_shell(double x, double y, double radius) {
+  if (radius == 0.0) return {x, y, 0.0};
+  const double half = std::sin(0.5 * x / radius);
+  return {radius * std::sin(x / radius), y, -2.0 * radius * half * half};
+}
+
 void make_shell(const NetworkInput& input, Network& network) {
   refuse_overlap(network.particles, input.radius);
   const MiddleSurface surface{input.radius};
@@ -86,7 +87,8 @@ void make_shell(const NetworkInput& input, Network& network) {
   const Particles& mid_surface = shell.mid_surface;
   network.particles = mid_surface;
   for (Index i = 0; i < mid_surface.size(); ++i) {
-    const Vector3 point = surface.at(mid_surface.position(i)[0], mid_surface.position(i)[1]);
+    const auto flat = mid_surface.position(i);
+    const Vector3 point = point_on_shell(flat[0], flat[1], input.radius);
     std::copy(point.begin(), point.end(), network.particles.positions.begin() + 3L * i);
   }
   Bonds bonds;

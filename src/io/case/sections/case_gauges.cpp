@@ -32,18 +32,22 @@ std::vector<std::string_view> stress_names(int dim) {
   return {"xx", "yy", "zz", "xy", "yz", "xz"};
 }
 
-/// Checks the keys beside `reaction`.
-void read_reaction(const CaseTable& table, int dim, const GaugeSection& gauge) {
+/// Checks the keys beside `reaction`. Moments turn about one axis in the plane, but about three on
+/// shells.
+void read_reaction(const CaseTable& table, Kinds kind, const GaugeSection& gauge) {
   if (table.has("stress")) {
     table.refuse("stress", "is given together with `reaction`", "give `axis` for a force");
   }
-  if (dim == 2 && gauge.about) {
+  if (gauge.about && (kind & kinds::plane) != 0) {
     if (table.has("axis")) {
       table.refuse("axis", "is given together with `about`",
                    "a moment in the plane turns in it; delete one of the two");
     }
   } else {
-    table.need("axis", table.text("axis"), gauge.about ? "the axis of the moment" : "x or y");
+    table.need("axis", table.text("axis"),
+               gauge.about                  ? "the axis of the moment: x, y or z"
+               : (kind & kinds::plane) != 0 ? "x or y"
+                                            : "x, y or z");
   }
 }
 
@@ -74,7 +78,7 @@ GaugeSection read_gauge(const CaseTable& table, Kinds kind) {
       if (table.has(key)) table.refuse(key, "is given together with `cracks`", "delete it");
     }
   } else if (table.has("reaction")) {
-    read_reaction(table, dim, gauge);
+    read_reaction(table, kind, gauge);
   } else if (table.has("between")) {
     if (table.has("stress")) {
       table.refuse("stress", "is given together with `between`",
