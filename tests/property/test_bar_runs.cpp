@@ -299,6 +299,7 @@ TEST(BarRuns, EvenPlasticStrainLeavesTheBodyInBalance) {
 problem = "plane_stress"
 thickness = 40
 spacing = 10
+horizon_ratio = 3
 [[regions]]
 name = "block"
 x = [0, 40]

