@@ -109,9 +109,8 @@ std::optional<std::string> unbreakable_path_note(const CaseFile& input, const Mo
       return fmt::format(
           "unbreakable bonds join \"{}\" and \"{}\" through the breakable particles between them, "
           "since a bond with one unbreakable end does not break: the body cannot separate there, "
-          "and load and energy are too high; make the breakable zone wider than two horizons, from "
-          "a plane of "
-          "symmetry than one",
+          "and load and energy are too high; make the breakable zone wider than two horizons, or "
+          "than one horizon beside a plane of symmetry",
           places[a].name, places[b].name);
     }
   }

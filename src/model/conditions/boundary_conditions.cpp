@@ -293,8 +293,10 @@ void refuse_idle_loads(const CaseFile& input, const Model& model, const std::str
 }
 
 /// Refuses prescribed displacements that equal a rigid-body motion.
-void refuse_mere_shift(const CaseFile& input, const Model& model, const Prescription& prescription,
-                       const std::string& stage) {
+/// \param network  of the whole model
+/// \param model    has the loads, of a stage or the run
+void refuse_rigid_motion(const CaseFile& input, const Network& network, const Model& model,
+                         const Prescription& prescription, const std::string& stage) {
   const auto not_zero = [](double value) { return value != 0.0; };
   const std::vector<double>& springs = model.network.support_stiffness;
   if (input.analysis.type == AnalysisType::explicit_ || !model.reference.driven ||
@@ -303,7 +305,7 @@ void refuse_mere_shift(const CaseFile& input, const Model& model, const Prescrip
       std::any_of(springs.begin(), springs.end(), not_zero)) {
     return;
   }
-  if (!is_rigid_motion(model.network, prescription.held, prescription.value)) return;
+  if (!is_rigid_motion(network, prescription.held, prescription.value)) return;
   throw InputError(input.where(key_of_loads(input, stage)),
                    "only moves the body as a whole, which causes no strain",
                    "hold another part of the body along the axis of the prescribed "
@@ -334,7 +336,7 @@ void collect_sets(const CaseFile& input, Model& model) {
     of_stage.loads = std::move(applied.loads);
     choose_axes(input, of_stage, applied, prescription, stage);
     note_residual_strength(model.network, of_stage.loads, prescription, model.notes);
-    refuse_mere_shift(input, of_stage, prescription, stage);
+    refuse_rigid_motion(input, model.network, of_stage, prescription, stage);
     of_stage.unknowns = unknowns_of(input, model.network, prescription);
     refuse_nothing_to_solve(input, of_stage);
     refuse_idle_loads(input, of_stage, stage);
@@ -369,7 +371,7 @@ void apply_boundary_conditions(const CaseFile& input, Model& model) {
   model.network.support_stiffness = collect_springs(input, model);
   choose_axes(input, model, applied, prescription, first);
   note_residual_strength(model.network, model.loads, prescription, model.notes);
-  refuse_mere_shift(input, model, prescription, first);
+  refuse_rigid_motion(input, model.network, model, prescription, first);
   model.resultant = load_resultant(model.network, model.loads);
   const CutOffParts off = find_cut_off_parts(input, model, prescription);
   refuse_loose_particles(input, model, prescription, off.particles);
