@@ -200,7 +200,8 @@ LineFile::LineFile(std::string path) : path_(std::move(path)), temporary_(tempor
 
 void require_size(const std::string& path, std::size_t size) {
   struct stat status {};
-  if (::stat(path.c_str(), &status) == 0 && static_cast<std::size_t>(status.st_size) >= size) return;
+  if (::stat(path.c_str(), &status) == 0 && static_cast<std::size_t>(status.st_size) >= size)
+    return;
   throw FileError(path +
                   ": is shorter than when the state of its run was saved\n"
                   "  begin the run again with --force");

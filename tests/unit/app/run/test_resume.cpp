@@ -140,8 +140,11 @@ TEST_F(Resume, LeavesFilesThatItRefuses) {
     run(strip);
     std::filesystem::resize_file(work_ / name, 40);
     const auto before = contents();
-    EXPECT_THAT([&] { run_case(more, work_.path(), {1, OldResults::kept, true}); },
-                ThrowsMessage<FileError>(HasSubstr(std::string(name) + ": is shorter")));
+    EXPECT_THAT(
+        [&] {
+          run_case(more, work_.path(), {1, OldResults::kept, true});
+        },
+        ThrowsMessage<FileError>(HasSubstr(std::string(name) + ": is shorter")));
     EXPECT_EQ(contents(), before) << name;
     std::filesystem::remove(work_ / "checkpoint.bin");
   }
@@ -166,7 +169,8 @@ TEST_F(Resume, ComparesTheContentsOfMeshes) {
   std::filesystem::remove(work_ / "first.msh");
   EXPECT_TRUE(find_results(parse_case(moved, "strip.toml"), work_.path()).is_finished);
   const std::string other = replaced(test::square_mesh, "0.5 1 0", "0.6 1 0");
-  EXPECT_THAT(refusal(place_mesh("second.msh", other)), HasSubstr("contents of a mesh or field have changed"));
+  EXPECT_THAT(refusal(place_mesh("second.msh", other)),
+              HasSubstr("contents of a mesh or field have changed"));
 }
 
 /// A file of a field may move; its contents may not change.
@@ -183,7 +187,8 @@ TEST_F(Resume, ComparesTheContentsOfFields) {
   EXPECT_TRUE(find_results(parse_case(moved, "strip.toml"), work_.path()).is_finished);
   const std::string more = run(replaced(moved, "broken_bonds = 12", "broken_bonds = 25"));
   EXPECT_EQ(more.substr(0, history.size()), history);
-  EXPECT_THAT(refusal(place_field("second.csv", "3")), HasSubstr("contents of a mesh or field have changed"));
+  EXPECT_THAT(refusal(place_field("second.csv", "3")),
+              HasSubstr("contents of a mesh or field have changed"));
 }
 
 TEST_F(Resume, RefusesAnotherModel) {
