@@ -88,7 +88,7 @@ std::optional<std::string> ligament_note(const CaseFile& input, const Model& mod
 }
 
 std::optional<std::string> warning_about_symmetry(const std::optional<SymmetryDamage>& damage) {
-  constexpr double substantial = 0.3;
+  constexpr double substantial = 0.35;
   if (!damage || damage->share < substantial) return std::nullopt;
   return fmt::format(
       "{:.2g} of the dissipated energy lies along the plane of symmetry of symmetry[{}]: a half "

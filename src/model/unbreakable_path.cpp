@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <span>
 #include <utility>
@@ -77,12 +78,11 @@ bool have_common(std::span<const Index> one, std::span<const Index> other) {
 
 std::optional<std::string> unbreakable_path_note(const CaseFile& input, const Model& model) {
   const Network& network = model.network;
-  const std::vector<MaterialStrength>& strengths = network.report.strengths;
-  if (network.critical_stretch.empty() || strengths.empty()) return std::nullopt;
+  if (network.critical_stretch.empty()) return std::nullopt;
   const Particles& particles = network.particles;
   const auto is_unbreakable = [&](Index i) {
     const Index material = particles.material[i];
-    return material != no_index && strengths[material].segments == 0;
+    return material != no_index && std::isinf(input.materials[material].fracture_energy);
   };
   JoinedParts by_bonds(particles.size()), by_particles(particles.size());
   for (Index b = 0; b < network.first_contact(); ++b) {

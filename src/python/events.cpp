@@ -49,8 +49,8 @@ class Stepper {
     }
   }
 
-  /// Returns the next row; empty at the end. After a missed release it is the first row again. A row
-  /// that Ctrl-C has kept from Python is returned by the next call.
+  /// Returns the next row; empty at the end. After a missed release it is the first row again. The
+  /// next call returns a row that Ctrl-C has kept from Python.
   std::optional<StepRecord> next() {
     if (is_kept_) return is_kept_ = false, last_;
     const Advance advance(is_advancing_);

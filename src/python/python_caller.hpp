@@ -35,8 +35,8 @@ class PythonCaller {
 
   /// Whether Ctrl-C, an exception or the progress function ends the run.
   bool stop_requested() { return stop_ || (signals_.is_due() && stop_requested_now()); }
-  /// Whether Ctrl-C until this moment, or another cause, ends the run. Python raises KeyboardInterrupt itself
-  /// after a call that returns before, and loses what it returns.
+  /// Whether Ctrl-C until this moment, or another cause, ends the run. Python raises
+  /// KeyboardInterrupt itself after a call that returns before, and loses what it returns.
   bool stop_requested_now() {
     if (stop_) return true;
     const pybind11::gil_scoped_acquire lock;

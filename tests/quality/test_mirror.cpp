@@ -42,6 +42,7 @@ const std::map<std::string, std::string>& tested_elsewhere() {
       {"analysis/quasistatic/ranks/part_solver.cpp", "a part of a team: test_team.cpp"},
       {"calibration/bounded_least_squares/interior_point.cpp", "test_bounded_least_squares.cpp"},
       {"calibration/bounded_least_squares/normal_equations.cpp", "test_bounded_least_squares.cpp"},
+      {"model/conditions/idle_forces.cpp", "test_boundary_conditions.cpp"},
       {"calibration/kept/kept_calibration.cpp", "with its store: test_calibration_files.cpp"},
       {"app/main.cpp", "only starts the program; tests/cli runs it"},
       {"app/memory_at_start.cpp", "runs before main: tests/cli/test_memory.cpp"},

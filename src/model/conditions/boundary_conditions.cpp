@@ -10,6 +10,7 @@
 #include "base/plain_text.hpp"
 #include "io/case/sections/case_kinds.hpp"
 #include "model/conditions/formula_field.hpp"
+#include "model/conditions/idle_forces.hpp"
 #include "model/conditions/loads.hpp"
 #include "model/conditions/supports.hpp"
 #include "model/model_regions.hpp"
@@ -292,7 +293,7 @@ void refuse_idle_loads(const CaseFile& input, const Model& model, const std::str
                    "load other particles, or support fewer");
 }
 
-/// Refuses prescribed displacements that equal a rigid-body motion.
+/// Refuses prescribed displacements that only shift the body, and in damage analyses turn it.
 /// \param network  of the whole model
 /// \param model    has the loads, of a stage or the run
 void refuse_rigid_motion(const CaseFile& input, const Network& network, const Model& model,
@@ -305,7 +306,22 @@ void refuse_rigid_motion(const CaseFile& input, const Network& network, const Mo
       std::any_of(springs.begin(), springs.end(), not_zero)) {
     return;
   }
-  if (!is_rigid_motion(network, prescription.held, prescription.value)) return;
+  const auto width = static_cast<std::size_t>(model.network.width());
+  const auto dim = static_cast<std::size_t>(model.network.dim());
+  std::vector<std::optional<double>> shift(width);
+  bool shifts = true;
+  for (std::size_t slot = 0; slot < prescription.value.size(); ++slot) {
+    if (!prescription.held[slot]) continue;
+    const std::size_t a = slot % width;
+    if (!shift[a]) shift[a] = a < dim ? prescription.value[slot] : 0.0;  // no rotation
+    shifts = shifts && *shift[a] == prescription.value[slot];
+  }
+  // An elastic body that turns is a check of its own.
+  const bool breaks = input.analysis.type == AnalysisType::damage;
+  const auto turns = [&] {
+    return is_rigid_motion(network, prescription.held, prescription.value);
+  };
+  if (!shifts && !(breaks && turns())) return;
   throw InputError(input.where(key_of_loads(input, stage)),
                    "only moves the body as a whole, which causes no strain",
                    "hold another part of the body along the axis of the prescribed "
@@ -335,7 +351,7 @@ void collect_sets(const CaseFile& input, Model& model) {
     of_stage.network.support_stiffness = collect_springs(input, model);
     of_stage.loads = std::move(applied.loads);
     choose_axes(input, of_stage, applied, prescription, stage);
-    note_residual_strength(model.network, of_stage.loads, prescription, model.notes);
+    note_idle_forces(model.network, of_stage.loads, prescription, model.notes);
     refuse_rigid_motion(input, model.network, of_stage, prescription, stage);
     of_stage.unknowns = unknowns_of(input, model.network, prescription);
     refuse_nothing_to_solve(input, of_stage);
@@ -370,7 +386,7 @@ void apply_boundary_conditions(const CaseFile& input, Model& model) {
   model.notes.insert(model.notes.end(), applied.notes.begin(), applied.notes.end());
   model.network.support_stiffness = collect_springs(input, model);
   choose_axes(input, model, applied, prescription, first);
-  note_residual_strength(model.network, model.loads, prescription, model.notes);
+  note_idle_forces(model.network, model.loads, prescription, model.notes);
   refuse_rigid_motion(input, model.network, model, prescription, first);
   model.resultant = load_resultant(model.network, model.loads);
   const CutOffParts off = find_cut_off_parts(input, model, prescription);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "model/conditions/supports.hpp"
 #include "model/model.hpp"
 
 namespace perilink {
@@ -20,9 +19,5 @@ struct AppliedLoads {
 ///                     outside the body
 AppliedLoads collect_loads(const CaseFile& input, const Model& model, int width,
                            const std::string& stage = "");
-
-/// Notes forces along prescribed displacements, which have no effect.
-void note_residual_strength(const Network& network, const Loads& loads,
-                            const Prescription& prescription, std::vector<std::string>& notes);
 
 }  // namespace perilink

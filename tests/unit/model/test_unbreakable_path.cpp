@@ -77,7 +77,7 @@ TEST(UnbreakablePath, IsNotedInAZoneOfTwoHorizonsAndLess) {
 TEST(UnbreakablePath, IsNotNotedWhereUnbreakableParticlesJoin) {
   EXPECT_FALSE(has_note(bar(0)));
   EXPECT_FALSE(has_note(bar(8,
-                            "[[regions]]\nname = \"edge\"\nx = [0, 80]\ny = [0, 0]\n"
+                            "[[regions]]\nname = \"edge\"\nx = [0, 80]\ny = [0, 2]\n"
                             "[[materials]]\nregion = \"edge\"\nyoungs_modulus = 30000\n"
                             "fracture_energy = \"infinite\"\n")));
 }
