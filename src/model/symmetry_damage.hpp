@@ -20,8 +20,8 @@ struct SymmetryDamage {
 
 /// Returns the plane of symmetry with the largest share in the dissipated energy; empty without
 /// planes or dissipated energy. Bonds with one end in the plane count if they leave it at 45
-/// degrees or more. Cracks along a plane have shares of 0.45 to 1, cracks across it 0.1 and less, or up
-/// to 0.33 where they have cut its first rows only.
+/// degrees or more. Cracks along a plane have shares of 0.45 to 1, cracks across it 0.1 and less,
+/// or up to 0.33 where they have cut its first rows only.
 std::optional<SymmetryDamage> damage_on_symmetry(const CaseFile& input, const Model& model,
                                                  const Secants& secants);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include <Eigen/Core>
 
@@ -232,6 +233,20 @@ int free_modes(const Network& network, const std::vector<Index>& particles,
     products.held += row * row.transpose();
   }
   return rank(products.all) - rank(products.held);
+}
+
+bool is_translation(const Network& network, const std::vector<std::uint8_t>& held,
+                    std::span<const double> values) {
+  const auto width = static_cast<std::size_t>(network.width());
+  std::vector<std::optional<double>> shift(width);
+  for (std::size_t a = network.dim(); a < width; ++a) shift[a] = 0.0;  // no rotation
+  for (std::size_t slot = 0; slot < values.size(); ++slot) {
+    if (!held[slot]) continue;
+    std::optional<double>& known = shift[slot % width];
+    if (!known) known = values[slot];
+    if (*known != values[slot]) return false;
+  }
+  return true;
 }
 
 bool is_rigid_motion(const Network& network, const std::vector<std::uint8_t>& held,

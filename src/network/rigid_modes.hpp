@@ -44,6 +44,11 @@ int free_modes(const Network& network, const std::vector<Index>& particles,
 std::vector<std::vector<double>> free_motions(const Network& network, const Fragment& fragment,
                                               const std::vector<std::uint8_t>& held);
 
+/// Whether prescribed values equal a translation in all held components.
+/// \param held, values  shape (particles, width)
+bool is_translation(const Network& network, const std::vector<std::uint8_t>& held,
+                    std::span<const double> values);
+
 /// Whether prescribed values equal a rigid-body motion in all held components, to round-off.
 /// \param held, values  shape (particles, width)
 bool is_rigid_motion(const Network& network, const std::vector<std::uint8_t>& held,
