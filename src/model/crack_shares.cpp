@@ -6,14 +6,6 @@
 #include "network/bond_softening.hpp"
 
 namespace perilink {
-namespace {
-
-const BondLaw& law_of(const Network& network, Index bond) {
-  return network.laws[network.law_of.empty() ? 0 : network.law_of[bond]];
-}
-
-}  // namespace
-
 std::vector<Gauge::CrackShare> crack_shares(const CaseFile& input, const Model& model,
                                             std::span<const std::uint8_t> marked) {
   const Network& network = model.network;
@@ -35,7 +27,7 @@ std::vector<Gauge::CrackShare> crack_shares(const CaseFile& input, const Model& 
     if (!(both > 0.0)) continue;
     const double part = network.stiffness[b] / both * length * length;
     sum += part * length;
-    const BondLaw& law = law_of(network, b);
+    const BondLaw& law = network.law(b);
     if (marked[i] == 0 || marked[j] == 0 || law.endless() || law.crushes()) continue;
     if (std::isfinite(network.critical_stretch[b])) {
       shares.push_back({b, part / energy_until(law, 0.0)});
@@ -53,7 +45,7 @@ double crack_size(const Network& network, std::span<const Gauge::CrackShare> sha
   double size = 0.0;
   for (const auto& [bond, whole] : shares) {
     const double secant = secants.least(bond);
-    if (secant < 1.0) size += whole * energy_until(law_of(network, bond), secant);
+    if (secant < 1.0) size += whole * energy_until(network.law(bond), secant);
   }
   return size;
 }

@@ -67,10 +67,8 @@ class Planes {
 /// Returns the events and the energy of a bond; none if it cannot break.
 ExpectedCrack crack_of(const Network& network, Index bond) {
   if (!network.can_break(bond)) return {};
-  const BondLaw& law = network.law(bond);
-  const double extension = network.critical_stretch[bond] * network.bonds.length(bond);
-  return {static_cast<double>(count_segments(law)),
-          0.5 * network.stiffness[bond] * extension * extension * energy_until(law, 0.0)};
+  return {static_cast<double>(count_segments(network.law(bond))),
+          dissipated_until(network, bond, 0.0)};
 }
 
 /// Returns the crack through all weak interfaces.

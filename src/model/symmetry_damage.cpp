@@ -15,15 +15,6 @@
 namespace perilink {
 namespace {
 
-/// Returns the energy that a bond has dissipated [force length].
-double dissipated(const Network& network, const Secants& secants, Index bond) {
-  const double secant = secants.least(bond);
-  if (secant == 1.0 || !network.has_limit(bond)) return 0.0;
-  const double extension = network.critical_stretch[bond] * network.bonds.length(bond);
-  return 0.5 * network.stiffness[bond] * extension * extension *
-         energy_until(network.law(bond), secant);
-}
-
 std::vector<std::uint8_t> marked(Index count, std::span<const Index> members) {
   std::vector<std::uint8_t> marks(static_cast<std::size_t>(count), 0);
   for (const Index i : members) marks[i] = 1;
@@ -44,9 +35,11 @@ std::optional<SymmetryDamage> damage_on_symmetry(const CaseFile& input, const Mo
   double all = 0.0;
   std::vector<double> along(in_plane.size(), 0.0);
   for (Index b = 0; b < network.num_bonds(); ++b) {
-    const double energy = dissipated(network, secants, b);
+    const double secant = secants.least(b);
+    if (secant == 1.0 || !network.has_limit(b)) continue;
+    const double energy = dissipated_until(network, b, secant);
     all += energy;
-    for (std::size_t k = 0; energy > 0.0 && k < in_plane.size(); ++k) {
+    for (std::size_t k = 0; k < in_plane.size(); ++k) {
       const double normal = network.bonds.direction(b)[input.symmetry[k].axis];
       const bool leaves =
           in_plane[k][network.bonds.first[b]] != in_plane[k][network.bonds.second[b]];

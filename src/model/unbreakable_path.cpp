@@ -78,7 +78,9 @@ bool have_common(std::span<const Index> one, std::span<const Index> other) {
 
 std::optional<std::string> unbreakable_path_note(const CaseFile& input, const Model& model) {
   const Network& network = model.network;
-  if (network.critical_stretch.empty()) return std::nullopt;
+  const bool has_unbreakable = std::ranges::any_of(
+      input.materials, [](const auto& material) { return std::isinf(material.fracture_energy); });
+  if (network.critical_stretch.empty() || !has_unbreakable) return std::nullopt;
   const Particles& particles = network.particles;
   const auto is_unbreakable = [&](Index i) {
     const Index material = particles.material[i];

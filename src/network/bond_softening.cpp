@@ -276,6 +276,12 @@ double energy_until(const BondLaw& law, double secant) {
   return energy;
 }
 
+double dissipated_until(const Network& network, Index bond, double secant) {
+  const double extension = network.critical_stretch[bond] * network.bonds.length(bond);
+  return 0.5 * network.stiffness[bond] * extension * extension *
+         energy_until(network.law(bond), secant);
+}
+
 TooStrong::TooStrong(Index number, double energy, double factor, const Vector3& at)
     : std::invalid_argument("the strength of a bond does not fit its fracture energy"),
       material(number),

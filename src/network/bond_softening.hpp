@@ -26,6 +26,9 @@ Index count_segments(const BondLaw& law);
 /// stretch.
 double energy_until(const BondLaw& law, double secant);
 
+/// Returns the energy that a bond dissipates until it has a secant stiffness ratio [force length].
+double dissipated_until(const Network& network, Index bond, double secant);
+
 /// Error for a tensile strength that does not fit the fracture energy. At that strength a bond
 /// holds more energy than it may dissipate, or less than 1 / most_softening of it.
 class TooStrong : public std::invalid_argument {

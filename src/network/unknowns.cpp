@@ -170,6 +170,18 @@ void hold_twist_of_bars(const Network& network, std::vector<std::uint8_t>& held)
 
 }  // namespace
 
+double largest_displacement(const Network& network, std::span<const double> motion) {
+  const auto width = static_cast<std::size_t>(network.width());
+  const auto dim = static_cast<std::size_t>(network.dim());
+  double largest = 0.0;
+  for (std::size_t begin = 0; begin < motion.size(); begin += width) {
+    for (std::size_t slot = begin; slot < begin + dim; ++slot) {
+      largest = std::max(largest, std::abs(motion[slot]));
+    }
+  }
+  return largest;
+}
+
 void hold_idle_rotations(const Network& network, std::vector<std::uint8_t>& held) {
   const std::vector<std::uint8_t> rotating = rotating_particles(network);
   const std::size_t width = network.width();

@@ -104,6 +104,9 @@ void follow_particles(const Network& network, std::span<double> motion);
 /// Moves the forces of embedded points to their particles, with the weights of the motion.
 void load_particles(const Network& network, std::span<double> forces);
 
+/// Returns the largest displacement along an axis of a motion, shape (particles, width) [length].
+double largest_displacement(const Network& network, std::span<const double> motion);
+
 /// Whether a bond with bending stiffness turns each particle. Other particles have no rotations,
 /// which must not be unknown. Empty where no bond carries a moment.
 std::vector<std::uint8_t> rotating_particles(const Network& network);

@@ -85,13 +85,35 @@ class TimeStepper final : public BondRunObserver {
     return std::nullopt;
   }
 
-  /// Returns the arrays of the last row; of a run that has ended, they are kept.
+  /// Returns an array of the last row; of a run that has ended, it is kept.
   /// \throws std::runtime_error before the first row, or while another thread advances the run
-  TimeArrays arrays() {
+  template <class Values>
+  Values get(Values TimeArrays::*kept, Values (TimeStepper::*find)(const BondRunState&)) {
     Advance::refuse(is_advancing_);
-    if (last_) return *last_;
+    if (last_) return (*last_).*kept;
     if (state_ == nullptr) throw std::runtime_error("the run has no row yet; call next()");
-    return arrays_of(*state_);
+    return (this->*find)(*state_);
+  }
+  std::vector<double> displacement(const BondRunState& now) { return now.motion.displacement; }
+  std::vector<double> velocity(const BondRunState& now) { return now.motion.velocity; }
+  std::vector<double> secants(const BondRunState& now) { return now.bonds.secants(); }
+  std::vector<double> damage(const BondRunState& now) {
+    if (now.network.has_states()) return now.bonds.damage();
+    return particle_damage(now.network, neighbourhoods(), now.bonds.secants());
+  }
+  /// Returns nothing where small-strain stresses of bonds would be wrong or do not exist.
+  std::optional<std::vector<double>> stress(const BondRunState& now) {
+    if (now.network.has_states() || built_.input.analysis.strain == Strain::green) return {};
+    const std::vector<double> secants = now.bonds.secants();
+    return particle_stresses(stress_input(built_.model, neighbourhoods(), secants),
+                             now.motion.displacement);
+  }
+  std::vector<double> gauges(const BondRunState& now) {
+    const std::vector<double> secants = now.bonds.secants();
+    const ModelState state{secants, now.motion.displacement, 1.0, row_.load_factor};
+    return gauge_values(
+        built_.model, state, neighbourhoods_,
+        measures_reactions(built_.model.gauges) ? now.reactions() : std::vector<double>{});
   }
 
   const BuiltCase& built() const { return built_; }
@@ -128,36 +150,24 @@ class TimeStepper final : public BondRunObserver {
     row_ = record;
     state_ = &state;
     if (!built_.input.stop.gauge.empty() && !rule_) {
-      rule_ = met_rule(built_.input, built_.input.stop, gauges(state, state.bonds.secants()));
+      rule_ = met_rule(built_.input, built_.input.stop, gauges(state));
     }
     stopped_.release();
     resume_.acquire();
   }
-  void on_end(const ExplicitRecord& /*last*/, const BondRunState& state) override {
-    last_ = arrays_of(state);
+  void on_end(const ExplicitRecord& last, const BondRunState& state) override {
+    row_ = last;
+    last_ = {displacement(state), velocity(state), secants(state),
+             damage(state),       stress(state),   gauges(state)};
   }
   bool stop_requested() override { return leaves_ || rule_; }
 
-  TimeArrays arrays_of(const BondRunState& now) {
+  const Csr& neighbourhoods() {
     const Network& network = built_.model.network;
     if (neighbourhoods_.rows() == 0) {
       neighbourhoods_ = bonds_of_particles(network.bonds, network.particles.size());
     }
-    TimeArrays found{now.motion.displacement, now.motion.velocity, now.bonds.secants(), {}, {}, {}};
-    found.damage = network.has_states() ? now.bonds.damage()
-                                        : particle_damage(network, neighbourhoods_, found.secants);
-    if (!network.has_states() && built_.input.analysis.strain != Strain::green) {
-      const StressInput input = stress_input(built_.model, neighbourhoods_, found.secants);
-      found.stress = particle_stresses(input, found.displacement);
-    }
-    found.gauges = gauges(now, found.secants);
-    return found;
-  }
-  std::vector<double> gauges(const BondRunState& now, const std::vector<double>& secants) {
-    const ModelState state{secants, now.motion.displacement, 1.0, row_.load_factor};
-    return gauge_values(
-        built_.model, state, neighbourhoods_,
-        measures_reactions(built_.model.gauges) ? now.reactions() : std::vector<double>{});
+    return neighbourhoods_;
   }
 
   const BuiltCase& built_;
@@ -185,7 +195,7 @@ py::array_t<double> motion_array(const TimeStepper& stepper, std::vector<double>
 }
 
 py::object stress_of(TimeStepper& stepper) {
-  std::optional<std::vector<double>> stress = stepper.arrays().stress;
+  auto stress = stepper.get(&TimeArrays::stress, &TimeStepper::stress);
   if (!stress) return py::none();
   return owning_array(std::move(*stress),
                       {stepper.built().model.network.particles.size(), py::ssize_t{6}});
@@ -216,12 +226,27 @@ void bind_time_runs(py::module_& module) {
   py::class_<TimeStepper>(module, "TimeStepper")
       .def(py::init<const BuiltCase&, int>(), py::keep_alive<1, 2>())
       .def("next", &TimeStepper::next)
-      .def("displacement", [](TimeStepper& s) { return motion_array(s, s.arrays().displacement); })
-      .def("velocity", [](TimeStepper& s) { return motion_array(s, s.arrays().velocity); })
-      .def("stiffness_ratios", [](TimeStepper& s) { return owning_array(s.arrays().secants); })
-      .def("damage", [](TimeStepper& s) { return owning_array(s.arrays().damage); })
+      .def("displacement",
+           [](TimeStepper& s) {
+             return motion_array(s, s.get(&TimeArrays::displacement, &TimeStepper::displacement));
+           })
+      .def("velocity",
+           [](TimeStepper& s) {
+             return motion_array(s, s.get(&TimeArrays::velocity, &TimeStepper::velocity));
+           })
+      .def("stiffness_ratios",
+           [](TimeStepper& s) {
+             return owning_array(s.get(&TimeArrays::secants, &TimeStepper::secants));
+           })
+      .def("damage",
+           [](TimeStepper& s) {
+             return owning_array(s.get(&TimeArrays::damage, &TimeStepper::damage));
+           })
       .def("stress", stress_of)
-      .def("gauges", [](TimeStepper& s) { return gauge_dict(s.built().model, s.arrays().gauges); })
+      .def("gauges",
+           [](TimeStepper& s) {
+             return gauge_dict(s.built().model, s.get(&TimeArrays::gauges, &TimeStepper::gauges));
+           })
       .def("result", result_of);
 }
 

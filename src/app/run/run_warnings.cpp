@@ -193,12 +193,10 @@ SoftenedEnergy softened_energy(const Network& network, Secants secants) {
     const double left = secants.least(e);
     const BondLaw& law = network.law(e);
     if (left == 1.0 || !network.can_break(e) || law.is_brittle() || law.crushes()) continue;
-    const double lost = energy_until(law, left), all = energy_until(law, 0.0);
-    const double extension = network.critical_stretch[e] * network.bonds.length(e);
-    const double scale = 0.5 * network.stiffness[e] * extension * extension;
+    const double lost = dissipated_until(network, e, left), all = dissipated_until(network, e, 0.0);
     const bool cracked = lost >= of_crack * all;
-    (cracked ? energy.cracks : energy.diffuse) += scale * lost;
-    if (cracked) energy.fracture += scale * all;
+    (cracked ? energy.cracks : energy.diffuse) += lost;
+    if (cracked) energy.fracture += all;
   }
   return energy;
 }

@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "calibration/bounded_least_squares/fixed_normal_equations.hpp"
 #include "calibration/bounded_least_squares/interior_point.hpp"
-#include "calibration/bounded_least_squares/stencil_equations.hpp"
 #include "calibration/bounded_least_squares/symmetry_reduced/reduce.hpp"
 #include "calibration/bounded_least_squares/symmetry_reduced/reduced_normal_equations.hpp"
 
@@ -229,7 +229,7 @@ void DualNewton::report() {
 template <int Rows, int Odd, bool Grouped>
 LeastSquaresResult solve(const PointEquations& equations, const LeastSquaresOptions& options,
                          KeptPreconditioner& kept) {
-  StencilEquations<Rows, Odd, Grouped> normal(equations, options, kept);
+  FixedNormalEquations<Rows, Odd, Grouped> normal(equations, options, kept);
   return DualNewton(equations, options, normal).solve();
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "network/unknowns.hpp"
 
 namespace perilink {
 namespace {
@@ -109,7 +110,7 @@ auto Contact::next_change(double distance) const -> Change {
 
 Index Contact::first_closed_by(std::span<const double> motion) const {
   constexpr double least_shortening = 1e-3;  // over the largest motion
-  const double least = least_shortening * body_.largest_of(motion);
+  const double least = least_shortening * largest_displacement(body_.network(), motion);
   Index first = no_index;
   double shortest = std::numeric_limits<double>::infinity();
   for_each({}, [&](Index element, const Extension& extension) {
@@ -130,7 +131,7 @@ Index Contact::first_closed_by(std::span<const double> motion) const {
 }
 
 double Contact::round_off_of(std::span<const double> motion) const {
-  return closing_round_off * body_.largest_of(motion);
+  return closing_round_off * largest_displacement(body_.network(), motion);
 }
 
 std::vector<double> Contact::deciding_motion(const Reading& reading) const {

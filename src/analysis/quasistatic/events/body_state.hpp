@@ -16,10 +16,11 @@ struct EventProgress {
   std::vector<int> segments;  ///< present segment of the law of each element
   /// Largest size of the next batch; size and load factor of the last one.
   double most_at_once = 1.0, last_count = 1.0, last_factor = 0.0;
+  double largest_ratio = 0.0;  ///< of all events: stretch over its limit at load factor 1 [-]
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(segments, most_at_once, last_count, last_factor);
+    archive(segments, most_at_once, last_count, last_factor, largest_ratio);
   }
 };
 

@@ -8,6 +8,7 @@
 #include "analysis/quasistatic/events/block_search.hpp"
 #include "analysis/quasistatic/events/break_search.hpp"
 #include "network/frame.hpp"
+#include "network/unknowns.hpp"
 
 namespace perilink {
 namespace {
@@ -42,14 +43,7 @@ CrossingSearch::Query::Query(const Network& network, std::span<const double> pre
       sense(direction),
       tolerance(within),
       largest(asks_for_largest) {
-  double most = 0.0;
-  const auto width = static_cast<std::size_t>(network.width());
-  for (std::size_t begin = 0; begin < added.size(); begin += width) {
-    for (std::size_t slot = begin; slot < begin + network.dim(); ++slot) {
-      most = std::max(most, std::abs(added[slot]));
-    }
-  }
-  noise = motion_round_off * most;
+  noise = motion_round_off * largest_displacement(network, added);
 }
 
 /// Returns whether the low end of the interval may be the answer.

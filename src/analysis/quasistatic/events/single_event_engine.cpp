@@ -9,6 +9,7 @@
 #include "assembly/linear_elements.hpp"
 #include "base/block.hpp"
 #include "base/error.hpp"
+#include "network/unknowns.hpp"
 
 namespace perilink {
 namespace {
@@ -77,11 +78,12 @@ Event SingleEventEngine::next_event_below(double most) {
   }
   if (hit.element == no_index || is_within(noise)) return no_event(hit);
   constexpr double far = 1e-6;  // other events need no look at all displacements
-  if (hit.ratio <= far * largest_ratio_ || largest_ratio_ == 0.0) {
-    const double largest = solution.body().largest_of(equilibrium_.where_elements_fail());
+  double& before = progress_.largest_ratio;
+  if (hit.ratio <= far * before || before == 0.0) {
+    const double largest = largest_displacement(network_, equilibrium_.where_elements_fail());
     if (is_within(motion_round_off * largest)) return no_event(hit);
   }
-  largest_ratio_ = std::max(largest_ratio_, hit.ratio);
+  before = std::max(before, hit.ratio);
   Event event{hit.element, 1.0 / hit.ratio};
   if (fails_with_others(hit.element) && event.load_factor <= most) {
     add_others(event, hit.ratio, most);
@@ -149,7 +151,7 @@ void SingleEventEngine::limit_batch(const Event& event, double energy,
 Event SingleEventEngine::no_event(const BreakSearch::Hit& reached) {
   constexpr double far_more = 1e3;
   const std::span<const double> motion = equilibrium_.displacement();
-  const double noise = motion_round_off * equilibrium_.solution().body().largest_of(motion);
+  const double noise = motion_round_off * largest_displacement(network_, motion);
   for (Index e = 0; e < network_.num_elements(); ++e) {
     if (secants()[e] == 0.0) continue;
     const NoisyExtension change = extension_of(network_, e, motion);

@@ -92,7 +92,6 @@ class SingleEventEngine : public EventEngine {
   /// Present if there are bonds with segments in compression.
   std::optional<CrushingBonds> crushing_;
   EventProgress progress_;
-  double largest_ratio_ = 0.0;  ///< of all events found: stretch over its limit at load factor 1
   /// Law and reference stretch of a bar that has flowed.
   struct OwnLaw {
     BondLaw law;

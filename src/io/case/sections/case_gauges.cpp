@@ -38,16 +38,16 @@ void read_reaction(const CaseTable& table, Kinds kind, const GaugeSection& gauge
   if (table.has("stress")) {
     table.refuse("stress", "is given together with `reaction`", "give `axis` for a force");
   }
-  if (gauge.about && (kind & kinds::plane) != 0) {
+  const bool in_plane = (kind & kinds::plane) != 0;
+  if (gauge.about && in_plane) {
     if (table.has("axis")) {
       table.refuse("axis", "is given together with `about`",
                    "a moment in the plane turns in it; delete one of the two");
     }
   } else {
+    const std::string choices = in_plane ? "x or y" : "x, y or z";
     table.need("axis", table.text("axis"),
-               gauge.about                  ? "the axis of the moment: x, y or z"
-               : (kind & kinds::plane) != 0 ? "x or y"
-                                            : "x, y or z");
+               gauge.about ? "the axis of the moment: " + choices : choices);
   }
 }
 

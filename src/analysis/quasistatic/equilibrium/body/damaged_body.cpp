@@ -55,18 +55,6 @@ void DamagedBody::move(std::span<const double> q, std::vector<double>& displacem
   for (std::size_t k = 0; k < slot_of_.size(); ++k) displacement[slot_of_[k]] = q[k];
 }
 
-double DamagedBody::largest_of(std::span<const double> motion) const {
-  const auto width = static_cast<std::size_t>(network_.width());
-  const auto dim = static_cast<std::size_t>(network_.dim());
-  double largest = 0.0;
-  for (std::size_t begin = 0; begin < motion.size(); begin += width) {
-    for (std::size_t slot = begin; slot < begin + dim; ++slot) {
-      largest = std::max(largest, std::abs(motion[slot]));
-    }
-  }
-  return largest;
-}
-
 void DamagedBody::multiply(std::span<const double> q, std::span<double> result) const {
   std::vector<double> motion(unknowns_->number.size(), 0.0);
   move(q, motion);

@@ -42,8 +42,6 @@ class DamagedBody {
 
   /// Writes T q into the displacements of all particles. Slots without unknowns stay as they are.
   void move(std::span<const double> q, std::vector<double>& displacement) const;
-  /// Returns the largest displacement of a motion, shape (particles, width) [length].
-  double largest_of(std::span<const double> motion) const;
   /// Computes K q.
   void multiply(std::span<const double> q, std::span<double> result) const;
   /// Returns K, the stiffness of elements and ground springs.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "network/unknowns.hpp"
 #include "solver/conjugate_gradients.hpp"
 
 namespace perilink {
@@ -141,7 +142,8 @@ void GrowingLoad::apply() {
 
 void GrowingLoad::find_largest_motion() {
   if (!update_.drift() && !body_.network().carries_moments()) return;
-  if (!body_.unknowns().carries()) field_.largest_motion = body_.largest_of(field_.displacement);
+  if (!body_.unknowns().carries())
+    field_.largest_motion = largest_displacement(body_.network(), field_.displacement);
 }
 
 }  // namespace perilink

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "assembly/stiffness.hpp"
+#include "network/unknowns.hpp"
 #include "solver/conjugate_gradients.hpp"
 
 namespace perilink {
@@ -90,7 +91,8 @@ void PermanentLoad::add_solution(const SparseVector& forces) {
 
 void PermanentLoad::apply() {
   field_.displacement = given_.unknowns.expand(field_.values);
-  if (update_.drift()) field_.largest_motion = body_.largest_of(field_.displacement);
+  if (update_.drift())
+    field_.largest_motion = largest_displacement(body_.network(), field_.displacement);
 }
 
 ConstantWork PermanentLoad::work(const Loads& loads, std::span<const double> displacement) const {

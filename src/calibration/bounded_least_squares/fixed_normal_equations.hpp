@@ -9,12 +9,12 @@
 
 namespace perilink {
 
-/// Products of NormalEquations with loops of fixed length.
+/// NormalEquations with a fixed number of equations per point, so that loops are unrolled.
 /// \tparam Rows  equations per point
 /// \tparam Odd  the first of them, of opposite sign at the two ends of a variable
 /// \tparam Grouped  whether the last equation of a point is shared by its group
 template <int Rows, int Odd, bool Grouped>
-class StencilEquations final : public NormalEquations {
+class FixedNormalEquations final : public NormalEquations {
  public:
   using NormalEquations::NormalEquations;
 
@@ -41,8 +41,8 @@ class StencilEquations final : public NormalEquations {
 
 /// Computes result_v = a_v . (s y at the first end -+ s y at the second).
 template <int Rows, int Odd, bool Grouped>
-void StencilEquations<Rows, Odd, Grouped>::apply_transpose(const Vector& y,
-                                                           std::vector<double>& result) {
+void FixedNormalEquations<Rows, Odd, Grouped>::apply_transpose(const Vector& y,
+                                                               std::vector<double>& result) {
   for (std::size_t k = 0; k < size_; ++k) scaled_[k] = y[k] * equations_.scale[k];
   const auto ends = [&](std::size_t v) {
     return std::pair(scaled_.data() + static_cast<std::size_t>(equations_.first[v]) * Rows,
@@ -72,9 +72,9 @@ void StencilEquations<Rows, Odd, Grouped>::apply_transpose(const Vector& y,
 
 /// Adds the forces of a range of variables, times their weights.
 template <int Rows, int Odd, bool Grouped>
-void StencilEquations<Rows, Odd, Grouped>::add_forces(const std::vector<double>& w,
-                                                      std::size_t begin, std::size_t end,
-                                                      Vector& result) const {
+void FixedNormalEquations<Rows, Odd, Grouped>::add_forces(const std::vector<double>& w,
+                                                          std::size_t begin, std::size_t end,
+                                                          Vector& result) const {
   for (std::size_t v = begin; v < end; ++v) {
     const double* a = equations_.coefficients.data() + v * Rows;
     double* p = result.data() + static_cast<std::size_t>(equations_.first[v]) * Rows;
@@ -96,7 +96,7 @@ void StencilEquations<Rows, Odd, Grouped>::add_forces(const std::vector<double>&
 }
 
 template <int Rows, int Odd, bool Grouped>
-void StencilEquations<Rows, Odd, Grouped>::set_blocks(const std::vector<double>& blocks) {
+void FixedNormalEquations<Rows, Odd, Grouped>::set_blocks(const std::vector<double>& blocks) {
   inverse_blocks_.resize(size_ / Rows);
   for (std::size_t p = 0; p < inverse_blocks_.size(); ++p) {
     inverse_blocks_[p] = Eigen::Map<const Block>(blocks.data() + p * Rows * Rows);
@@ -104,8 +104,8 @@ void StencilEquations<Rows, Odd, Grouped>::set_blocks(const std::vector<double>&
 }
 
 template <int Rows, int Odd, bool Grouped>
-void StencilEquations<Rows, Odd, Grouped>::apply_blocks(const Vector& residual,
-                                                        Vector& result) const {
+void FixedNormalEquations<Rows, Odd, Grouped>::apply_blocks(const Vector& residual,
+                                                            Vector& result) const {
   using Column = Eigen::Matrix<double, Rows, 1>;
 #pragma omp parallel for schedule(static) if (threads_share())
   for (std::size_t p = 0; p < inverse_blocks_.size(); ++p) {
